@@ -1,0 +1,16 @@
+//! The instrument: a physically modelled drum kit.
+//!
+//! In reading order: a [`Kit`](kit::Kit) renders [`Piece`](piece::Piece)s; a piece is a drum or a
+//! cymbal; drums are made of a membrane, cymbals of a plate; both vibrate as a
+//! [`ModalBody`](modal::ModalBody) and are set going through the one law in [`contact`].
+//!
+//! The crate knows no host, no MIDI, no parameters, no window, no file and no clock. After
+//! construction nothing in it allocates, locks, blocks or fails.
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
+
+pub mod error;
+pub mod kit;
+pub mod piece;
+pub mod snapshot;
+pub mod strike;

@@ -1,0 +1,1 @@
+//! Overhear as a plugin.

@@ -1,0 +1,3 @@
+//! Developer and user commands of Overhear.
+
+fn main() {}
