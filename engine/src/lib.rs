@@ -9,8 +9,11 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+pub mod contact;
+pub mod damping;
 pub mod error;
 pub mod kit;
+pub mod modal;
 pub mod piece;
 pub mod snapshot;
 pub mod strike;
