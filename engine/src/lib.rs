@@ -15,5 +15,7 @@ pub mod error;
 pub mod kit;
 pub mod modal;
 pub mod piece;
+pub mod shapes;
 pub mod snapshot;
 pub mod strike;
+pub mod surface;
