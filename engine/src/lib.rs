@@ -11,6 +11,7 @@
 
 pub mod error;
 pub mod kit;
+pub mod math;
 pub mod piece;
 pub mod snapshot;
 pub mod strike;
