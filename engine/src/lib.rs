@@ -13,6 +13,7 @@ pub mod contact;
 pub mod damping;
 pub mod error;
 pub mod kit;
+pub mod math;
 pub mod modal;
 pub mod piece;
 pub mod shapes;
