@@ -13,5 +13,6 @@ pub mod error;
 pub mod kit;
 pub mod math;
 pub mod piece;
+pub mod plate;
 pub mod snapshot;
 pub mod strike;
