@@ -23,6 +23,7 @@ pub mod math;
 pub mod membrane;
 pub mod modal;
 pub mod piece;
+pub mod plate;
 pub mod shapes;
 pub mod snapshot;
 pub mod split;

@@ -1,7 +1,7 @@
 //! Bracketed root finding.
 //!
-//! Inverse quadratic interpolation where it can be trusted, bisection elsewhere: as quick as Brent's
-//! method, and shorter.
+//! Inverse quadratic interpolation where it can be trusted, bisection elsewhere: as quick as
+//! Brent's method, and shorter.
 //!
 //! Source: Chandrupatla, A new hybrid quadratic/bisection algorithm for finding the zero of a
 //! nonlinear function without using derivatives, Adv. Eng. Software 28, 1997.

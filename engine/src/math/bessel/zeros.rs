@@ -1,8 +1,8 @@
 //! Positive zeros of `J_m` and of `J_m'`, counted without a gap.
 //!
-//! Zeros of `J_m` lie more than three apart (they approach pi, from above for `m > 0`, from 3.115 for
-//! `m = 0`) and none below `sqrt(m (m + 2))`, so a scan in steps of one meets each in an interval of
-//! its own. Zeros of `J_m'` interlace with them.
+//! Zeros of `J_m` lie more than three apart (they approach pi, from above for `m > 0`, from 3.115
+//! for `m = 0`) and none below `sqrt(m (m + 2))`, so a scan in steps of one meets each in an
+//! interval of its own. Zeros of `J_m'` interlace with them.
 //!
 //! Source: Watson, A Treatise on the Theory of Bessel Functions, 15.3 and 15.8.
 
