@@ -17,7 +17,7 @@ use crate::piece::{BuildOptions, ModeInfo, ModeKind};
 use crate::plate::{PlateModes, PlateSpec, PlateTables};
 use crate::shapes::{ShapeIndex, ShapeTable};
 use crate::split::Splitting;
-use crate::surface::Surface;
+use crate::surface::{Surface, SurfaceParts};
 
 /// A cymbal's description.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -131,13 +131,15 @@ impl Cymbal {
         let tables = PlateTables::new(orders, extent);
         let splitting = if options.unsplit { Splitting::ROUND } else { spec.splitting };
         let (modes, index) = lay_out(spec, &plate, &tables, splitting);
-        let surface = Surface::new(
-            modes.iter().map(|mode| Mode { omega: mode.omega, sigma: 0.0, mass: spec.plate.mass }).collect(),
-            ShapeTable::new(&radial_rows(&plate, &tables, &ShapeTable::radii()), index),
-            transfer(spec, &plate, &tables),
-            spec.material,
-            options.sample_rate,
-        );
+        let bare = |mode: &BuiltMode| Mode { omega: mode.omega, sigma: 0.0, mass: spec.plate.mass };
+        let surface = Surface::new(SurfaceParts {
+            modes: modes.iter().map(bare).collect(),
+            shapes: ShapeTable::new(&radial_rows(&plate, &tables, &ShapeTable::radii()), index),
+            transfer: transfer(spec, &plate, &tables),
+            material: spec.material,
+            lossless: options.lossless,
+            sample_rate: options.sample_rate,
+        });
         let (low, tuning, high) = CymbalSpec::TUNING;
         let mut cymbal = Cymbal {
             surface,

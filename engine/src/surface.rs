@@ -24,6 +24,9 @@ const LIFTED_AFTER: f64 = 0.3;
 /// Sweeps over simultaneous contacts; they stop as soon as nothing changes.
 const MAX_SWEEPS: usize = 40;
 
+/// Relative change of a force below which it counts as found.
+const SETTLED: f64 = 1e-12;
+
 /// A striker at or near the surface.
 struct StrikerState {
     /// Whether there is one.
@@ -49,12 +52,29 @@ struct StrikerState {
     stroke: u32,
 }
 
+/// What a surface is made from.
+pub struct SurfaceParts {
+    /// `[mode]`.
+    pub modes: Vec<Mode>,
+    /// Shapes of the modes.
+    pub shapes: ShapeTable,
+    /// How each mode is heard, `[mode]`; see [`Pickup::new`].
+    pub transfer: Vec<[f64; 2]>,
+    /// What the tip meets.
+    pub material: Material,
+    /// Whether contacts give back all they take, whatever the striker.
+    pub lossless: bool,
+    /// Hz.
+    pub sample_rate: f64,
+}
+
 /// The surface and everything that touches it.
 pub struct Surface {
     body: ModalBody,
     shapes: ShapeTable,
     pickup: Pickup,
     material: Material,
+    lossless: bool,
     strikers: [StrikerState; MAX_STRIKERS],
     /// Between present strikers: one-sample compliance of the body, m/N.
     compliance: [[f64; MAX_STRIKERS]; MAX_STRIKERS],
@@ -64,28 +84,23 @@ pub struct Surface {
 }
 
 impl Surface {
-    /// A surface at rest. `transfer` is the pickup's, see [`Pickup::new`]. Allocates.
-    pub fn new(
-        modes: Vec<Mode>,
-        shapes: ShapeTable,
-        transfer: Vec<[f64; 2]>,
-        material: Material,
-        sample_rate: f64,
-    ) -> Surface {
-        let count = modes.len();
-        let body = ModalBody::new(modes, sample_rate);
-        let mut pickup = Pickup::new(transfer);
+    /// A surface at rest. Allocates.
+    pub fn new(parts: SurfaceParts) -> Surface {
+        let count = parts.modes.len();
+        let body = ModalBody::new(parts.modes, parts.sample_rate);
+        let mut pickup = Pickup::new(parts.transfer);
         body.tune(&mut pickup);
         Surface {
             body,
-            shapes,
+            shapes: parts.shapes,
             pickup,
-            material,
+            material: parts.material,
+            lossless: parts.lossless,
             strikers: std::array::from_fn(|_| StrikerState::absent(count)),
             compliance: [[0.0; MAX_STRIKERS]; MAX_STRIKERS],
             any_present: false,
             last: StrikeSnapshot::default(),
-            dt: 1.0 / sample_rate,
+            dt: 1.0 / parts.sample_rate,
         }
     }
 
@@ -143,7 +158,8 @@ impl Surface {
         };
         let striker = &mut self.strikers[i];
         striker.spec = strike.striker.spec();
-        striker.law = ContactLaw::new(&striker.spec.tip, &self.material, striker.spec.restitution);
+        let restitution = if self.lossless { 1.0 } else { striker.spec.restitution };
+        striker.law = ContactLaw::new(&striker.spec.tip, &self.material, restitution);
         self.shapes.fill(radius, strike.angle, striker.port.shape_mut());
         striker.present = true;
         striker.touching = false;
@@ -223,31 +239,28 @@ impl Surface {
         self.body.listen(&self.pickup) + direct
     }
 
-    /// Forces of all contacts for this sample.
+    /// Forces of all contacts for this sample: sweeps until none changes any more. A striker alone
+    /// is done in one.
     fn solve(&mut self) {
-        let mut changed = true;
-        for _ in 0..MAX_SWEEPS {
-            if !changed {
-                break;
-            }
-            changed = false;
-            let mut coupled = false;
+        let present = self.strikers.iter().filter(|striker| striker.present).count();
+        for _ in 0..if present > 1 { MAX_SWEEPS } else { 1 } {
+            let mut changed = false;
             for i in 0..MAX_STRIKERS {
                 if !self.strikers[i].present {
                     continue;
                 }
+                // A force of zero, as of those not present, pushes nothing.
                 let others: f64 = (0..MAX_STRIKERS)
                     .filter(|&j| j != i && self.strikers[j].present)
                     .map(|j| self.compliance[i][j] * self.strikers[j].force)
                     .sum();
-                coupled |= others != 0.0;
                 let striker = &mut self.strikers[i];
                 let step = ContactStep { free: striker.step.free - others, ..striker.step };
                 let force = striker.law.force(&step);
-                changed |= (force - striker.force).abs() > 1e-12 * force.abs();
+                changed |= (force - striker.force).abs() > SETTLED * force;
                 striker.force = force;
             }
-            if !coupled && (0..MAX_STRIKERS).filter(|&i| self.strikers[i].force > 0.0).count() <= 1 {
+            if !changed {
                 break;
             }
         }
