@@ -9,10 +9,17 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+pub mod air;
+pub mod contact;
+pub mod damping;
 pub mod error;
 pub mod kit;
 pub mod math;
+pub mod membrane;
+pub mod modal;
 pub mod piece;
 pub mod plate;
+pub mod shapes;
 pub mod snapshot;
 pub mod strike;
+pub mod surface;

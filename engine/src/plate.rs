@@ -13,6 +13,7 @@
 
 use std::f64::consts::TAU;
 
+use crate::air;
 use crate::error::SpecError;
 use crate::math::bessel::{ITable, JTable};
 
@@ -23,7 +24,7 @@ pub mod radiation;
 pub mod spec;
 
 use radial::RadialMode;
-use radiation::{Radiator, SOUND_SPEED};
+use radiation::Radiator;
 
 pub use spec::PlateSpec;
 
@@ -134,7 +135,7 @@ impl PlateModes {
             .flatten()
             .map(|flat| flat.root)
             .fold(0.0, f64::max);
-        let trace = TAU * limit_hz * self.spec.radius() / SOUND_SPEED;
+        let trace = TAU * limit_hz * self.spec.radius() / air::SPEED_OF_SOUND;
         (self.flat.len().saturating_sub(1) as u32, root.max(trace))
     }
 

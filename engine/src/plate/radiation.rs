@@ -21,14 +21,9 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::radial::{RadialMode, Rim, angular_norm};
+use crate::air;
 use crate::math::bessel::JTable;
 use crate::math::quadrature::GaussLegendre;
-
-/// Density of air, kg/m3. *Literature*, 20 degrees C.
-pub const AIR_DENSITY: f64 = 1.2;
-
-/// Speed of sound in air, m/s. *Literature*, 20 degrees C.
-pub const SOUND_SPEED: f64 = 343.0;
 
 /// Distance from a flat mode's wave number within which its transform is read from a Taylor series.
 /// *Derived*: balances the tables' error over the distance with the series' own, both about 1e-6.
@@ -64,7 +59,7 @@ impl<'a> Radiator<'a> {
         };
         let m = first.m;
         let table = &self.tables[m as usize];
-        let u = omega * self.radius / SOUND_SPEED;
+        let u = omega * self.radius / air::SPEED_OF_SOUND;
         let integrand = |phi: f64| {
             let sine = phi.sin();
             let x = u * sine;
@@ -80,7 +75,7 @@ impl<'a> Radiator<'a> {
             transform * transform * sine
         };
         let integral = u * self.rule(u).integrate(integrand);
-        2.0 * AIR_DENSITY * omega * self.radius.powi(3) * angular_norm(m) * integral
+        2.0 * air::DENSITY * omega * self.radius.powi(3) * angular_norm(m) * integral
     }
 
     /// The rule on a quarter turn that resolves a transform up to `u`.
@@ -120,15 +115,15 @@ mod tests {
             for p in [0, flat.len() / 2, flat.len() - 1] {
                 let mut expansion = vec![0.0; flat.len()];
                 expansion[p] = 1.0;
-                let omega = u * SOUND_SPEED / RADIUS;
+                let omega = u * air::SPEED_OF_SOUND / RADIUS;
                 let got = radiator.resistance(&flat, &expansion, omega);
                 let integrand = |share: f64| {
                     let s = u * share;
                     u * flat[p].hankel((u * u - s * s).sqrt()).powi(2)
                 };
-                let scale = 2.0 * AIR_DENSITY * omega * RADIUS.powi(3) * angular_norm(m);
+                let scale = 2.0 * air::DENSITY * omega * RADIUS.powi(3) * angular_norm(m);
                 let want = scale * fine.integrate(integrand);
-                let floor = 1e-9 * AIR_DENSITY * SOUND_SPEED * PI * RADIUS * RADIUS;
+                let floor = 1e-9 * air::DENSITY * air::SPEED_OF_SOUND * PI * RADIUS * RADIUS;
                 assert!(
                     (got - want).abs() < 1e-5 * want + floor,
                     "({m}, {p}) {u}: {got} {want}"
@@ -143,8 +138,8 @@ mod tests {
         let mut radiator = Radiator::new(&tables, RADIUS);
         let flat = free_modes(3, 0.34, 12.0);
         let expansion = vec![1.0 / (flat.len() as f64).sqrt(); flat.len()];
-        let got = radiator.resistance(&flat, &expansion, 380.0 * SOUND_SPEED / RADIUS);
-        let want = 2.0 * AIR_DENSITY * SOUND_SPEED * PI * RADIUS * RADIUS;
+        let got = radiator.resistance(&flat, &expansion, 380.0 * air::SPEED_OF_SOUND / RADIUS);
+        let want = 2.0 * air::DENSITY * air::SPEED_OF_SOUND * PI * RADIUS * RADIUS;
         assert!((got / want - 1.0).abs() < 0.01, "{got} for {want}");
     }
 
@@ -154,7 +149,7 @@ mod tests {
         let flat = free_modes(12, 0.34, 75.0);
         let expansion: Vec<f64> = (0..flat.len()).map(|p| 0.5 / (1.0 + p as f64)).collect();
         for u in [5.0, 20.0, 45.0, 70.0, 100.0] {
-            let omega = u * SOUND_SPEED / RADIUS;
+            let omega = u * air::SPEED_OF_SOUND / RADIUS;
             let coarse = Radiator::new(&tables, RADIUS).resistance(&flat, &expansion, omega);
             let mut twice = Radiator::new(&tables, RADIUS);
             let index = (u as usize + 16).div_ceil(RULE_STEP);

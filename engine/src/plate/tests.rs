@@ -171,7 +171,7 @@ fn a_crash_radiates_little_below_coincidence_and_its_whole_area_above() {
     let plate = PlateModes::new(&PlateSpec::CRASH, 24_000.0).unwrap();
     let (max_order, x_max) = plate.table_extent(24_000.0);
     let resistances = plate.radiation_resistances(&PlateTables::new(max_order, x_max));
-    let whole = 2.0 * radiation::AIR_DENSITY * SOUND_SPEED * PI * plate.spec.radius().powi(2);
+    let whole = 2.0 * air::DENSITY * air::SPEED_OF_SOUND * PI * plate.spec.radius().powi(2);
     let mean = |from: f64, to: f64| {
         let inside = |shell: &ShellMode| (from..to).contains(&(shell.omega / TAU));
         let modes = plate.shells.iter().zip(&resistances);
