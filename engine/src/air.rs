@@ -23,7 +23,8 @@ pub const DENSITY: f64 = 1.2;
 /// Speed of sound, m/s.
 pub const SPEED_OF_SOUND: f64 = 343.0;
 
-/// Chebyshev nodes of a load curve. *Measured*: 7 leave less than 1e-6 over a range of 4.
+/// Chebyshev nodes of a load curve. *Measured*: over a range of 4 the mass is met within 1e-4, a
+/// hundredth of a cent, the resistance within 1e-3.
 const NODES: usize = 8;
 
 /// `C_m`: how the square of a shape integrates around the circle.
@@ -85,8 +86,11 @@ impl<'a> MembraneAir<'a> {
     /// The load as a function of `u` in a range, for solving and retuning.
     pub fn curve(&self, j: f64, u_min: f64, u_max: f64) -> LoadCurve {
         let (low, high) = (u_min.ln(), u_max.ln());
-        let loads = std::array::from_fn(|i| self.load(j, (low + (high - low) * chebyshev(i)).exp()));
-        LoadCurve { low, high, loads }
+        let logarithms = std::array::from_fn(|i| {
+            let load = self.load(j, (low + (high - low) * chebyshev(i)).exp());
+            AirLoad { mass: load.mass.max(NO_LOAD).ln(), resistance: load.resistance.max(NO_LOAD).ln() }
+        });
+        LoadCurve { low, high, logarithms }
     }
 }
 
@@ -120,13 +124,24 @@ pub fn shape_norm(m: u32, slope: f64) -> f64 {
     (if m == 0 { 1.0 } else { std::f64::consts::SQRT_2 }) / slope.abs()
 }
 
-/// Load of a mode against frequency, by Chebyshev interpolation in `ln u`.
+/// Area (m2) of the monopole in a baffle that radiates, at the same acceleration, the power of a mode
+/// with this resistance (over `rho omega a^3`): `R = rho omega^2 S^2 / (2 pi c)`.
+pub fn monopole_area(radius: f64, resistance: f64, omega: f64) -> f64 {
+    (std::f64::consts::TAU * SPEED_OF_SOUND * radius.powi(3) * resistance / omega).sqrt()
+}
+
+/// Load of a mode against frequency, by Chebyshev interpolation of `ln mass` and `ln resistance`
+/// in `ln u` (the resistance grows as `u^(2m+1)`: straight lines in these).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LoadCurve {
     low: f64,
     high: f64,
-    loads: [AirLoad; NODES],
+    /// Logarithms at the nodes; minus infinity in vacuum.
+    logarithms: [AirLoad; NODES],
 }
+
+/// A load too small to matter; keeps logarithms finite.
+const NO_LOAD: f64 = 1e-200;
 
 /// The `i`-th Chebyshev node of the second kind on `0..1`.
 fn chebyshev(i: usize) -> f64 {
@@ -135,17 +150,22 @@ fn chebyshev(i: usize) -> f64 {
 
 impl LoadCurve {
     /// A mode in vacuum.
-    pub const VACUUM: LoadCurve =
-        LoadCurve { low: 0.0, high: 1.0, loads: [AirLoad { mass: 0.0, resistance: 0.0 }; NODES] };
+    pub const VACUUM: LoadCurve = {
+        let none = AirLoad { mass: f64::NEG_INFINITY, resistance: f64::NEG_INFINITY };
+        LoadCurve { low: f64::NEG_INFINITY, high: f64::INFINITY, logarithms: [none; NODES] }
+    };
 
     /// Load at `u = omega a / c`; held at the ends beyond the range.
     pub fn at(&self, u: f64) -> AirLoad {
+        if self.low == f64::NEG_INFINITY {
+            return AirLoad { mass: 0.0, resistance: 0.0 };
+        }
         let t = ((u.ln() - self.low) / (self.high - self.low)).clamp(0.0, 1.0);
         let (mut mass, mut resistance, mut total) = (0.0, 0.0, 0.0);
-        for (i, load) in self.loads.iter().enumerate() {
+        for (i, load) in self.logarithms.iter().enumerate() {
             let gap = t - chebyshev(i);
             if gap == 0.0 {
-                return *load;
+                return AirLoad { mass: load.mass.exp(), resistance: load.resistance.exp() };
             }
             let end = if i == 0 || i == NODES - 1 { 0.5 } else { 1.0 };
             let weight = if i % 2 == 0 { end / gap } else { -end / gap };
@@ -153,7 +173,7 @@ impl LoadCurve {
             resistance += weight * load.resistance;
             total += weight;
         }
-        AirLoad { mass: mass / total, resistance: resistance / total }
+        AirLoad { mass: (mass / total).exp(), resistance: (resistance / total).exp() }
     }
 }
 
@@ -201,7 +221,7 @@ mod tests {
         let curve = air.curve(j, 0.5, 2.0);
         for u in [0.5, 0.63, 0.9, 1.3, 1.9, 2.0] {
             let (got, want) = (curve.at(u), air.load(j, u));
-            assert!((got.mass / want.mass - 1.0).abs() < 1e-5);
+            assert!((got.mass / want.mass - 1.0).abs() < 1e-4);
             assert!((got.resistance / want.resistance - 1.0).abs() < 1e-3, "{u}: {got:?} {want:?}");
         }
     }

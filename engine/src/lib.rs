@@ -11,9 +11,14 @@
 
 pub mod air;
 pub mod contact;
+pub mod cymbal;
 pub mod damping;
+pub mod drum;
 pub mod error;
+pub mod glide;
 pub mod kit;
+pub mod layout;
+pub mod listening;
 pub mod math;
 pub mod membrane;
 pub mod modal;
@@ -21,5 +26,7 @@ pub mod piece;
 pub mod plate;
 pub mod shapes;
 pub mod snapshot;
+pub mod split;
 pub mod strike;
 pub mod surface;
+pub mod tuned_head;

@@ -175,9 +175,13 @@ impl Membrane {
         &self.modes
     }
 
-    /// The radial shape of a mode at the share `r` of the radius.
-    pub fn radial(mode: &MembraneMode, r: f64) -> f64 {
-        mode.norm * bessel::j(mode.m, mode.zero * r)
+    /// Radial shapes of all modes at `radii` (shares of the radius), `[mode][radius]`, within 1e-8.
+    pub fn radial_shapes(&self, radii: &[f64]) -> Vec<f64> {
+        let orders = self.modes.iter().map(|mode| mode.m).max().unwrap_or(0);
+        let reach = self.modes.iter().map(|mode| mode.zero).fold(0.0, f64::max);
+        let tables = JTable::orders(orders, reach);
+        let shape = |mode: &MembraneMode, r: f64| mode.norm * tables[mode.m as usize].value(mode.zero * r);
+        self.modes.iter().flat_map(|mode| radii.iter().map(|&r| shape(mode, r)).collect::<Vec<_>>()).collect()
     }
 
     /// `T k^2 + D k^4`, N/m3.
@@ -216,6 +220,12 @@ impl Membrane {
             Surroundings::Air => resistance / (2.0 * mass),
         };
         Ringing { omega, sigma: self.spec.loss.sigma(omega) + radiated, mass }
+    }
+
+    /// Area of the monopole in a baffle that would radiate a mode's power at its acceleration, m2.
+    pub fn monopole_area(&self, mode: &MembraneMode, omega: f64) -> f64 {
+        let u = omega * self.spec.radius / air::SPEED_OF_SOUND;
+        air::monopole_area(self.spec.radius, mode.load.at(u).resistance, omega)
     }
 
     /// The tension (N/m) that puts mode `(m, n)` at a frequency (Hz); `None` if there is no such mode.

@@ -38,16 +38,17 @@ pub struct ShapeTable {
 const MAX_ORDERS: usize = 160;
 
 impl ShapeTable {
-    /// Samples `radial_count` radial functions (`radial(row, r)`, `r` in 0 to 1). Allocates.
+    /// Where along the radius radial functions are wanted, shares of it.
+    pub fn radii() -> Vec<f64> {
+        (0..=INTERVALS).map(|i| i as f64 / INTERVALS as f64).collect()
+    }
+
+    /// From the radial functions, `[radial][r]` flat, at [`radii`](Self::radii). Allocates.
     ///
     /// # Panics
     /// If a mode has more nodal diameters than the engine is made for (159).
-    pub fn new(radial_count: usize, radial: impl Fn(usize, f64) -> f64, index: Vec<ShapeIndex>) -> ShapeTable {
-        let at = |i: usize| i as f64 / INTERVALS as f64;
-        let table = (0..radial_count)
-            .flat_map(|row| (0..=INTERVALS).map(move |i| (row, i)))
-            .map(|(row, i)| radial(row, at(i)) as f32)
-            .collect();
+    pub fn new(radial: &[f64], index: Vec<ShapeIndex>) -> ShapeTable {
+        let radial = radial.iter().map(|&value| value as f32).collect();
         let axes = index
             .iter()
             .map(|mode| {
@@ -57,7 +58,7 @@ impl ShapeTable {
             .collect();
         let orders = index.iter().map(|mode| mode.m as usize + 1).max().unwrap_or(1);
         assert!(orders <= MAX_ORDERS, "{orders} orders");
-        ShapeTable { radial: table, index, axes, orders }
+        ShapeTable { radial, index, axes, orders }
     }
 
     /// How each mode goes around, `[mode]`.
@@ -78,7 +79,7 @@ impl ShapeTable {
             around[m] = [c * cos - s * sin, s * cos + c * sin];
         }
         let stencil = Stencil::at(radius);
-        for (((out, mode), axis), _) in out.iter_mut().zip(&self.index).zip(&self.axes).zip(0..) {
+        for ((out, mode), axis) in out.iter_mut().zip(&self.index).zip(&self.axes) {
             let row = &self.radial[mode.radial * (INTERVALS + 1)..][..=INTERVALS];
             let [c, s] = around[mode.m as usize];
             let [c0, s0] = [f64::from(axis[0]), f64::from(axis[1])];
@@ -124,15 +125,16 @@ mod tests {
     #[test]
     fn the_table_meets_a_fine_shape_anywhere() {
         let modes = [Member::Cosine, Member::Sine].map(|member| ShapeIndex { radial: 0, m: 9, member, axis: 0.3 });
-        let radial = |_, r: f64| libm::jn(9, 60.0 * r);
-        let table = ShapeTable::new(1, radial, modes.to_vec());
+        let radial = |r: f64| libm::jn(9, 60.0 * r);
+        let rows: Vec<f64> = ShapeTable::radii().into_iter().map(radial).collect();
+        let table = ShapeTable::new(&rows, modes.to_vec());
         let mut out = [0.0; 2];
         for i in 0..500 {
             let (r, theta) = (f64::from(i) / 499.0, 0.07 * f64::from(i));
             table.fill(r, theta, &mut out);
             let (sin, cos) = (9.0 * (theta - 0.3)).sin_cos();
-            assert!((f64::from(out[0]) - radial(0, r) * cos).abs() < 1e-4);
-            assert!((f64::from(out[1]) - radial(0, r) * sin).abs() < 1e-4);
+            assert!((f64::from(out[0]) - radial(r) * cos).abs() < 1e-4);
+            assert!((f64::from(out[1]) - radial(r) * sin).abs() < 1e-4);
         }
     }
 }
