@@ -44,11 +44,7 @@ pub struct Radiator<'a> {
 impl<'a> Radiator<'a> {
     /// For a plate of that `radius` (m), with tables of `J_m` for each of its orders.
     pub fn new(tables: &'a [JTable], radius: f64) -> Radiator<'a> {
-        Radiator {
-            tables,
-            radius,
-            rules: Vec::new(),
-        }
+        Radiator { tables, radius, rules: Vec::new() }
     }
 
     /// Radiation resistance of both faces together, kg/s, at `omega` (rad/s), of the mode that is
@@ -64,14 +60,9 @@ impl<'a> Radiator<'a> {
             let sine = phi.sin();
             let x = u * sine;
             let (value, slope) = table.pair(x);
-            let wave = Rim {
-                value,
-                slope: x * slope,
-            };
+            let wave = Rim { value, slope: x * slope };
             let terms = flat.iter().zip(expansion);
-            let transform: f64 = terms
-                .map(|(mode, share)| share * mode.hankel_of(x, wave, GUARD))
-                .sum();
+            let transform: f64 = terms.map(|(mode, share)| share * mode.hankel_of(x, wave, GUARD)).sum();
             transform * transform * sine
         };
         let integral = u * self.rule(u).integrate(integrand);
@@ -102,15 +93,7 @@ mod tests {
         let tables = JTable::orders(40, 120.0);
         let mut radiator = Radiator::new(&tables, RADIUS);
         let fine = GaussLegendre::new(500, 0.0, 1.0);
-        for (m, u) in [
-            (0, 0.3),
-            (0, 9.0),
-            (2, 2.5),
-            (7, 30.0),
-            (7, 88.0),
-            (40, 50.0),
-            (40, 110.0),
-        ] {
+        for (m, u) in [(0, 0.3), (0, 9.0), (2, 2.5), (7, 30.0), (7, 88.0), (40, 50.0), (40, 110.0)] {
             let flat = free_modes(m, 0.34, 75.0);
             for p in [0, flat.len() / 2, flat.len() - 1] {
                 let mut expansion = vec![0.0; flat.len()];
@@ -124,10 +107,7 @@ mod tests {
                 let scale = 2.0 * air::DENSITY * omega * RADIUS.powi(3) * angular_norm(m);
                 let want = scale * fine.integrate(integrand);
                 let floor = 1e-9 * air::DENSITY * air::SPEED_OF_SOUND * PI * RADIUS * RADIUS;
-                assert!(
-                    (got - want).abs() < 1e-5 * want + floor,
-                    "({m}, {p}) {u}: {got} {want}"
-                );
+                assert!((got - want).abs() < 1e-5 * want + floor, "({m}, {p}) {u}: {got} {want}");
             }
         }
     }
@@ -156,10 +136,7 @@ mod tests {
             twice.rules = vec![None; index + 1];
             twice.rules[index] = Some(GaussLegendre::new(2 * index * RULE_STEP, 0.0, FRAC_PI_2));
             let fine = twice.resistance(&flat, &expansion, omega);
-            assert!(
-                (coarse / fine - 1.0).abs() < 1e-5,
-                "u {u}: {coarse}, {fine}"
-            );
+            assert!((coarse / fine - 1.0).abs() < 1e-5, "u {u}: {coarse}, {fine}");
         }
     }
 }
