@@ -176,7 +176,7 @@ pub fn i_log_derivative(m: u32, x: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// `(m, x, J_m(x), J_m'(x))` to twenty digits by arbitrary-precision arithmetic (mpmath).
+    /// `(m, x, J_m(x), J_m'(x))` to twenty digits by arbitrary-precision arithmetic.
     const J: [(u32, f64, f64, f64); 11] = [
         (0, 1.0, 0.765_197_686_557_966_6, -0.440_050_585_744_933_5),
         (1, 1.0, 0.440_050_585_744_933_5, 0.325_147_100_813_033_05),
