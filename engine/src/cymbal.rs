@@ -248,8 +248,10 @@ impl Cymbal {
     }
 }
 
-/// Radial shapes of the rigid motions: bounce, rock; of unit mean square over the disc.
-const RIGID: [(u32, fn(f64) -> f64); 2] = [(0, |_| 1.0), (1, |r| 2.0 * r)];
+/// The rigid motions: order, and radial shape at `r`, of unit mean square over the disc.
+const RIGID: [RigidMotion; 2] = [(0, |_| 1.0), (1, |r| 2.0 * r)];
+
+type RigidMotion = (u32, fn(f64) -> f64);
 
 /// The modes of the body: the rigid ones, then the shell's by frequency; and how each goes around.
 fn lay_out(
@@ -261,8 +263,15 @@ fn lay_out(
     let (mut modes, mut index) = (Vec::new(), Vec::new());
     let rigid = [spec.stand.bounce_hz, spec.stand.rock_hz].map(|hz| TAU * hz);
     for (radial, ((m, _), omega)) in RIGID.into_iter().zip(rigid).enumerate() {
-        let built =
-            BuiltMode { m, n: 0, kind: ModeKind::Rigid, omega, radiated: 0.0, muffling: 0.0, monopole_area: 0.0 };
+        let built = BuiltMode {
+            m,
+            n: 0,
+            kind: ModeKind::Rigid,
+            omega,
+            radiated: 0.0,
+            muffling: 0.0,
+            monopole_area: 0.0,
+        };
         for (member, _) in Splitting::ROUND.members(m, 0) {
             modes.push(built);
             index.push(ShapeIndex { radial, m, member, axis: 0.0 });
@@ -292,7 +301,8 @@ fn lay_out(
 
 /// Radial shapes of everything at `radii`, rigid motions first.
 fn radial_rows(plate: &PlateModes, tables: &PlateTables, radii: &[f64]) -> Vec<f64> {
-    let mut rows: Vec<f64> = RIGID.iter().flat_map(|&(_, shape)| radii.iter().map(move |&r| shape(r))).collect();
+    let mut rows: Vec<f64> =
+        RIGID.iter().flat_map(|&(_, shape)| radii.iter().map(move |&r| shape(r))).collect();
     rows.extend(plate.radial_shapes(tables, radii));
     rows
 }

@@ -225,7 +225,8 @@ impl Drum {
     /// Every mode as it is now.
     pub fn modes(&self) -> Vec<ModeInfo> {
         let index = self.surface.shapes().index();
-        let rows = self.surface.body().modes().iter().zip(index).zip(&self.coefs.orders).zip(&self.coefs.rows);
+        let rows =
+            self.surface.body().modes().iter().zip(index).zip(&self.coefs.orders).zip(&self.coefs.rows);
         rows.map(|(((mode, shape), &(m, n)), &row)| ModeInfo {
             body: "batter",
             m,

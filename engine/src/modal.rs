@@ -296,7 +296,8 @@ impl ModalBody {
 
     /// Pressure at a pickup now, without what follows the force at once.
     pub fn listen(&self, pickup: &Pickup) -> f32 {
-        self.kernels.dot(&pickup.weight_re, &self.state.re) + self.kernels.dot(&pickup.weight_im, &self.state.im)
+        self.kernels.dot(&pickup.weight_re, &self.state.re)
+            + self.kernels.dot(&pickup.weight_im, &self.state.im)
     }
 
     /// Advances without force and listens after each sample: [`step`](Self::step) and

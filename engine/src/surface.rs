@@ -79,6 +79,8 @@ pub struct Surface {
     /// Between present strikers: one-sample compliance of the body, m/N.
     compliance: [[f64; MAX_STRIKERS]; MAX_STRIKERS],
     any_present: bool,
+    /// Kinetic energy that strikers have taken with them, J.
+    departed_energy: f64,
     last: StrikeSnapshot,
     dt: f64,
 }
@@ -99,6 +101,7 @@ impl Surface {
             strikers: std::array::from_fn(|_| StrikerState::absent(count)),
             compliance: [[0.0; MAX_STRIKERS]; MAX_STRIKERS],
             any_present: false,
+            departed_energy: 0.0,
             last: StrikeSnapshot::default(),
             dt: 1.0 / parts.sample_rate,
         }
@@ -149,6 +152,9 @@ impl Surface {
         let speed = strike.speed.clamp(0.0, Strike::MAX_SPEED);
         let radius = strike.radius.clamp(0.0, 1.0);
         let i = self.free_place();
+        if self.strikers[i].present {
+            self.departed_energy += self.strikers[i].energy();
+        }
         self.last = StrikeSnapshot {
             count: self.last.count.wrapping_add(1),
             speed: speed as f32,
@@ -177,7 +183,8 @@ impl Surface {
     /// An empty place, or that of the striker which has been about longest without touching, or,
     /// if all touch, of the oldest.
     fn free_place(&self) -> usize {
-        let rank = |striker: &StrikerState| (striker.present, striker.touching, std::cmp::Reverse(striker.age));
+        let rank =
+            |striker: &StrikerState| (striker.present, striker.touching, std::cmp::Reverse(striker.age));
         (0..MAX_STRIKERS).min_by_key(|&i| rank(&self.strikers[i])).unwrap_or(0)
     }
 
@@ -235,6 +242,9 @@ impl Surface {
                 striker.report(&mut self.last, dt);
             }
             self.any_present |= striker.present;
+            if !striker.present {
+                self.departed_energy += striker.energy();
+            }
         }
         self.body.listen(&self.pickup) + direct
     }
@@ -268,13 +278,12 @@ impl Surface {
 
     /// Kinetic energy of the strikers and energy held in their contacts, J.
     pub fn striker_energy(&self) -> f64 {
-        self.strikers
-            .iter()
-            .filter(|striker| striker.present)
-            .map(|striker| {
-                0.5 * striker.spec.mass * striker.velocity.powi(2) + striker.law.potential(striker.compression)
-            })
-            .sum()
+        self.strikers.iter().filter(|striker| striker.present).map(StrikerState::energy).sum()
+    }
+
+    /// Kinetic energy that strikers have taken away with them since the last reset, J.
+    pub fn departed_energy(&self) -> f64 {
+        self.departed_energy
     }
 
     /// Zeroes what has decayed to nothing; reports whether all is finite, and rests it if not.
@@ -301,10 +310,16 @@ impl Surface {
         self.body.reset();
         self.strikers.iter_mut().for_each(|striker| striker.present = false);
         self.any_present = false;
+        self.departed_energy = 0.0;
     }
 }
 
 impl StrikerState {
+    /// Kinetic energy and energy held in the contact, J.
+    fn energy(&self) -> f64 {
+        0.5 * self.spec.mass * self.velocity.powi(2) + self.law.potential(self.compression)
+    }
+
     fn absent(modes: usize) -> StrikerState {
         let spec = crate::strike::Striker::Stick.spec();
         StrikerState {
