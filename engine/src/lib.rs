@@ -31,3 +31,4 @@ pub mod split;
 pub mod strike;
 pub mod surface;
 pub mod tuned_head;
+pub mod von_karman;

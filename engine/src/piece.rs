@@ -83,6 +83,50 @@ impl PieceId {
     }
 }
 
+/// How far up a cymbal's modes are coupled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
+pub enum Quality {
+    /// To 1 kHz.
+    Eco,
+    /// To 2 kHz.
+    #[default]
+    Standard,
+    /// To 4 kHz.
+    High,
+    /// To 8 kHz; not meant for real time.
+    Offline,
+}
+
+impl Quality {
+    /// Every quality, lowest first.
+    pub const ALL: [Quality; 4] = [Quality::Eco, Quality::Standard, Quality::High, Quality::Offline];
+
+    /// Highest mode of a cymbal that hard strokes couple with others, Hz.
+    pub fn coupled_hz(self) -> f64 {
+        match self {
+            Quality::Eco => 1000.0,
+            Quality::Standard => 2000.0,
+            Quality::High => 4000.0,
+            Quality::Offline => 8000.0,
+        }
+    }
+
+    /// The name used on command lines and in presets.
+    pub fn name(self) -> &'static str {
+        match self {
+            Quality::Eco => "eco",
+            Quality::Standard => "standard",
+            Quality::High => "high",
+            Quality::Offline => "offline",
+        }
+    }
+
+    /// The quality of that [`name`](Self::name), if there is one.
+    pub fn from_name(name: &str) -> Option<Quality> {
+        Quality::ALL.into_iter().find(|quality| quality.name() == name)
+    }
+}
+
 /// How a piece is built, beyond what it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BuildOptions {
@@ -92,12 +136,22 @@ pub struct BuildOptions {
     pub lossless: bool,
     /// Perfectly round bodies: the two members of every pair share one frequency.
     pub unsplit: bool,
+    /// Strokes however hard change no stiffness: no coupling of a cymbal's modes.
+    pub linear: bool,
+    /// How far up a cymbal's modes are coupled.
+    pub quality: Quality,
 }
 
 impl BuildOptions {
     /// The instrument as it is played.
     pub fn new(sample_rate: f64) -> Self {
-        BuildOptions { sample_rate, lossless: false, unsplit: false }
+        BuildOptions {
+            sample_rate,
+            lossless: false,
+            unsplit: false,
+            linear: false,
+            quality: Quality::Standard,
+        }
     }
 }
 

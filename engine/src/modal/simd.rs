@@ -5,6 +5,8 @@
 //! Within one level results are bit-equal whatever way a stretch of samples is cut; across levels
 //! they differ by rounding.
 
+pub mod polar;
+
 use pulp::{Arch, Scalar128b, Simd, WithSimd};
 
 /// Rows are padded to a multiple of this, the `f32` lanes of the widest registers.

@@ -1,0 +1,224 @@
+//! The stretching energy by direct quadrature in `f64`, for tests: slow and plain.
+
+use std::f64::consts::TAU;
+
+use super::airy::AiryOrder;
+use super::coupling::Curvatures;
+use crate::math::quadrature::GaussLegendre;
+use crate::plate::radial::angular_norm;
+use crate::plate::{PlateModes, PlateTables};
+
+/// Shell modes and Airy functions on a polar grid.
+pub struct Oracle {
+    /// Order of each shell mode.
+    pub orders: Vec<u32>,
+    curvatures: Vec<Curvatures>,
+    airy: Vec<AiryOrder>,
+    /// `[order][airy][r]`.
+    airy_shapes: Vec<Vec<Vec<f64>>>,
+    /// `[shell][airy of its order]`.
+    bends: Vec<Vec<f64>>,
+    radii: Vec<f64>,
+    weights: Vec<f64>,
+    angles: usize,
+    scale: f64,
+}
+
+/// Parts of an energy.
+pub struct Parts {
+    /// `sum c (P^2 + 2 P l)`.
+    pub energy: f64,
+    /// `sum c l^2`.
+    pub linear: f64,
+    /// `c P^2` of each Airy function with its wave number.
+    pub shares: Vec<(f64, f64)>,
+    /// Gradient by the cosine and sine amplitude of each shell mode.
+    pub gradient: Vec<[f64; 2]>,
+}
+
+impl Oracle {
+    /// With `count` shell modes, Airy functions to `limit`, and a grid.
+    pub fn new(
+        plate: &PlateModes,
+        tables: &PlateTables,
+        count: usize,
+        limit: f64,
+        (rings, angles): (usize, usize),
+    ) -> Oracle {
+        let rule = GaussLegendre::unit(rings);
+        let shells = &plate.shells[..count];
+        let highest = shells.iter().map(|shell| shell.m).max().unwrap();
+        // Products of two orders reach twice as far.
+        let airy: Vec<AiryOrder> = (0..=highest).map(|m| AiryOrder::new(plate, m, limit)).collect();
+        Oracle {
+            orders: shells.iter().map(|shell| shell.m).collect(),
+            curvatures: shells.iter().map(|s| Curvatures::new(plate, tables, s, &rule.nodes)).collect(),
+            airy_shapes: airy.iter().map(|order| order.shapes(tables, &rule.nodes)).collect(),
+            bends: shells.iter().map(|s| airy[s.m as usize].curvature(plate, s)).collect(),
+            airy,
+            weights: rule.nodes.iter().zip(&rule.weights).map(|(r, w)| r * w * TAU / angles as f64).collect(),
+            radii: rule.nodes,
+            angles,
+            scale: plate.spec.radius().powi(-2),
+        }
+    }
+
+    /// Energy and gradient at the cosine and sine amplitudes `q` (m), about a common axis.
+    pub fn evaluate(&self, q: &[[f64; 2]]) -> Parts {
+        let (n_r, n_t) = (self.radii.len(), self.angles);
+        // Fields [theta][r].
+        let mut fields = vec![[0.0_f64; 3]; n_r * n_t];
+        for t in 0..n_t {
+            let theta = TAU * (t as f64 + 0.5) / n_t as f64;
+            for ((&[c, s], &m), shape) in q.iter().zip(&self.orders).zip(&self.curvatures) {
+                let (sin, cos) = (f64::from(m) * theta).sin_cos();
+                let (even, odd) = (c * cos + s * sin, s * cos - c * sin);
+                for r in 0..n_r {
+                    let field = &mut fields[t * n_r + r];
+                    field[0] += even * shape.radial[r];
+                    field[1] += even * shape.around[r];
+                    field[2] += odd * shape.twist[r];
+                }
+            }
+        }
+        let (mut energy, mut linear, mut shares) = (0.0, 0.0, Vec::new());
+        let mut stress = vec![0.0; n_r * n_t];
+        let mut gradient = vec![[0.0; 2]; q.len()];
+        for (m, order) in self.airy.iter().enumerate() {
+            for (k, (&c, mode)) in order.stiffness.iter().zip(&order.modes).enumerate() {
+                for member in 0..if m == 0 { 1 } else { 2 } {
+                    let around = |t: usize| {
+                        let (sin, cos) = (m as f64 * TAU * (t as f64 + 0.5) / n_t as f64).sin_cos();
+                        if member == 0 { cos } else { sin }
+                    };
+                    let shape = &self.airy_shapes[m][k];
+                    let mut product = 0.0;
+                    for t in 0..n_t {
+                        for r in 0..n_r {
+                            let [a, b, d] = fields[t * n_r + r];
+                            product += self.weights[r] * shape[r] * around(t) * 2.0 * (a * b - d * d);
+                        }
+                    }
+                    let p = product * self.scale;
+                    let bent = |i: usize| if self.orders[i] as usize == m { self.bends[i][k] } else { 0.0 };
+                    let l: f64 = (0..q.len()).map(|i| bent(i) * q[i][member]).sum();
+                    energy += c * (p * p + 2.0 * p * l);
+                    linear += c * l * l;
+                    shares.push((mode.root, c * p * p));
+                    for i in 0..q.len() {
+                        gradient[i][member] += 2.0 * c * p * bent(i);
+                    }
+                    let force = 2.0 * c * (p + l) * self.scale;
+                    for t in 0..n_t {
+                        for r in 0..n_r {
+                            stress[t * n_r + r] += force * around(t) * shape[r] * self.weights[r];
+                        }
+                    }
+                }
+            }
+        }
+        for t in 0..n_t {
+            let theta = TAU * (t as f64 + 0.5) / n_t as f64;
+            for ((out, &m), shape) in gradient.iter_mut().zip(&self.orders).zip(&self.curvatures) {
+                let (sin, cos) = (f64::from(m) * theta).sin_cos();
+                for r in 0..n_r {
+                    let [a, b, d] = fields[t * n_r + r];
+                    let f = 2.0 * stress[t * n_r + r];
+                    let even = f * (shape.radial[r] * b + a * shape.around[r]);
+                    let odd = f * -2.0 * d * shape.twist[r];
+                    out[0] += even * cos - odd * sin;
+                    out[1] += even * sin + odd * cos;
+                }
+            }
+        }
+        for (out, &m) in gradient.iter_mut().zip(&self.orders) {
+            if m == 0 {
+                out[1] = 0.0;
+            }
+        }
+        let _ = angular_norm;
+        Parts { energy, linear, shares, gradient }
+    }
+}
+
+/// A state that looks like a wash: every mode with about the same energy, `size` m at `omega` 1000.
+pub fn wash(omegas: &[f64], size: f64, seed: u64) -> Vec<[f64; 2]> {
+    let mut x = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
+    let mut draw = move || {
+        x ^= x << 13;
+        x ^= x >> 7;
+        x ^= x << 17;
+        (x >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+    };
+    omegas.iter().map(|omega| [draw(), draw()].map(|d| d * size * 1000.0 / omega)).collect()
+}
+
+#[test]
+fn explore() {
+    for spec in [crate::plate::PlateSpec::CRASH] {
+        let plate = PlateModes::new(&spec, 21_000.0).unwrap();
+        let (orders, extent) = plate.table_extent(21_000.0);
+        let tables = PlateTables::new(orders, extent);
+        for hz in [1000.0, 2000.0, 4000.0] {
+            let count = plate.shells.iter().take_while(|s| s.omega < TAU * hz).count();
+            let shells = &plate.shells[..count];
+            let k = shells
+                .iter()
+                .map(|s| plate.flat_of(s).iter().find(|f| f.n == s.n).unwrap().root)
+                .fold(0.0, f64::max);
+            let m = shells.iter().map(|s| s.m).max().unwrap();
+            let omegas: Vec<f64> = shells.iter().map(|s| s.omega).collect();
+            let mut q = wash(&omegas, 1e-4, 3);
+            for (q, s) in q.iter_mut().zip(shells) {
+                if s.m == 0 {
+                    q[1] = 0.0;
+                }
+            }
+            println!("{hz} Hz: {count} shells, k {k}, m {m}");
+            let big = if hz > 3000.0 { (64, 160) } else { (64, 128) };
+            let fine = Oracle::new(&plate, &tables, count, k, big);
+            let f = fine.evaluate(&q);
+            let wide = Oracle::new(&plate, &tables, count, 2.2 * k, big).evaluate(&q);
+            println!(
+                "airy {} U {:.4e} lin {:.4e} | airy to 2.2 k (orders <= m): U {:.4e} lin {:.4e}",
+                f.shares.len(),
+                f.energy,
+                f.linear,
+                wide.energy,
+                wide.linear
+            );
+            let norm = |g: &[[f64; 2]], o: &[[f64; 2]]| {
+                let d: f64 = g
+                    .iter()
+                    .zip(o)
+                    .zip(&omegas)
+                    .map(|((a, b), w)| ((a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2)) / w.powi(2))
+                    .sum();
+                let s: f64 =
+                    o.iter().zip(&omegas).map(|(b, w)| ((b[0]).powi(2) + (b[1]).powi(2)) / w.powi(2)).sum();
+                (d / s).sqrt()
+            };
+            println!("gradient 1k vs 2.2k: {:.3e}", norm(&f.gradient, &wide.gradient));
+            for share in [0.6, 0.8, 0.9] {
+                let o = Oracle::new(&plate, &tables, count, share * k, big).evaluate(&q);
+                println!(
+                    "gradient {share} k: {:.3e} airy {}",
+                    norm(&o.gradient, &wide.gradient),
+                    o.shares.len()
+                );
+            }
+            for n_r in if hz > 3000.0 { vec![24, 28, 32, 40] } else { vec![12, 14, 16, 18, 20, 21, 24] } {
+                for limit in [k, 0.8 * k] {
+                    let a = Oracle::new(&plate, &tables, count, limit, (n_r, big.1)).evaluate(&q);
+                    let b = Oracle::new(&plate, &tables, count, limit, big).evaluate(&q);
+                    println!(
+                        "n_r {n_r} limit {:.2}: U {:.3e} gradient {:.3e}",
+                        limit / k,
+                        a.energy / b.energy - 1.0,
+                        norm(&a.gradient, &b.gradient)
+                    );
+                }
+            }
+        }
+    }
+}
