@@ -25,6 +25,7 @@ pub mod membrane;
 pub mod modal;
 pub mod piece;
 pub mod plate;
+pub mod potential;
 pub mod shapes;
 pub mod snapshot;
 pub mod split;

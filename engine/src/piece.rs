@@ -329,7 +329,7 @@ impl Piece {
 
     /// Vibration energy of the piece itself, J.
     pub fn energy(&self) -> f64 {
-        self.voice.surface().body().energy()
+        self.voice.surface().energy()
     }
 
     /// Kinetic energy of the strikers about and energy held in their contacts, J.
