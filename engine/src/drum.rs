@@ -10,6 +10,7 @@ pub mod build;
 pub mod coupled;
 pub mod shadow;
 pub mod spec;
+pub mod stretch;
 pub mod tuned;
 
 use crate::damping::{Muffler, SIGMA_T60};
@@ -23,6 +24,7 @@ use crate::surface::{Surface, SurfaceParts};
 
 use build::Blueprint;
 pub use spec::DrumSpec;
+use stretch::Stretch;
 use tuned::{Place, Rung};
 
 /// One mode of the body: which of the drum's, and which member of a pair.
@@ -99,6 +101,10 @@ impl Drum {
         };
         drum.follow_controls();
         drum.follow_shapes();
+        if !options.linear {
+            let (stretch, modes) = Stretch::new(&spec.batter.membrane, &drum.blueprint, pitch);
+            drum.surface.set_potential(Box::new(stretch), modes, stretch::STRIDE);
+        }
         Ok(drum)
     }
 

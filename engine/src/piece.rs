@@ -92,12 +92,14 @@ pub struct BuildOptions {
     pub lossless: bool,
     /// Perfectly round bodies: the two members of every pair share one frequency.
     pub unsplit: bool,
+    /// Bending stays small: no stretch of heads, no coupling of modes.
+    pub linear: bool,
 }
 
 impl BuildOptions {
     /// The instrument as it is played.
     pub fn new(sample_rate: f64) -> Self {
-        BuildOptions { sample_rate, lossless: false, unsplit: false }
+        BuildOptions { sample_rate, lossless: false, unsplit: false, linear: false }
     }
 }
 
@@ -194,7 +196,7 @@ impl Piece {
             PieceId::Snare => drum(DrumSpec::snare())?,
             PieceId::RackTom => drum(DrumSpec::rack_tom())?,
             PieceId::FloorTom => drum(DrumSpec::floor_tom())?,
-            PieceId::Timpani => drum(DrumSpec::timpani())?,
+            PieceId::Timpani => drum(DrumSpec::timpani().head_alone())?,
             PieceId::Crash => cymbal(CymbalSpec::crash())?,
             PieceId::Ride => cymbal(CymbalSpec::ride())?,
             PieceId::Splash => cymbal(CymbalSpec::splash())?,
