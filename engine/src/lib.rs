@@ -10,6 +10,7 @@
 #![warn(missing_docs)]
 
 pub mod air;
+pub mod cavity;
 pub mod contact;
 pub mod cymbal;
 pub mod damping;
@@ -30,5 +31,4 @@ pub mod snapshot;
 pub mod split;
 pub mod strike;
 pub mod surface;
-pub mod tuned_head;
 pub mod von_karman;

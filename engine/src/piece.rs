@@ -136,7 +136,7 @@ pub struct BuildOptions {
     pub lossless: bool,
     /// Perfectly round bodies: the two members of every pair share one frequency.
     pub unsplit: bool,
-    /// Strokes however hard change no stiffness: no coupling of a cymbal's modes.
+    /// Bending stays small: no stretch of heads, no coupling of modes.
     pub linear: bool,
     /// How far up a cymbal's modes are coupled.
     pub quality: Quality,
@@ -248,7 +248,7 @@ impl Piece {
             PieceId::Snare => drum(DrumSpec::snare())?,
             PieceId::RackTom => drum(DrumSpec::rack_tom())?,
             PieceId::FloorTom => drum(DrumSpec::floor_tom())?,
-            PieceId::Timpani => drum(DrumSpec::timpani())?,
+            PieceId::Timpani => drum(DrumSpec::timpani().head_alone())?,
             PieceId::Crash => cymbal(CymbalSpec::crash())?,
             PieceId::Ride => cymbal(CymbalSpec::ride())?,
             PieceId::Splash => cymbal(CymbalSpec::splash())?,
@@ -325,7 +325,10 @@ impl Piece {
     /// # Real-time
     /// No allocation, no lock; cost is linear in the number of modes.
     pub fn strike(&mut self, strike: &Strike) {
-        self.voice.surface_mut().strike(strike);
+        match &mut self.voice {
+            Voice::Drum(drum) => drum.strike(strike),
+            Voice::Cymbal(cymbal) => cymbal.surface_mut().strike(strike),
+        }
     }
 
     /// Renders sound pressure at the piece's listening point, Pa, overwriting `out`. Any length;
@@ -409,7 +412,7 @@ impl Piece {
     /// Tension of each stretched body, N/m: `("batter", 2729.0)`. Empty for cymbals. Allocates.
     pub fn tensions(&self) -> Vec<(&'static str, f64)> {
         match &self.voice {
-            Voice::Drum(drum) => vec![("batter", drum.tension())],
+            Voice::Drum(drum) => drum.tensions(),
             Voice::Cymbal(_) => Vec::new(),
         }
     }

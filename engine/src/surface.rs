@@ -159,6 +159,11 @@ impl Surface {
         &self.shapes
     }
 
+    /// Shapes of the modes, to be changed with them.
+    pub fn shapes_mut(&mut self) -> &mut ShapeTable {
+        &mut self.shapes
+    }
+
     /// What the latest stroke's contact measured.
     pub fn last_strike(&self) -> StrikeSnapshot {
         self.last

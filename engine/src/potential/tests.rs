@@ -32,7 +32,7 @@ fn surface(stiffness: f64, stride: u32) -> Surface {
     let radial: Vec<f64> = (0..MODES)
         .flat_map(|k| ShapeTable::radii().into_iter().map(move |r| 1.4 * (2.1 * k as f64 * r).cos()))
         .collect();
-    let index = |k| ShapeIndex { radial: k, m: 0, member: Member::Cosine, axis: 0.0 };
+    let index = |k| ShapeIndex { radial: k, rows: 1, m: 0, member: Member::Cosine, axis: 0.0 };
     let mut surface = Surface::new(SurfaceParts {
         modes,
         shapes: ShapeTable::new(&radial, (0..MODES).map(index).collect()),
