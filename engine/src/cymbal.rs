@@ -3,7 +3,7 @@
 //! Model: the shell modes of the plate, up to the edge of hearing, and the plate's rigid motions on its
 //! stand, a bounce and a rock. Bent by more than its thickness the plate stretches, which couples the
 //! modes up to a frequency that the quality chooses ([`VonKarman`]); above, they stay linear. The
-//! rigid motions move no net air between the faces and are not heard.
+//! rigid motions are too slow to be heard. The plate stands in free air ([`FreeDisc`]).
 
 use std::f64::consts::TAU;
 
@@ -12,9 +12,10 @@ use crate::contact::Material;
 use crate::damping::{LossLaw, Muffler, SIGMA_T60};
 use crate::error::SpecError;
 use crate::glide::Glide;
-use crate::listening::{ListeningPoint, Radiator, Rayleigh};
+use crate::listening::{ListeningPoint, Radiator};
 use crate::modal::Mode;
 use crate::piece::{BuildOptions, Member, ModeInfo, ModeKind};
+use crate::plate::free_disc::{FreeDisc, Radiated};
 use crate::plate::{PlateModes, PlateSpec, PlateTables};
 use crate::shapes::{ShapeIndex, ShapeTable};
 use crate::split::Splitting;
@@ -139,13 +140,14 @@ impl Cymbal {
         let (orders, extent) = plate.table_extent(limit_hz);
         let tables = PlateTables::new(orders, extent);
         let splitting = if options.unsplit { Splitting::ROUND } else { spec.splitting };
-        let (modes, index) = lay_out(spec, &plate, &tables, splitting);
+        let radiated = radiate(spec, &plate, &tables);
+        let (modes, index) = lay_out(spec, &plate, &radiated, splitting);
         let bare = |mode: &BuiltMode| Mode { omega: mode.omega, sigma: 0.0, mass: spec.plate.mass };
         let coupled = couple(&plate, &tables, &index, options);
         let mut surface = Surface::new(SurfaceParts {
             modes: modes.iter().map(bare).collect(),
             shapes: ShapeTable::new(&radial_rows(&plate, &tables, &ShapeTable::radii()), index),
-            transfer: transfer(spec, &plate, &tables),
+            transfer: transfer(spec, &plate, &radiated),
             material: spec.material,
             lossless: options.lossless,
             sample_rate: options.sample_rate,
@@ -307,7 +309,7 @@ type RigidMotion = (u32, fn(f64) -> f64);
 fn lay_out(
     spec: &CymbalSpec,
     plate: &PlateModes,
-    tables: &PlateTables,
+    radiated: &[Radiated],
     splitting: Splitting,
 ) -> (Vec<BuiltMode>, Vec<ShapeIndex>) {
     let (mut modes, mut index) = (Vec::new(), Vec::new());
@@ -327,8 +329,7 @@ fn lay_out(
             index.push(ShapeIndex { radial, rows: 1, m, member, axis: 0.0 });
         }
     }
-    let resistances = plate.radiation_resistances(tables);
-    for ((row, shell), resistance) in plate.shells.iter().enumerate().zip(resistances) {
+    for ((row, shell), &Radiated { resistance, .. }) in plate.shells.iter().enumerate().zip(radiated) {
         // Both faces are in the resistance, one in the area.
         let unit = air::DENSITY * shell.omega * spec.plate.radius().powi(3);
         let monopole_area = air::monopole_area(spec.plate.radius(), 0.5 * resistance / unit, shell.omega);
@@ -357,21 +358,31 @@ fn radial_rows(plate: &PlateModes, tables: &PlateTables, radii: &[f64]) -> Vec<f
     rows
 }
 
-/// How each mode is heard at the listening point, `[mode]`.
-fn transfer(spec: &CymbalSpec, plate: &PlateModes, tables: &PlateTables) -> Vec<[f64; 2]> {
+/// What each of the plate's shell modes does to the air around, `[shell]`.
+fn radiate(spec: &CymbalSpec, plate: &PlateModes, tables: &PlateTables) -> Vec<Radiated> {
     let highest = plate.shells.last().map_or(0.0, |shell| shell.omega);
     let finest = plate.flat.iter().flatten().map(|flat| flat.root).fold(0.0, f64::max);
     let trace = highest * spec.plate.radius() / air::SPEED_OF_SOUND;
     let nodes = 12 + (0.7 * (finest + trace)) as usize;
-    let rayleigh = Rayleigh::new(spec.plate.radius(), spec.listening_point, nodes);
-    let shapes = plate.radial_shapes(tables, rayleigh.radii());
+    let disc = FreeDisc::new(spec.plate.radius(), spec.listening_point, nodes);
+    let shapes = plate.radial_shapes(tables, disc.radii());
+    let shells = plate.shells.iter().zip(shapes.chunks_exact(nodes));
+    shells
+        .map(|(shell, radial)| {
+            let root = plate.flat_of(shell).iter().find(|flat| flat.n == shell.n).map_or(0.0, |f| f.root);
+            disc.radiate(&Radiator { m: shell.m, radial, omega: shell.omega }, root)
+        })
+        .collect()
+}
+
+/// How each mode is heard at the listening point, `[mode]`.
+fn transfer(spec: &CymbalSpec, plate: &PlateModes, radiated: &[Radiated]) -> Vec<[f64; 2]> {
     // Bounce and the two members of the rock.
     let mut out = vec![[0.0, 0.0]; 3];
-    for (shell, radial) in plate.shells.iter().zip(shapes.chunks_exact(nodes)) {
-        let [re, im] = rayleigh.transfer(&Radiator { m: shell.m, radial, omega: shell.omega });
+    for (shell, Radiated { transfer: [re, im], .. }) in plate.shells.iter().zip(radiated) {
         let axis = spec.splitting.axis(shell.m, shell.n);
         for (member, _) in Splitting::ROUND.members(shell.m, shell.n) {
-            let share = rayleigh.toward(shell.m, member, axis);
+            let share = spec.listening_point.toward(shell.m, member, axis);
             out.push([share * re, share * im]);
         }
     }

@@ -42,6 +42,17 @@ impl ListeningPoint {
     }
 }
 
+impl ListeningPoint {
+    /// What a member whose pair's axes lie at `axis` (rad) shows of itself toward the point, -1 to 1.
+    pub fn toward(&self, m: u32, member: Member, axis: f64) -> f64 {
+        let (sin, cos) = (f64::from(m) * (self.azimuth - axis)).sin_cos();
+        match member {
+            Member::Cosine => cos,
+            Member::Sine => sin,
+        }
+    }
+}
+
 /// One pair of modes as it is heard.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Radiator<'a> {
@@ -107,11 +118,7 @@ impl Rayleigh {
 
     /// Share of [`transfer`](Self::transfer) for a member whose pair's axes lie at `axis` (rad).
     pub fn toward(&self, m: u32, member: Member, axis: f64) -> f64 {
-        let (sin, cos) = (f64::from(m) * (self.point.azimuth - axis)).sin_cos();
-        match member {
-            Member::Cosine => cos,
-            Member::Sine => sin,
-        }
+        self.point.toward(m, member, axis)
     }
 }
 

@@ -19,6 +19,7 @@ use crate::math::bessel::{ITable, JTable};
 
 pub mod dome;
 pub mod edges;
+pub mod free_disc;
 pub mod radial;
 pub mod radiation;
 pub mod spec;

@@ -175,6 +175,12 @@ impl NonlinearForce {
         self.stiffness = stiffness;
     }
 
+    /// Evaluates once in `stride` samples from now on; [`follow`](Self::follow) must be called after.
+    pub fn set_stride(&mut self, stride: u32) {
+        self.stride = stride.max(1);
+        self.countdown = 0;
+    }
+
     /// Whether it acts; otherwise it rests.
     pub fn is_active(&self) -> bool {
         self.active

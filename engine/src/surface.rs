@@ -128,6 +128,14 @@ impl Surface {
         self.beyond.as_ref()
     }
 
+    /// Evaluates what the body does beyond its modes once in `stride` samples; for comparisons.
+    pub fn set_stride(&mut self, stride: u32) {
+        if let Some(force) = &mut self.beyond {
+            force.set_stride(stride);
+            force.follow(&self.body);
+        }
+    }
+
     /// What the body does beyond its modes, to be set.
     pub fn beyond_mut(&mut self) -> Option<&mut NonlinearForce> {
         self.beyond.as_mut()

@@ -64,7 +64,11 @@ fn measure() {
                 }
                 let cost = start.elapsed().as_secs_f64();
                 let peak = sound.iter().fold(0.0_f32, |a, x| a.max(x.abs()));
-                let mean: f32 = sound[4410..8820].iter().sum::<f32>() / 4410.0;
+                let mean: f32 = sound
+                    .windows(4410)
+                    .step_by(441)
+                    .map(|w| (w.iter().sum::<f32>() / 4410.0).abs())
+                    .fold(0.0, f32::max);
                 let (truth, off) = piece.surface_mut().true_potential();
                 let ex = piece.surface_mut().beyond().map_or(0.0, |f| f.exchanged());
                 println!(
@@ -74,6 +78,46 @@ fn measure() {
                     cost
                 );
             }
+        }
+    }
+}
+
+/// CPU seconds of the calibration loop.
+fn calibration() -> f64 {
+    let mut x = std::hint::black_box(vec![0.5_f32; 4096]);
+    let start = std::time::Instant::now();
+    let (a, b) = (std::hint::black_box(0.9999_f32), std::hint::black_box(1e-4_f32));
+    for _ in 0..1 << 16 {
+        for x in &mut x {
+            *x = *x * a + b;
+        }
+        std::hint::black_box(&mut x);
+    }
+    4.0 * start.elapsed().as_secs_f64()
+}
+
+#[test]
+#[ignore = "a measurement"]
+fn cost() {
+    for id in [PieceId::Crash, PieceId::Ride, PieceId::Splash] {
+        for (label, linear, quality) in [
+            ("linear", true, Quality::Standard),
+            ("eco", false, Quality::Eco),
+            ("standard", false, Quality::Standard),
+            ("high", false, Quality::High),
+            ("offline", false, Quality::Offline),
+        ] {
+            let mut piece = Piece::new(id, &BuildOptions { linear, quality, ..options() }).unwrap();
+            let (mut best, mut loops) = (f64::MAX, f64::MAX);
+            for _ in 0..4 {
+                piece.reset();
+                piece.strike(&hit(6.0, 0.9, Striker::Stick));
+                let start = std::time::Instant::now();
+                render(&mut piece, 1.0);
+                best = best.min(start.elapsed().as_secs_f64());
+                loops = loops.min(calibration());
+            }
+            println!("{} {label}: {best:.4} s, {:.2} calibrations of {loops:.4} s", id.name(), best / loops);
         }
     }
 }

@@ -5,7 +5,6 @@ use std::f64::consts::TAU;
 use super::airy::AiryOrder;
 use super::coupling::Curvatures;
 use crate::math::quadrature::GaussLegendre;
-use crate::plate::radial::angular_norm;
 use crate::plate::{PlateModes, PlateTables};
 
 /// Shell modes and Airy functions on a polar grid.
@@ -136,7 +135,6 @@ impl Oracle {
                 out[1] = 0.0;
             }
         }
-        let _ = angular_norm;
         Parts { energy, linear, shares, gradient }
     }
 }
@@ -151,74 +149,4 @@ pub fn wash(omegas: &[f64], size: f64, seed: u64) -> Vec<[f64; 2]> {
         (x >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
     };
     omegas.iter().map(|omega| [draw(), draw()].map(|d| d * size * 1000.0 / omega)).collect()
-}
-
-#[test]
-fn explore() {
-    for spec in [crate::plate::PlateSpec::CRASH] {
-        let plate = PlateModes::new(&spec, 21_000.0).unwrap();
-        let (orders, extent) = plate.table_extent(21_000.0);
-        let tables = PlateTables::new(orders, extent);
-        for hz in [1000.0, 2000.0, 4000.0] {
-            let count = plate.shells.iter().take_while(|s| s.omega < TAU * hz).count();
-            let shells = &plate.shells[..count];
-            let k = shells
-                .iter()
-                .map(|s| plate.flat_of(s).iter().find(|f| f.n == s.n).unwrap().root)
-                .fold(0.0, f64::max);
-            let m = shells.iter().map(|s| s.m).max().unwrap();
-            let omegas: Vec<f64> = shells.iter().map(|s| s.omega).collect();
-            let mut q = wash(&omegas, 1e-4, 3);
-            for (q, s) in q.iter_mut().zip(shells) {
-                if s.m == 0 {
-                    q[1] = 0.0;
-                }
-            }
-            println!("{hz} Hz: {count} shells, k {k}, m {m}");
-            let big = if hz > 3000.0 { (64, 160) } else { (64, 128) };
-            let fine = Oracle::new(&plate, &tables, count, k, big);
-            let f = fine.evaluate(&q);
-            let wide = Oracle::new(&plate, &tables, count, 2.2 * k, big).evaluate(&q);
-            println!(
-                "airy {} U {:.4e} lin {:.4e} | airy to 2.2 k (orders <= m): U {:.4e} lin {:.4e}",
-                f.shares.len(),
-                f.energy,
-                f.linear,
-                wide.energy,
-                wide.linear
-            );
-            let norm = |g: &[[f64; 2]], o: &[[f64; 2]]| {
-                let d: f64 = g
-                    .iter()
-                    .zip(o)
-                    .zip(&omegas)
-                    .map(|((a, b), w)| ((a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2)) / w.powi(2))
-                    .sum();
-                let s: f64 =
-                    o.iter().zip(&omegas).map(|(b, w)| ((b[0]).powi(2) + (b[1]).powi(2)) / w.powi(2)).sum();
-                (d / s).sqrt()
-            };
-            println!("gradient 1k vs 2.2k: {:.3e}", norm(&f.gradient, &wide.gradient));
-            for share in [0.6, 0.8, 0.9] {
-                let o = Oracle::new(&plate, &tables, count, share * k, big).evaluate(&q);
-                println!(
-                    "gradient {share} k: {:.3e} airy {}",
-                    norm(&o.gradient, &wide.gradient),
-                    o.shares.len()
-                );
-            }
-            for n_r in if hz > 3000.0 { vec![24, 28, 32, 40] } else { vec![12, 14, 16, 18, 20, 21, 24] } {
-                for limit in [k, 0.8 * k] {
-                    let a = Oracle::new(&plate, &tables, count, limit, (n_r, big.1)).evaluate(&q);
-                    let b = Oracle::new(&plate, &tables, count, limit, big).evaluate(&q);
-                    println!(
-                        "n_r {n_r} limit {:.2}: U {:.3e} gradient {:.3e}",
-                        limit / k,
-                        a.energy / b.energy - 1.0,
-                        norm(&a.gradient, &b.gradient)
-                    );
-                }
-            }
-        }
-    }
 }
