@@ -52,6 +52,20 @@ pub struct Stand {
     pub q: f64,
 }
 
+/// A hand that grips the edge on the player's side, thumb above and fingers below.
+struct Hand;
+
+impl Hand {
+    /// Decay rate of a mode of unit mean square in the palm, 1/s. *By ear*: a choked crash is gone in
+    /// a fifth of a second.
+    const SIGMA: f64 = 70.0;
+    /// Where the palm lies: shares of the radius, rad.
+    const RADII: [f64; 3] = [0.8, 0.9, 0.98];
+    const ANGLES: [f64; 5] = [-0.24, -0.12, 0.0, 0.12, 0.24];
+    /// A hand closes so many times more slowly than a control glides: in some 25 ms.
+    const SLOWER: f64 = 5.0;
+}
+
 /// Rate at which the stretching is evaluated, Hz, at least; over twice the highest coupled mode. *Measured*: as
 /// good as every sample at 44.1 kHz, for modes to 4 kHz; see the tests.
 const COUPLING_RATE: f64 = 20_000.0;
@@ -111,6 +125,8 @@ struct BuiltMode {
     radiated: f64,
     /// Decay rate at full muffling, 1/s.
     muffling: f64,
+    /// Decay rate in a firm hand, 1/s.
+    choking: f64,
     /// Area of the monopole that would radiate its power, m2.
     monopole_area: f64,
 }
@@ -125,6 +141,8 @@ pub struct Cymbal {
     lossless: bool,
     tuning: Glide,
     muffling: Glide,
+    /// How firmly a hand holds it, 0 to 1.
+    hand: Glide,
     /// Whether a control has moved since the modes last followed.
     stale: bool,
 }
@@ -166,9 +184,11 @@ impl Cymbal {
             lossless: options.lossless,
             tuning: Glide::new(tuning, low, high),
             muffling: Glide::new(0.0, 0.0, 1.0),
+            hand: Glide::new(0.0, 0.0, 1.0),
             stale: true,
         };
         cymbal.lay_muffler(spec);
+        cymbal.lay_hand();
         cymbal.follow_controls();
         Ok(cymbal)
     }
@@ -185,6 +205,18 @@ impl Cymbal {
         };
         for (mode, shape) in self.modes.iter_mut().zip(shape) {
             mode.muffling = full * f64::from(shape).powi(2);
+        }
+    }
+
+    /// Works out how much a hand takes from each mode: dashpots all over the palm.
+    fn lay_hand(&mut self) {
+        let mut shape = vec![0.0_f32; self.modes.len()];
+        let share = Hand::SIGMA / (Hand::RADII.len() * Hand::ANGLES.len()) as f64;
+        for (radius, angle) in Hand::RADII.into_iter().flat_map(|r| Hand::ANGLES.map(|angle| (r, angle))) {
+            self.surface.shapes().fill(radius, angle, &mut shape);
+            for (mode, &shape) in self.modes.iter_mut().zip(&shape) {
+                mode.choking += share * f64::from(shape).powi(2);
+            }
         }
     }
 
@@ -208,15 +240,20 @@ impl Cymbal {
         self.muffling.set(amount);
     }
 
+    /// Lets a hand take hold of the edge (firmly at 1) or let go (0).
+    pub fn choke(&mut self, strength: f64) {
+        self.hand.set(strength);
+    }
+
     /// Lets the controls glide for `seconds`.
     pub fn advance_controls(&mut self, seconds: f64) {
         let moved = [&mut self.tuning, &mut self.muffling].map(|glide| glide.advance(seconds));
-        self.stale |= moved.contains(&true);
+        self.stale |= moved.contains(&true) | self.hand.advance(seconds / Hand::SLOWER);
     }
 
     /// Lets the controls arrive at once.
     pub fn finish_controls(&mut self) {
-        let moved = [&mut self.tuning, &mut self.muffling].map(Glide::jump);
+        let moved = [&mut self.tuning, &mut self.muffling, &mut self.hand].map(Glide::jump);
         self.stale |= moved.contains(&true);
         self.follow_controls();
     }
@@ -229,7 +266,7 @@ impl Cymbal {
         if !std::mem::take(&mut self.stale) {
             return;
         }
-        let (tuning, muffling) = (self.tuning.value(), self.muffling.value());
+        let (tuning, muffling, hand) = (self.tuning.value(), self.muffling.value(), self.hand.value());
         let (modes, loss, stand, lossless) = (&self.modes, self.loss, self.stand, self.lossless);
         self.surface.retune(|k, old| {
             let built = &modes[k];
@@ -241,7 +278,7 @@ impl Cymbal {
                 ModeKind::Rigid => omega / (2.0 * stand.q),
                 _ => loss.sigma(omega) + built.radiated,
             };
-            let sigma = if lossless { 0.0 } else { own + muffling * built.muffling };
+            let sigma = if lossless { 0.0 } else { own + muffling * built.muffling + hand * built.choking };
             Mode { omega, sigma, ..*old }
         });
         // A stiffer metal resists stretching as it resists bending.
@@ -322,6 +359,7 @@ fn lay_out(
             omega,
             radiated: 0.0,
             muffling: 0.0,
+            choking: 0.0,
             monopole_area: 0.0,
         };
         for (member, _) in Splitting::ROUND.members(m, 0) {
@@ -342,6 +380,7 @@ fn lay_out(
                 omega: shell.omega * detuning,
                 radiated: resistance / (2.0 * spec.plate.mass),
                 muffling: 0.0,
+                choking: 0.0,
                 monopole_area,
             });
             index.push(ShapeIndex { radial: RIGID.len() + row, rows: 1, m: shell.m, member, axis });

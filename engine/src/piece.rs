@@ -300,6 +300,18 @@ impl Piece {
         }
     }
 
+    /// Lets a hand take hold of a cymbal, firmly at 1, or let go of it, 0. Closes over some 25 ms from
+    /// this sample on; takes energy and gives none. Drums are not choked.
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn choke(&mut self, strength: f64) {
+        self.glide();
+        if let Voice::Cymbal(cymbal) = &mut self.voice {
+            cymbal.choke(strength);
+        }
+    }
+
     /// Lets tuning and muffling arrive at once instead of gliding.
     ///
     /// # Real-time

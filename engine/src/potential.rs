@@ -32,6 +32,7 @@
 //! known, hence where `psi` ought to be; a share of the difference is made up, and the energy that
 //! takes is exchanged with the kinetic energy of the same modes by scaling their velocities. The
 //! sum of both stays what it was to rounding: nothing is added, and it is the *true* energy that is kept.
+//! The jolt is part of the true acceleration and is heard; left out, its mean would be an offset.
 //!
 //! `C` follows the motion: raising it by `D` turns `psi` into `sqrt(psi^2 + 2 D)` and changes no
 //! energy.
@@ -122,6 +123,8 @@ pub struct NonlinearForce {
     direct: f32,
     /// The present sample's `psibar` without strikers.
     mean: f64,
+    /// Pressure of the latest exchange with the velocities, Pa, for one sample.
+    jolt: f32,
     predicted: Row,
     gradient: Row,
     peaks: Peaks,
@@ -135,7 +138,7 @@ impl NonlinearForce {
         potential: Box<dyn Potential>,
         modes: usize,
         stride: u32,
-        body: &ModalBody,
+        (body, pickup): (&ModalBody, &Pickup),
         sample_rate: f64,
     ) -> NonlinearForce {
         let mut force = NonlinearForce {
@@ -156,12 +159,13 @@ impl NonlinearForce {
             stiffening: 1.0,
             direct: 0.0,
             mean: 0.0,
+            jolt: 0.0,
             predicted: zero_row(modes),
             gradient: zero_row(modes),
             peaks: Peaks::default(),
             exchanged: 0.0,
         };
-        force.follow(body);
+        force.follow(body, pickup);
         force
     }
 
@@ -214,8 +218,8 @@ impl NonlinearForce {
     ///
     /// # Real-time
     /// Linear in the modes it acts on.
-    pub fn follow(&mut self, body: &ModalBody) {
-        body.face(&mut self.front, 0.5 * f64::from(self.stride));
+    pub fn follow(&mut self, body: &ModalBody, pickup: &Pickup) {
+        body.face(&mut self.front, pickup, 0.5 * f64::from(self.stride));
         body.connect(&mut self.port);
         self.stiffening = 1.0 + 0.5 * body.compliance(&self.port, &self.port);
     }
@@ -286,7 +290,7 @@ impl NonlinearForce {
         self.psi = 2.0 * mean - self.psi;
         let force = -mean as f32;
         body.push(&self.port, force);
-        force * self.direct
+        force * self.direct + std::mem::take(&mut self.jolt)
     }
 
     fn evaluate(&mut self, body: &mut ModalBody) {
@@ -337,7 +341,7 @@ impl NonlinearForce {
         let given = kinetic * (1.0 - f64::from(factor) * f64::from(factor));
         let square = self.psi * self.psi + 2.0 * given;
         if factor != 1.0 && square > 0.0 {
-            body.scale_velocity(&self.front, factor);
+            self.jolt = body.jolt(&self.front, factor);
             self.psi = square.sqrt();
             self.exchanged += given.abs();
         }

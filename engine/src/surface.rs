@@ -119,7 +119,7 @@ impl Surface {
 
     /// Lets a potential act on the first `modes`, evaluated once in `stride` samples. Allocates.
     pub fn set_potential(&mut self, potential: Box<dyn Potential>, modes: usize, stride: u32) {
-        let force = NonlinearForce::new(potential, modes, stride, &self.body, 1.0 / self.dt);
+        let force = NonlinearForce::new(potential, modes, stride, (&self.body, &self.pickup), 1.0 / self.dt);
         self.beyond = Some(force);
     }
 
@@ -132,7 +132,7 @@ impl Surface {
     pub fn set_stride(&mut self, stride: u32) {
         if let Some(force) = &mut self.beyond {
             force.set_stride(stride);
-            force.follow(&self.body);
+            force.follow(&self.body, &self.pickup);
         }
     }
 
@@ -188,7 +188,7 @@ impl Surface {
         }
         self.body.tune(&mut self.pickup);
         if let Some(force) = &mut self.beyond {
-            force.follow(&self.body);
+            force.follow(&self.body, &self.pickup);
         }
         for i in 0..MAX_STRIKERS {
             if self.strikers[i].present {

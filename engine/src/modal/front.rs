@@ -18,6 +18,8 @@ pub struct Front {
     /// `M omega_d^2 / 2`: kinetic energy over the square of the real part, but for terms of the order
     /// of `sigma / omega`.
     kinetic: Row,
+    /// Pressure per change of the real part within a sample: what a jolt is heard as.
+    jolt: Row,
 }
 
 impl Front {
@@ -25,7 +27,7 @@ impl Front {
     pub fn new(modes: usize) -> Front {
         let row = || zero_row(modes);
         let length = modes.div_ceil(LANES) * LANES;
-        Front { length, kept: row(), ahead_re: row(), ahead_im: row(), kinetic: row() }
+        Front { length, kept: row(), ahead_re: row(), ahead_im: row(), kinetic: row(), jolt: row() }
     }
 
     /// Modes in front, padded to whole lanes.
@@ -40,17 +42,19 @@ impl Front {
 }
 
 impl ModalBody {
-    /// Works out what [`look_ahead`](Self::look_ahead) needs, after a change of modes.
+    /// Works out what [`look_ahead`](Self::look_ahead) and [`jolt`](Self::jolt) need, after a change of
+    /// modes and of the pickup.
     ///
     /// # Real-time
     /// Linear in the modes in front, about 50 ns each.
-    pub fn face(&self, front: &mut Front, samples_ahead: f64) {
+    pub fn face(&self, front: &mut Front, pickup: &Pickup, samples_ahead: f64) {
         for (k, mode) in self.modes.iter().enumerate().take(front.length) {
             let (omega_d, time) = (mode.omega_d(), samples_ahead * self.dt);
             let (sin, cos) = (omega_d * time).sin_cos();
             let decay = (-mode.sigma * time).exp();
             front.ahead_re[k] = (decay * cos) as f32;
             front.ahead_im[k] = (decay * sin) as f32;
+            front.jolt[k] = (f64::from(pickup.direct[k]) * mode.mass * omega_d / self.dt) as f32;
             front.kinetic[k] = (0.5 * mode.mass * omega_d * omega_d) as f32;
         }
     }
@@ -94,10 +98,13 @@ impl ModalBody {
         f64::from(self.kernels.dot_square(&front.kinetic, &self.state.re))
     }
 
-    /// Scales the velocities of the modes in front.
-    pub fn scale_velocity(&mut self, front: &Front, factor: f32) {
+    /// Scales the velocities of the modes in front; returns the pressure of the jolt it is, heard over
+    /// the sample that follows.
+    pub fn jolt(&mut self, front: &Front, factor: f32) -> f32 {
+        let heard = (factor - 1.0) * self.kernels.dot(&front.jolt, &self.state.re);
         let n = front.length.min(self.state.re.len());
         self.kernels.scale(&mut self.state.re[..n], factor);
+        heard
     }
 
     /// Displacements of all modes, m, `[mode]`, padded.

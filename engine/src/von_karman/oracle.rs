@@ -29,8 +29,6 @@ pub struct Parts {
     pub energy: f64,
     /// `sum c l^2`.
     pub linear: f64,
-    /// `c P^2` of each Airy function with its wave number.
-    pub shares: Vec<(f64, f64)>,
     /// Gradient by the cosine and sine amplitude of each shell mode.
     pub gradient: Vec<[f64; 2]>,
 }
@@ -80,11 +78,11 @@ impl Oracle {
                 }
             }
         }
-        let (mut energy, mut linear, mut shares) = (0.0, 0.0, Vec::new());
+        let (mut energy, mut linear) = (0.0, 0.0);
         let mut stress = vec![0.0; n_r * n_t];
         let mut gradient = vec![[0.0; 2]; q.len()];
         for (m, order) in self.airy.iter().enumerate() {
-            for (k, (&c, mode)) in order.stiffness.iter().zip(&order.modes).enumerate() {
+            for (k, &c) in order.stiffness.iter().enumerate() {
                 for member in 0..if m == 0 { 1 } else { 2 } {
                     let around = |t: usize| {
                         let (sin, cos) = (m as f64 * TAU * (t as f64 + 0.5) / n_t as f64).sin_cos();
@@ -103,9 +101,8 @@ impl Oracle {
                     let l: f64 = (0..q.len()).map(|i| bent(i) * q[i][member]).sum();
                     energy += c * (p * p + 2.0 * p * l);
                     linear += c * l * l;
-                    shares.push((mode.root, c * p * p));
-                    for i in 0..q.len() {
-                        gradient[i][member] += 2.0 * c * p * bent(i);
+                    for (i, out) in gradient.iter_mut().enumerate() {
+                        out[member] += 2.0 * c * p * bent(i);
                     }
                     let force = 2.0 * c * (p + l) * self.scale;
                     for t in 0..n_t {
@@ -135,7 +132,7 @@ impl Oracle {
                 out[1] = 0.0;
             }
         }
-        Parts { energy, linear, shares, gradient }
+        Parts { energy, linear, gradient }
     }
 }
 
