@@ -105,6 +105,7 @@ pub struct Pickup {
     weight_re: Row,
     weight_im: Row,
     direct: Row,
+    slow: Row,
 }
 
 impl Pickup {
@@ -112,7 +113,13 @@ impl Pickup {
     /// the mode's frequency, for time going as `e^(i omega t)`. Allocates.
     pub fn new(transfer: Vec<[f64; 2]>) -> Pickup {
         let modes = transfer.len();
-        Pickup { transfer, weight_re: zero_row(modes), weight_im: zero_row(modes), direct: zero_row(modes) }
+        Pickup {
+            transfer,
+            weight_re: zero_row(modes),
+            weight_im: zero_row(modes),
+            direct: zero_row(modes),
+            slow: zero_row(modes),
+        }
     }
 
     /// Pressure at once per unit force at a port, Pa/N.
@@ -121,6 +128,18 @@ impl Pickup {
     /// Linear in the number of modes.
     pub fn direct_at(&self, body: &ModalBody, port: &Port) -> f32 {
         body.kernels.dot(&self.direct, &port.shape)
+    }
+
+    /// Pressure per unit rate of change of a force at a port, Pa s/N.
+    ///
+    /// The imaginary part of a transfer is heard through the velocity, a quarter of a period off. Of a
+    /// body that a slow force bends, that is a first power of the frequency too many: this much times
+    /// the force's rate takes it out, and only the acceleration is left.
+    ///
+    /// # Real-time
+    /// Linear in the number of modes.
+    pub fn slow_at(&self, body: &ModalBody, port: &Port) -> f32 {
+        body.kernels.dot(&self.slow, &port.shape)
     }
 }
 
@@ -249,17 +268,18 @@ impl ModalBody {
     /// # Real-time
     /// Linear in the number of modes.
     pub fn tune(&self, pickup: &mut Pickup) {
-        let Pickup { transfer, weight_re, weight_im, direct } = pickup;
+        let Pickup { transfer, weight_re, weight_im, direct, slow } = pickup;
         for (k, mode) in self.modes.iter().enumerate() {
             let [h_re, h_im] = transfer[k];
             let (omega_d, sigma) = (mode.omega_d(), mode.sigma);
             if omega_d * self.dt >= std::f64::consts::PI {
-                (weight_re[k], weight_im[k], direct[k]) = (0.0, 0.0, 0.0);
+                (weight_re[k], weight_im[k], direct[k], slow[k]) = (0.0, 0.0, 0.0, 0.0);
                 continue;
             }
             let (l2_re, l2_im) = (sigma * sigma - omega_d * omega_d, -2.0 * sigma * omega_d);
             weight_re[k] = (h_re * l2_im + h_im * l2_re) as f32;
             weight_im[k] = (h_re * l2_re - h_im * l2_im) as f32;
+            slow[k] = (h_im / (mode.mass * omega_d)) as f32;
             direct[k] = ((h_re * omega_d - h_im * sigma) / (mode.mass * omega_d)) as f32;
         }
     }

@@ -142,3 +142,34 @@ fn a_harder_stroke_raises_the_pitch() {
     let (soft, hard) = (crossings(0.1), crossings(20.0));
     assert!(hard > soft + soft / 20, "{soft}, {hard}");
 }
+
+/// What the stretching of a dome is like: `U = P^2 + 2 P l`, `P` quadratic, `l` linear.
+struct Dome(f64);
+
+impl Potential for Dome {
+    fn evaluate(&mut self, displacement: &[f32], gradient: &mut [f32]) -> Evaluation {
+        let q = |k: usize| f64::from(displacement[k]);
+        let weight = |k: usize| self.0 * (1.0 + k as f64) * 30.0;
+        let p: f64 = (0..MODES).map(|k| weight(k) * q(k) * q(k)).sum();
+        let l: f64 = (0..MODES).map(|k| self.0 * q(k)).sum();
+        gradient.fill(0.0);
+        for k in 0..MODES {
+            gradient[k] = (4.0 * (p + l) * weight(k) * q(k) + 2.0 * p * self.0) as f32;
+        }
+        Evaluation { energy: p * p + 2.0 * p * l, depth: l * l }
+    }
+}
+
+#[test]
+fn a_stretching_surface_has_no_offset() {
+    for (dome, stride) in [(3.0, 1), (10.0, 1), (10.0, 2), (20.0, 1)] {
+        let mut surface = surface(0.0, 1);
+        surface.set_potential(Box::new(Dome(dome)), MODES, stride);
+        surface.strike(&hit(10.0));
+        run(&mut surface, 22_050);
+        let sound = run(&mut surface, 220_500);
+        let mean = sound.iter().map(|&x| f64::from(x)).sum::<f64>() / sound.len() as f64;
+        let peak = sound.iter().fold(0.0_f32, |peak, x| peak.max(x.abs()));
+        assert!(mean.abs() < 5e-5 * f64::from(peak), "dome {dome}, stride {stride}: {mean} of {peak}");
+    }
+}
