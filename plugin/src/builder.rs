@@ -286,15 +286,9 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-fn wait<'a, T>(
-    changed: &Condvar,
-    guard: MutexGuard<'a, T>,
-    timeout: Option<Duration>,
-) -> MutexGuard<'a, T> {
+fn wait<'a, T>(changed: &Condvar, guard: MutexGuard<'a, T>, timeout: Option<Duration>) -> MutexGuard<'a, T> {
     match timeout {
-        Some(timeout) => {
-            changed.wait_timeout(guard, timeout).unwrap_or_else(PoisonError::into_inner).0
-        }
+        Some(timeout) => changed.wait_timeout(guard, timeout).unwrap_or_else(PoisonError::into_inner).0,
         None => changed.wait(guard).unwrap_or_else(PoisonError::into_inner),
     }
 }

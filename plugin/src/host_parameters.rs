@@ -74,9 +74,7 @@ fn host_parameter(parameter: &'static Parameter) -> FloatParam {
 unsafe impl Params for HostParameters {
     fn param_map(&self) -> Vec<(String, ParamPtr, String)> {
         std::iter::zip(&PARAMETERS, &self.values)
-            .map(|(parameter, value)| {
-                (parameter.id.to_owned(), value.as_ptr(), parameter.group.to_owned())
-            })
+            .map(|(parameter, value)| (parameter.id.to_owned(), value.as_ptr(), parameter.group.to_owned()))
             .collect()
     }
 
@@ -138,11 +136,9 @@ mod tests {
         restored.deserialize_fields(&fields);
         assert_eq!(restored.window(), (1200, 800));
 
-        for (broken, kept) in [
-            ("[1,1]", SMALLEST_WINDOW),
-            ("\"large\"", SMALLEST_WINDOW),
-            ("[9e9,1]", SMALLEST_WINDOW),
-        ] {
+        for (broken, kept) in
+            [("[1,1]", SMALLEST_WINDOW), ("\"large\"", SMALLEST_WINDOW), ("[9e9,1]", SMALLEST_WINDOW)]
+        {
             let fields = [(state::WINDOW_FIELD.to_owned(), broken.to_owned())].into();
             restored.deserialize_fields(&fields);
             assert_eq!(restored.window(), kept, "{broken}");

@@ -70,11 +70,8 @@ mod tests {
 
     fn ordered(json_params: &[(&str, ParamValue)]) -> BTreeMap<String, f32> {
         let params = json_params.iter().map(|(id, value)| (id.to_string(), value.clone()));
-        let mut state = PluginState {
-            version: String::new(),
-            params: params.collect(),
-            fields: BTreeMap::new(),
-        };
+        let mut state =
+            PluginState { version: String::new(), params: params.collect(), fields: BTreeMap::new() };
         put_in_order(&mut state);
         let plain = |(id, value)| match value {
             ParamValue::F32(value) => (id, value),

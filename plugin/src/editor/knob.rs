@@ -58,8 +58,7 @@ pub fn knob(ui: &mut Ui, rect: Rect, name: &str, value: &FloatParam, mut set: im
         move_once(&mut set, value.default_plain_value());
     }
     if response.hovered() && !response.dragged() {
-        let (wheel, fine) =
-            ui.input(|input| (input.smooth_scroll_delta().y, input.modifiers.shift));
+        let (wheel, fine) = ui.input(|input| (input.smooth_scroll_delta().y, input.modifiers.shift));
         if wheel != 0.0 {
             let step = wheel * TRAVEL * if fine { FINE } else { 0.5 };
             place = (place + step).clamp(0.0, 1.0);
@@ -71,8 +70,7 @@ pub fn knob(ui: &mut Ui, rect: Rect, name: &str, value: &FloatParam, mut set: im
     draw(ui, dial.center(), radius, place, value.default_normalized_value(), active);
     let name_at = pos2(rect.center().x, rect.min.y + LINE / 2.0);
     ui.painter().text(name_at, Align2::CENTER_CENTER, name, theme::caption(), theme::FAINT);
-    let value_rect =
-        Rect::from_min_max(pos2(rect.min.x, rect.max.y - LINE), pos2(rect.max.x, rect.max.y));
+    let value_rect = Rect::from_min_max(pos2(rect.min.x, rect.max.y - LINE), pos2(rect.max.x, rect.max.y));
     value_text(ui, value_rect, id.with("value"), value, &mut set);
 }
 
@@ -131,8 +129,7 @@ fn value_text(ui: &mut Ui, rect: Rect, id: Id, value: &FloatParam, set: &mut imp
         .align(Align2::CENTER_CENTER)
         .font(theme::body());
     let response = ui.put(rect, field);
-    let (entered, left) =
-        ui.input(|input| (input.key_pressed(Key::Enter), input.key_pressed(Key::Escape)));
+    let (entered, left) = ui.input(|input| (input.key_pressed(Key::Enter), input.key_pressed(Key::Escape)));
     if response.lost_focus() || entered || left {
         if entered && let Some(place) = value.string_to_normalized_value(&typed) {
             move_once(set, value.preview_plain(place));

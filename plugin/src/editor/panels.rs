@@ -36,11 +36,7 @@ pub struct Panels {
 
 impl Default for Panels {
     fn default() -> Self {
-        Panels {
-            selected: 1,
-            surface: Surface::default(),
-            levels: [FLOOR_DB; PieceId::KIT.len() + 2],
-        }
+        Panels { selected: 1, surface: Surface::default(), levels: [FLOOR_DB; PieceId::KIT.len() + 2] }
     }
 }
 
@@ -170,10 +166,8 @@ impl Panels {
         painter.text(loudest, Align2::CENTER_CENTER, text, theme::caption(), theme::FAINT);
         for (level, x) in [(left, -9.0), (right, 9.0)] {
             let centre = rect.center().x + x;
-            let bar = Rect::from_x_y_ranges(
-                centre - 6.0..=centre + 6.0,
-                rect.min.y + 24.0..=rect.max.y - 24.0,
-            );
+            let bar =
+                Rect::from_x_y_ranges(centre - 6.0..=centre + 6.0, rect.min.y + 24.0..=rect.max.y - 24.0);
             painter.rect_filled(bar, 2.0, theme::RAISED);
             let top = bar.max.y - bar.height() * share(level);
             let filled = Rect::from_min_max(pos2(bar.min.x, top), bar.max);
@@ -181,13 +175,7 @@ impl Panels {
         }
     }
 
-    fn knobs(
-        &self,
-        ui: &mut Ui,
-        rect: Rect,
-        parameters: &[FloatParam],
-        set: &mut dyn FnMut(usize, Gesture),
-    ) {
+    fn knobs(&self, ui: &mut Ui, rect: Rect, parameters: &[FloatParam], set: &mut dyn FnMut(usize, Gesture)) {
         ui.painter().rect_filled(rect, theme::CORNER, theme::PANEL);
         let piece = title(PieceId::KIT[self.selected]);
         let width = 96.0;

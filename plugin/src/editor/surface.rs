@@ -109,14 +109,7 @@ impl Surface {
     }
 
     /// The place of the latest stroke, fading.
-    fn mark(
-        &self,
-        painter: &egui::Painter,
-        eye: &Eye,
-        points: &Grid,
-        strike: &StrikeSnapshot,
-        now: f64,
-    ) {
+    fn mark(&self, painter: &egui::Painter, eye: &Eye, points: &Grid, strike: &StrikeSnapshot, now: f64) {
         let age = ((now - self.strike.1) / MARK_TIME) as f32;
         if strike.count == 0 || !(0.0..1.0).contains(&age) {
             return;
