@@ -172,6 +172,8 @@ impl Panels {
             let top = bar.max.y - bar.height() * share(level);
             let filled = Rect::from_min_max(pos2(bar.min.x, top), bar.max);
             painter.rect_filled(filled, 2.0, level_colour(level));
+            let full_scale = bar.max.y - bar.height() * share(0.0);
+            painter.hline(bar.x_range(), full_scale, (1.0, theme::FAINT));
         }
     }
 
@@ -268,7 +270,7 @@ fn decibels(peak: f32) -> f32 {
 }
 
 fn level_text(level: f32) -> String {
-    if level > FLOOR_DB { format!("{level:.0} dB") } else { String::new() }
+    if level > FLOOR_DB { format!("{level:+.0} dB") } else { String::new() }
 }
 
 /// Place of a level on a meter, 0 to 1.

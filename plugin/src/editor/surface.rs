@@ -96,6 +96,7 @@ impl Surface {
             painter.add(shell(&eye, &look));
         }
         painter.add(points.mesh(&eye, &look));
+        painter.extend(points.wires(&eye));
         painter.add(points.rim(&eye, &look));
         self.mark(&painter, &eye, &points, &snapshot.strike, now);
     }
@@ -299,6 +300,22 @@ impl Grid {
         Shape::mesh(mesh)
     }
 
+    /// The field's rings and spokes, which show the bending that light alone does not.
+    fn wires(&self, eye: &Eye) -> Vec<Shape> {
+        let stroke = Stroke::new(1.0, Color32::from_black_alpha(30));
+        let at = |radius, angle| eye.project(self.point(radius, angle)).0;
+        let ring = |ring: usize| {
+            let points = (0..ANGLES).map(|angle| at(ring * FINER, angle)).collect();
+            Shape::closed_line(points, stroke)
+        };
+        let spoke = |spoke: usize| {
+            let points = (0..=RADII).map(|radius| at(radius, spoke * FINER)).collect();
+            Shape::line(points, stroke)
+        };
+        // Every third spoke: more would blacken the centre.
+        (1..RINGS).map(ring).chain((0..SPOKES).step_by(3).map(spoke)).collect()
+    }
+
     fn rim(&self, eye: &Eye, look: &Look) -> Shape {
         let points = (0..ANGLES).map(|angle| eye.project(self.point(RADII, angle)).0).collect();
         let width = if look.depth > 0.0 { 4.0 } else { 1.5 };
@@ -331,8 +348,12 @@ fn shell(eye: &Eye, look: &Look) -> Shape {
             let (sin, cos) = (angle as f32 * TAU / ANGLES as f32).sin_cos();
             (cos, sin)
         });
-        let [_, away] = eye.turned(ends[0].0 + ends[1].0, ends[0].1 + ends[1].1);
-        if away > 0.1 {
+        let top = ends.map(|(x, y)| eye.project([x, y, 0.0]).0);
+        let (x, y) = ends[0];
+        let edge = eye.project([x, y, -look.depth]).0 - top[0];
+        let along = top[1] - top[0];
+        // Turned away from the eye.
+        if along.x * edge.y - along.y * edge.x <= 0.0 {
             continue;
         }
         let first = mesh.vertices.len() as u32;

@@ -2,8 +2,7 @@
 
 use egui::{Event, Modifiers, PointerButton, Pos2, RawInput, Rect, Vec2, pos2};
 use nice_plug::prelude::Param;
-use overhear_engine::piece::{BuildOptions, Piece, PieceId};
-use overhear_engine::snapshot::KitSnapshot;
+use overhear_engine::snapshot::{FIELD_MODES, FieldShapes, KitSnapshot};
 
 use super::knob::Gesture;
 use super::*;
@@ -12,6 +11,7 @@ struct Window {
     context: egui::Context,
     panels: Panels,
     parameters: HostParameters,
+    shapes: Arc<FieldShapes>,
     snapshot: KitSnapshot,
     size: Vec2,
     time: f64,
@@ -25,6 +25,7 @@ impl Window {
             context,
             panels: Panels::default(),
             parameters: HostParameters::default(),
+            shapes: Arc::new(dish()),
             snapshot: KitSnapshot::default(),
             size: Vec2::new(980.0, 640.0),
             time: 0.0,
@@ -40,11 +41,7 @@ impl Window {
             events,
             ..RawInput::default()
         };
-        let shapes = |slot: usize| {
-            let options = BuildOptions::new(48_000.0);
-            let piece = Piece::new(*PieceId::KIT.get(slot)?, &options).ok()?;
-            Some(Arc::new(piece.field_shapes()))
-        };
+        let shapes = |_: usize| Some(self.shapes.clone());
         let mut gestures = Vec::new();
         let mut output = self.context.run_ui(input, |ui| {
             let mut set = |index, gesture| gestures.push((index, gesture));
@@ -65,6 +62,17 @@ impl Window {
         let event = Event::PointerButton { pos: at, button, pressed, modifiers: Modifiers::NONE };
         self.frame(vec![Event::PointerMoved(at), event]).0
     }
+}
+
+/// Shapes of a surface whose first mode is a dish.
+fn dish() -> FieldShapes {
+    let points = FieldShapes::grid();
+    let shapes = points.iter().map(|[x, y]| {
+        let mut shape = [0.0; FIELD_MODES];
+        shape[0] = 1.0 - x * x - y * y;
+        shape
+    });
+    FieldShapes { shapes: shapes.collect(), points }
 }
 
 /// Middle of the first knob, the selected piece's tuning.

@@ -9,7 +9,7 @@ pub const PANEL: Color32 = Color32::from_rgb(35, 33, 31);
 /// The row or knob under the pointer.
 pub const HOVERED: Color32 = Color32::from_rgb(46, 43, 40);
 /// The selected row, empty meters, knob tracks.
-pub const RAISED: Color32 = Color32::from_rgb(58, 54, 49);
+pub const RAISED: Color32 = Color32::from_rgb(66, 61, 55);
 /// Text that matters.
 pub const TEXT: Color32 = Color32::from_rgb(236, 230, 220);
 /// Text that explains.
