@@ -32,11 +32,18 @@ pub struct Panels {
     surface: Surface,
     /// Levels shown, dB: one for each piece, then left and right.
     levels: [f32; PieceId::KIT.len() + 2],
+    /// Clock of the latest snapshot whose peaks were taken.
+    clock: u64,
 }
 
 impl Default for Panels {
     fn default() -> Self {
-        Panels { selected: 1, surface: Surface::default(), levels: [FLOOR_DB; PieceId::KIT.len() + 2] }
+        Panels {
+            selected: 1,
+            surface: Surface::default(),
+            levels: [FLOOR_DB; PieceId::KIT.len() + 2],
+            clock: 0,
+        }
     }
 }
 
@@ -71,10 +78,13 @@ impl Panels {
     /// Meters jump up at once and fall slowly.
     fn follow_levels(&mut self, ui: &Ui, snapshot: &KitSnapshot) {
         let fall = FALL * ui.input(|input| input.stable_dt).min(0.1);
+        // A host that stopped leaves its last snapshot behind: its peaks count once.
+        let fresh = if snapshot.clock == self.clock { 0.0 } else { 1.0 };
+        self.clock = snapshot.clock;
         let pieces = snapshot.pieces.iter().map(|piece| piece.peak);
         let mut moving = false;
         for (level, peak) in self.levels.iter_mut().zip(pieces.chain(snapshot.peak)) {
-            *level = decibels(peak).max(*level - fall).clamp(FLOOR_DB, TOP_DB);
+            *level = decibels(fresh * peak).max(*level - fall).clamp(FLOOR_DB, TOP_DB);
             moving |= *level > FLOOR_DB;
         }
         if moving {
@@ -94,7 +104,7 @@ impl Panels {
 
     fn list(&mut self, ui: &mut Ui, rect: Rect, snapshot: &KitSnapshot) {
         let rows = PieceId::KIT.len() as f32;
-        let height = ((rect.height() + 4.0) / rows).min(64.0);
+        let height = ((rect.height() + 4.0) / rows).min(84.0);
         for (slot, piece) in PieceId::KIT.into_iter().enumerate() {
             let top = rect.min + vec2(0.0, slot as f32 * height);
             let row = Rect::from_min_size(top, vec2(rect.width(), height - 4.0));
@@ -155,12 +165,18 @@ impl Panels {
         painter.text(bottom, Align2::LEFT_BOTTOM, line, theme::body(), theme::TEXT);
     }
 
+    /// Levels shown of the two outputs, dB.
+    pub fn main_levels(&self) -> (f32, f32) {
+        let [.., left, right] = self.levels;
+        (left, right)
+    }
+
     fn main_meters(&self, ui: &Ui, rect: Rect) {
         let painter = ui.painter();
         painter.rect_filled(rect, theme::CORNER, theme::PANEL);
         let label = pos2(rect.center().x, rect.max.y - 12.0);
         painter.text(label, Align2::CENTER_CENTER, "Main", theme::caption(), theme::FAINT);
-        let [.., left, right] = self.levels;
+        let (left, right) = self.main_levels();
         let loudest = pos2(rect.center().x, rect.min.y + 12.0);
         let text = level_text(left.max(right));
         painter.text(loudest, Align2::CENTER_CENTER, text, theme::caption(), theme::FAINT);

@@ -103,6 +103,20 @@ fn any_size_and_any_snapshot_can_be_drawn() {
 }
 
 #[test]
+fn meters_fall_when_the_host_stops() {
+    let mut window = Window::new();
+    window.snapshot.clock = 1;
+    window.snapshot.peak = [1.0, 0.5];
+    window.frame(Vec::new());
+    let (left, right) = window.panels.main_levels();
+    assert!((left - 0.0).abs() < 0.01 && (right + 6.02).abs() < 0.01, "{left} {right}");
+    for _ in 0..240 {
+        window.frame(Vec::new());
+    }
+    assert_eq!(window.panels.main_levels(), (-60.0, -60.0));
+}
+
+#[test]
 fn dragging_a_knob_is_one_gesture_upwards() {
     let mut window = Window::new();
     window.frame(Vec::new());
