@@ -9,8 +9,24 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+pub mod air;
+pub mod contact;
+pub mod cymbal;
+pub mod damping;
+pub mod drum;
 pub mod error;
+pub mod glide;
 pub mod kit;
+pub mod layout;
+pub mod listening;
+pub mod math;
+pub mod membrane;
+pub mod modal;
 pub mod piece;
+pub mod plate;
+pub mod shapes;
 pub mod snapshot;
+pub mod split;
 pub mod strike;
+pub mod surface;
+pub mod tuned_head;

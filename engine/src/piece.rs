@@ -1,8 +1,12 @@
 //! One piece of the kit: a drum or a cymbal, and what can be asked of it.
 
+use crate::cymbal::{Cymbal, CymbalSpec};
+use crate::drum::{Drum, DrumSpec};
 use crate::error::SpecError;
+use crate::kit::BLOCK;
 use crate::snapshot::{FieldShapes, PieceSnapshot, StrikeSnapshot};
 use crate::strike::Strike;
+use crate::surface::Surface;
 
 /// Which piece.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -136,7 +140,7 @@ pub struct ModeInfo {
     pub t60: f64,
     /// Modal mass with the air it carries, kg.
     pub modal_mass: f64,
-    /// Radiated weight: far-field volume acceleration per modal acceleration, m2.
+    /// Radiated weight: area of the monopole that would radiate the mode's power, m2.
     pub radiation: f64,
     /// Kind of mode.
     pub kind: ModeKind,
@@ -145,6 +149,34 @@ pub struct ModeInfo {
 /// A built piece that can be struck and heard.
 pub struct Piece {
     id: PieceId,
+    voice: Voice,
+    sample_rate: f64,
+    /// Samples into the present block.
+    phase: usize,
+    /// Samples since the controls were last let glide.
+    unglided: usize,
+    quarantines: u32,
+}
+
+enum Voice {
+    Drum(Drum),
+    Cymbal(Cymbal),
+}
+
+impl Voice {
+    fn surface(&self) -> &Surface {
+        match self {
+            Voice::Drum(drum) => drum.surface(),
+            Voice::Cymbal(cymbal) => cymbal.surface(),
+        }
+    }
+
+    fn surface_mut(&mut self) -> &mut Surface {
+        match self {
+            Voice::Drum(drum) => drum.surface_mut(),
+            Voice::Cymbal(cymbal) => cymbal.surface_mut(),
+        }
+    }
 }
 
 impl Piece {
@@ -154,7 +186,19 @@ impl Piece {
     /// [`SpecError`] if the options are out of range.
     pub fn new(id: PieceId, options: &BuildOptions) -> Result<Piece, SpecError> {
         SpecError::check("sample rate (Hz)", options.sample_rate, 22_050.0, 768_000.0)?;
-        Ok(Piece { id })
+        let drum = |spec: DrumSpec| Drum::new(&spec, options).map(Voice::Drum);
+        let cymbal = |spec: CymbalSpec| Cymbal::new(&spec, options).map(Voice::Cymbal);
+        let voice = match id {
+            PieceId::Kick => drum(DrumSpec::kick())?,
+            PieceId::Snare => drum(DrumSpec::snare())?,
+            PieceId::RackTom => drum(DrumSpec::rack_tom())?,
+            PieceId::FloorTom => drum(DrumSpec::floor_tom())?,
+            PieceId::Timpani => drum(DrumSpec::timpani())?,
+            PieceId::Crash => cymbal(CymbalSpec::crash())?,
+            PieceId::Ride => cymbal(CymbalSpec::ride())?,
+            PieceId::Splash => cymbal(CymbalSpec::splash())?,
+        };
+        Ok(Piece { id, voice, sample_rate: options.sample_rate, phase: 0, unglided: 0, quarantines: 0 })
     }
 
     /// Which piece this is.
@@ -162,84 +206,188 @@ impl Piece {
         self.id
     }
 
-    /// Range and default of [`set_tuning`](Self::set_tuning): Hz for drums, ratio for cymbals.
+    /// Lowest, default and highest of [`set_tuning`](Self::set_tuning): Hz for drums, ratio for
+    /// cymbals.
     pub fn tuning_range(id: PieceId) -> (f64, f64, f64) {
         match id {
-            PieceId::Kick => (35.0, 55.0, 90.0),
-            PieceId::Snare => (140.0, 220.0, 360.0),
-            PieceId::RackTom => (90.0, 140.0, 260.0),
-            PieceId::FloorTom => (55.0, 82.0, 160.0),
-            PieceId::Timpani => (87.3, 130.8, 196.0),
-            PieceId::Crash | PieceId::Ride | PieceId::Splash => (0.5, 1.0, 2.0),
+            PieceId::Kick => DrumSpec::kick().pitch_hz,
+            PieceId::Snare => DrumSpec::snare().pitch_hz,
+            PieceId::RackTom => DrumSpec::rack_tom().pitch_hz,
+            PieceId::FloorTom => DrumSpec::floor_tom().pitch_hz,
+            PieceId::Timpani => DrumSpec::timpani().pitch_hz,
+            PieceId::Crash | PieceId::Ride | PieceId::Splash => CymbalSpec::TUNING,
         }
     }
 
     /// Asks for a pitch: of the named mode of a drum, Hz; of a cymbal, a ratio to its own.
     ///
-    /// Acts while it rings, gliding over a few milliseconds; clamped to the range.
+    /// Acts while it rings, gliding over a few milliseconds from this sample on; clamped to the range.
     ///
     /// # Real-time
     /// No allocation, no lock.
-    pub fn set_tuning(&mut self, _tuning: f64) {}
+    pub fn set_tuning(&mut self, tuning: f64) {
+        self.glide();
+        match &mut self.voice {
+            Voice::Drum(drum) => drum.set_tuning(tuning),
+            Voice::Cymbal(cymbal) => cymbal.set_tuning(tuning),
+        }
+    }
 
-    /// Asks for muffling, 0 (none) to 1 (all there is). Acts while it rings.
+    /// Asks for muffling, 0 (none) to 1 (all there is). Acts while it rings, as the tuning does.
     ///
     /// # Real-time
     /// No allocation, no lock.
-    pub fn set_muffling(&mut self, _amount: f64) {}
+    pub fn set_muffling(&mut self, amount: f64) {
+        self.glide();
+        match &mut self.voice {
+            Voice::Drum(drum) => drum.set_muffling(amount),
+            Voice::Cymbal(cymbal) => cymbal.set_muffling(amount),
+        }
+    }
+
+    /// Lets tuning and muffling arrive at once instead of gliding.
+    ///
+    /// # Real-time
+    /// No allocation, no lock; linear in the number of modes.
+    pub fn finish_controls(&mut self) {
+        match &mut self.voice {
+            Voice::Drum(drum) => drum.finish_controls(),
+            Voice::Cymbal(cymbal) => cymbal.finish_controls(),
+        }
+    }
+
+    /// Lets the controls glide up to now, so that what is asked next starts here, not at a block.
+    fn glide(&mut self) {
+        let seconds = std::mem::take(&mut self.unglided) as f64 / self.sample_rate;
+        match &mut self.voice {
+            Voice::Drum(drum) => drum.advance_controls(seconds),
+            Voice::Cymbal(cymbal) => cymbal.advance_controls(seconds),
+        }
+    }
 
     /// Strikes at the next sample.
     ///
     /// # Real-time
     /// No allocation, no lock; cost is linear in the number of modes.
-    pub fn strike(&mut self, _strike: &Strike) {}
+    pub fn strike(&mut self, strike: &Strike) {
+        self.voice.surface_mut().strike(strike);
+    }
 
-    /// Renders up to [`BLOCK`](crate::kit::BLOCK) samples of sound pressure at the piece's
-    /// listening point, Pa, overwriting `out`.
+    /// Renders sound pressure at the piece's listening point, Pa, overwriting `out`. Any length;
+    /// how time is cut into calls does not change a sample.
     ///
     /// # Real-time
     /// No allocation, no lock.
     pub fn render(&mut self, out: &mut [f32]) {
-        out.fill(0.0);
+        let mut rest = out;
+        while !rest.is_empty() {
+            if self.phase == 0 {
+                self.begin_block();
+            }
+            let run = rest.len().min(BLOCK - self.phase);
+            let (now, later) = rest.split_at_mut(run);
+            self.voice.surface_mut().render(now);
+            self.phase = (self.phase + run) % BLOCK;
+            self.unglided += run;
+            rest = later;
+        }
     }
 
-    /// Puts the piece to rest.
-    pub fn reset(&mut self) {}
+    /// What is done once a block: controls followed, silence made exact, faults caught.
+    fn begin_block(&mut self) {
+        self.glide();
+        match &mut self.voice {
+            Voice::Drum(drum) => drum.follow_controls(),
+            Voice::Cymbal(cymbal) => cymbal.follow_controls(),
+        }
+        if !self.voice.surface_mut().settle() {
+            self.quarantines = self.quarantines.saturating_add(1);
+        }
+    }
+
+    /// Puts the piece's block grid at `phase` samples into a block, as its kit's is.
+    pub fn align(&mut self, phase: usize) {
+        self.phase = phase % BLOCK;
+    }
+
+    /// Puts the piece to rest and at the start of a block.
+    pub fn reset(&mut self) {
+        self.voice.surface_mut().reset();
+        self.finish_controls();
+        self.phase = 0;
+        self.unglided = 0;
+    }
 
     /// What the latest stroke's contact measured.
     pub fn last_strike(&self) -> StrikeSnapshot {
-        StrikeSnapshot::default()
+        self.voice.surface().last_strike()
     }
 
     /// Vibration energy of the piece itself, J.
     pub fn energy(&self) -> f64 {
-        0.0
+        self.voice.surface().body().energy()
     }
 
     /// Kinetic energy of the strikers about and energy held in their contacts, J.
     pub fn striker_energy(&self) -> f64 {
-        0.0
+        self.voice.surface().striker_energy()
     }
 
-    /// Every mode with the present tuning and muffling, by body, then frequency. Allocates.
+    /// Times the piece was put back to rest because a value was not finite.
+    pub fn quarantines(&self) -> u32 {
+        self.quarantines
+    }
+
+    /// Every mode with the present tuning and muffling, lowest first. Allocates.
     pub fn modes(&self) -> Vec<ModeInfo> {
-        Vec::new()
+        match &self.voice {
+            Voice::Drum(drum) => drum.modes(),
+            Voice::Cymbal(cymbal) => cymbal.modes(),
+        }
     }
 
     /// Tension of each stretched body, N/m: `("batter", 2729.0)`. Empty for cymbals. Allocates.
     pub fn tensions(&self) -> Vec<(&'static str, f64)> {
-        Vec::new()
+        match &self.voice {
+            Voice::Drum(drum) => vec![("batter", drum.tension())],
+            Voice::Cymbal(_) => Vec::new(),
+        }
+    }
+
+    /// The surface that is struck, for tests and tools that look closely.
+    pub fn surface_mut(&mut self) -> &mut Surface {
+        self.voice.surface_mut()
     }
 
     /// Mode shapes for the displacement field. Allocates.
     pub fn field_shapes(&self) -> FieldShapes {
+        let surface = self.voice.surface();
+        let mut all = vec![0.0_f32; surface.body().len()];
         let points = FieldShapes::grid();
-        let shapes = vec![[0.0; crate::snapshot::FIELD_MODES]; points.len()];
+        let shapes = points
+            .iter()
+            .map(|&[x, y]| {
+                // Angle 0 is toward the player, who looks along y.
+                let (radius, angle) = (f64::from(x.hypot(y)), f64::from(x.atan2(-y)));
+                surface.shapes().fill(radius, angle, &mut all);
+                std::array::from_fn(|k| all.get(k).copied().unwrap_or(0.0))
+            })
+            .collect();
         FieldShapes { points, shapes }
     }
 
     /// Fills in what is known of the piece but for its peak, which the mix measures.
+    ///
+    /// # Real-time
+    /// Linear in the number of modes.
     pub fn snapshot(&self, into: &mut PieceSnapshot) {
+        let body = self.voice.surface().body();
         into.ready = true;
+        into.energy = self.energy() as f32;
+        into.strike = self.last_strike();
+        into.quarantines = self.quarantines;
+        for (k, q) in into.displacement.iter_mut().enumerate() {
+            *q = if k < body.len() { body.displacement(k) } else { 0.0 };
+        }
     }
 }

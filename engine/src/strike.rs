@@ -1,4 +1,8 @@
 //! What a hit is: how fast, where, with what.
+//!
+//! A striker is a point mass behind a tip. The stick's bending and the hand are neglected.
+
+use crate::contact::{Material, Tip};
 
 /// One stroke on one piece.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,7 +43,44 @@ pub enum Striker {
     YarnMallet,
 }
 
+/// A striker as the contact sees it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StrikerSpec {
+    /// Mass that the tip carries, kg.
+    pub mass: f64,
+    /// The tip.
+    pub tip: Tip,
+    /// Restitution against a rigid wall, 0 to 1.
+    pub restitution: f64,
+}
+
+impl StrikerSpec {
+    const fn solid(grams: f64, material: Material, radius_mm: f64, restitution: f64) -> StrikerSpec {
+        let tip = Tip::Solid { material, radius: radius_mm * 1e-3 };
+        StrikerSpec { mass: grams * 1e-3, tip, restitution }
+    }
+
+    const fn felt(grams: f64, stiffness: f64, exponent: f64, restitution: f64) -> StrikerSpec {
+        StrikerSpec { mass: grams * 1e-3, tip: Tip::Felt { stiffness, exponent }, restitution }
+    }
+}
+
 impl Striker {
+    /// Mass, tip and restitution. *Literature* for the materials; masses are those that the tip
+    /// feels, not the whole stick.
+    pub const fn spec(self) -> StrikerSpec {
+        match self {
+            Striker::Stick => StrikerSpec::solid(16.0, Material::HICKORY, 5.0, 0.7),
+            Striker::Shoulder => StrikerSpec::solid(20.0, Material::HICKORY, 20.0, 0.6),
+            Striker::Nylon => StrikerSpec::solid(16.0, Material::NYLON, 4.0, 0.7),
+            Striker::FeltBeater => StrikerSpec::felt(110.0, 6e8, 2.3, 0.5),
+            Striker::PlasticBeater => StrikerSpec::solid(110.0, Material::PLASTIC, 25.0, 0.5),
+            Striker::TimpaniMallet => StrikerSpec::felt(25.0, 3e8, 2.5, 0.6),
+            Striker::HardMallet => StrikerSpec::felt(25.0, 1e10, 2.5, 0.6),
+            Striker::YarnMallet => StrikerSpec::felt(30.0, 5e7, 2.2, 0.5),
+        }
+    }
+
     /// Every striker, in the order of the manual.
     pub const ALL: [Striker; 8] = [
         Striker::Stick,

@@ -156,9 +156,9 @@ mod tests {
 
     /// Changing this list breaks every project that was ever saved.
     const FROZEN_IDS: [&str; 23] = [
-        "kktune", "kkmuff", "kklevl", "sntune", "snmuff", "snlevl", "rttune", "rtmuff", "rtlevl",
-        "fttune", "ftmuff", "ftlevl", "crtune", "crmuff", "crlevl", "rdtune", "rdmuff", "rdlevl",
-        "sptune", "spmuff", "splevl", "master", "dynam",
+        "kktune", "kkmuff", "kklevl", "sntune", "snmuff", "snlevl", "rttune", "rtmuff", "rtlevl", "fttune",
+        "ftmuff", "ftlevl", "crtune", "crmuff", "crlevl", "rdtune", "rdmuff", "rdlevl", "sptune", "spmuff",
+        "splevl", "master", "dynam",
     ];
 
     #[test]
@@ -184,10 +184,9 @@ mod tests {
                 Drives::Control(Control::Tuning(piece)) => {
                     (piece, [parameter.min, parameter.default, parameter.max])
                 }
-                Drives::Semitones(piece) => (
-                    piece,
-                    [parameter.min, parameter.default, parameter.max].map(|st| (st / 12.0).exp2()),
-                ),
+                Drives::Semitones(piece) => {
+                    (piece, [parameter.min, parameter.default, parameter.max].map(|st| (st / 12.0).exp2()))
+                }
                 _ => continue,
             };
             let (min, default, max) = Piece::tuning_range(piece);

@@ -40,6 +40,8 @@ pub struct Performer {
     values: [f32; PARAMETERS.len()],
     /// Stick speed at full velocity, m/s.
     dynamics: f64,
+    /// Whether anything was played or rendered since the start or the latest reset.
+    started: bool,
 }
 
 impl Performer {
@@ -49,6 +51,7 @@ impl Performer {
             kit: Kit::new(sample_rate),
             values: [f32::NAN; PARAMETERS.len()],
             dynamics: 0.0,
+            started: false,
         };
         for (index, parameter) in PARAMETERS.iter().enumerate() {
             performer.set_parameter(index, parameter.default);
@@ -93,13 +96,15 @@ impl Performer {
             angle: stroke.angle,
             striker: stroke.striker,
         };
+        self.start();
         flushed(|| self.kit.strike(stroke.piece, &strike));
         true
     }
 
     /// Moves a parameter, by its index in [`PARAMETERS`], to a plain value from the next sample
-    /// on. The value is [snapped](crate::parameters::Parameter::snap); an unchanged one and an
-    /// unknown index do nothing.
+    /// on; before the first note and sample it is there at once. The value is
+    /// [snapped](crate::parameters::Parameter::snap); an unchanged one and an unknown index do
+    /// nothing.
     ///
     /// # Real-time
     /// No allocation, no lock.
@@ -134,6 +139,7 @@ impl Performer {
     /// # Real-time
     /// No allocation, no lock.
     pub fn render(&mut self, left: &mut [f32], right: &mut [f32]) {
+        self.start();
         flushed(|| self.kit.render(left, right));
     }
 
@@ -148,6 +154,16 @@ impl Performer {
     /// No allocation, no lock.
     pub fn reset(&mut self) {
         flushed(|| self.kit.reset());
+        self.started = false;
+    }
+
+    /// Lets what was set before the first sample be there from the first sample: hosts send a
+    /// project's values as late as with the first buffer, and the sound must not glide to them.
+    fn start(&mut self) {
+        if !self.started {
+            self.started = true;
+            flushed(|| self.kit.finish_controls());
+        }
     }
 
     /// Describes the kit to whoever draws it, and starts the peaks anew.
@@ -270,6 +286,43 @@ mod tests {
             }
         }
         (left, right)
+    }
+
+    #[test]
+    fn values_set_before_the_first_sample_do_not_glide() {
+        let start = |early: bool| {
+            let mut performer = Performer::new(RATE);
+            if early {
+                performer.set_parameter(3, 300.0);
+            }
+            performer.install_kit(RATE).unwrap();
+            performer.set_parameter(3, 300.0);
+            performer.note_on(38, 1.0, 9);
+            let mut sound = [vec![0.0; 4_800], vec![0.0; 4_800]];
+            let [left, right] = &mut sound;
+            performer.render(left, right);
+            sound
+        };
+        assert!(start(true) == start(false));
+    }
+
+    #[test]
+    fn a_reset_performer_plays_like_a_new_one() {
+        let hit = |performer: &mut Performer| {
+            performer.note_on(36, 0.9, 9);
+            performer.note_on(49, 0.6, 9);
+            let mut sound = [vec![0.0; 4_800], vec![0.0; 4_800]];
+            let [left, right] = &mut sound;
+            performer.render(left, right);
+            sound
+        };
+        let mut performer = Performer::new(RATE);
+        performer.install_kit(RATE).unwrap();
+        let first = hit(&mut performer);
+        assert!(first.iter().flatten().any(|&sample| sample != 0.0));
+        performer.render(&mut [0.0; 77], &mut [0.0; 77]);
+        performer.reset();
+        assert!(hit(&mut performer) == first);
     }
 
     #[test]

@@ -51,8 +51,7 @@ pub fn install() -> Result<Vec<PathBuf>> {
         .into_iter()
         .map(|(format, bundle)| {
             let folder = user_folder(format)?;
-            fs::create_dir_all(&folder)
-                .with_context(|| format!("cannot make `{}`", folder.display()))?;
+            fs::create_dir_all(&folder).with_context(|| format!("cannot make `{}`", folder.display()))?;
             let target = folder.join(format.bundle_file());
             // Beside the target first: a running host keeps the library it has mapped, and an
             // interrupted copy leaves the old one.
@@ -74,9 +73,7 @@ pub fn install() -> Result<Vec<PathBuf>> {
 pub fn user_folder(format: Format) -> Result<PathBuf> {
     let variable = |name: &str| {
         let value: Option<OsString> = env::var_os(name).filter(|value| !value.is_empty());
-        value
-            .map(PathBuf::from)
-            .with_context(|| format!("{name} is not set"))
+        value.map(PathBuf::from).with_context(|| format!("{name} is not set"))
     };
     if cfg!(target_os = "windows") {
         let common = variable("COMMONPROGRAMFILES")?;

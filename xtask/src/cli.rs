@@ -18,12 +18,7 @@ use arguments::{HearArguments, ModesArguments, RenderArguments, Task};
 
 /// Developer and user commands of Overhear.
 #[derive(Debug, Parser)]
-#[command(
-    name = "cargo xtask",
-    bin_name = "cargo xtask",
-    version,
-    arg_required_else_help = true
-)]
+#[command(name = "cargo xtask", bin_name = "cargo xtask", version, arg_required_else_help = true)]
 struct CommandLine {
     #[command(subcommand)]
     task: Task,
@@ -46,10 +41,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 
 /// Prints help where it was asked for, and anything else as one line.
 fn refused(refusal: &clap::Error) -> ExitCode {
-    if matches!(
-        refusal.kind(),
-        ErrorKind::DisplayHelp | ErrorKind::DisplayVersion
-    ) {
+    if matches!(refusal.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) {
         print!("{refusal}");
         return ExitCode::SUCCESS;
     }
@@ -64,10 +56,7 @@ fn refused(refusal: &clap::Error) -> ExitCode {
     let mut line = reason.split_whitespace().collect::<Vec<_>>().join(" ");
     if refusal.kind() == ErrorKind::InvalidSubcommand {
         let command = CommandLine::command();
-        let names: Vec<_> = command
-            .get_subcommands()
-            .map(|command| command.get_name())
-            .collect();
+        let names: Vec<_> = command.get_subcommands().map(|command| command.get_name()).collect();
         line = format!("{line}, accepted: {}", names.join(", "));
     }
     eprintln!("{line}");

@@ -34,10 +34,7 @@ const BLOCK: u32 = 256;
 pub fn run(folder: &Path) -> Result<()> {
     let step = |number: u32, what: &str| eprintln!("[{number}/4] {what}");
     let (wav, png) = (folder.join("demo.wav"), folder.join("demo.png"));
-    step(
-        1,
-        "building and bundling the plugin (some minutes the first time)",
-    );
+    step(1, "building and bundling the plugin (some minutes the first time)");
     let clap = clap_bundle()?;
     step(2, "playing assets/groove.mid through the CLAP plugin");
     let song = Song::read(&workspace::root().join("assets/groove.mid"))?;
@@ -52,32 +49,19 @@ pub fn run(folder: &Path) -> Result<()> {
     let mut file = WavFile::create(&wav, Bits::Float32, RATE, 2, take.frames)?;
     file.write(&[&left, &right])?;
     file.finish()?;
-    output::write(
-        &png,
-        &picture::png("Overhear: assets/groove.mid", &left, &right, RATE)?,
-    )?;
+    output::write(&png, &picture::png("Overhear: assets/groove.mid", &left, &right, RATE)?)?;
     report(&take, &played, &peaks, [&wav, &png, &clap]);
-    ensure!(
-        played.peak <= 1.0,
-        "the mix is clipped: its peak is {:.3}",
-        played.peak
-    );
-    let silent: Vec<_> = peaks
-        .iter()
-        .filter(|(_, peak)| *peak <= 0.0)
-        .map(|(piece, _)| piece.name())
-        .collect();
+    ensure!(played.peak <= 1.0, "the mix is clipped: its peak is {:.3}", played.peak);
+    let silent: Vec<_> =
+        peaks.iter().filter(|(_, peak)| *peak <= 0.0).map(|(piece, _)| piece.name()).collect();
     ensure!(silent.is_empty(), "silent: {}", silent.join(", "));
     Ok(())
 }
 
 fn clap_bundle() -> Result<PathBuf> {
     let bundles = bundle::run()?;
-    let clap = bundles
-        .into_iter()
-        .find(|(format, _)| *format == Format::Clap);
-    clap.map(|(_, path)| path)
-        .ok_or_else(|| anyhow::anyhow!("the build made no CLAP bundle"))
+    let clap = bundles.into_iter().find(|(format, _)| *format == Format::Clap);
+    clap.map(|(_, path)| path).ok_or_else(|| anyhow::anyhow!("the build made no CLAP bundle"))
 }
 
 fn style(source: Source) -> Style {
@@ -101,11 +85,7 @@ fn play(
 ) -> Result<(Played, Vec<f32>, Vec<f32>)> {
     let (mut left, mut right) = (Vec::new(), Vec::new());
     let mut progress = Progress::new(label, take.frames);
-    let setup = Setup {
-        rate: style.rate,
-        settings: style.settings.clone(),
-        only,
-    };
+    let setup = Setup { rate: style.rate, settings: style.settings.clone(), only };
     let played = style.source.perform(&setup, |player| {
         take.play(player, style.blocks, |l, r| {
             progress.advance(l.len() as u64);
@@ -123,16 +103,9 @@ fn piece_peaks(take: &Take) -> Result<Vec<(PieceId, f32)>> {
     PieceId::KIT
         .into_iter()
         .map(|piece| {
-            let strikes =
-                |hit: &&Hit| midi_map::stroke(hit.key).is_some_and(|stroke| stroke.piece == piece);
-            let part = Take {
-                hits: take.hits.iter().filter(strikes).copied().collect(),
-                ..*take
-            };
-            Ok((
-                piece,
-                play(&part, &style, Some(piece), piece.name())?.0.peak,
-            ))
+            let strikes = |hit: &&Hit| midi_map::stroke(hit.key).is_some_and(|stroke| stroke.piece == piece);
+            let part = Take { hits: take.hits.iter().filter(strikes).copied().collect(), ..*take };
+            Ok((piece, play(&part, &style, Some(piece), piece.name())?.0.peak))
         })
         .collect()
 }
@@ -149,20 +122,13 @@ fn report(take: &Take, played: &Played, peaks: &[(PieceId, f32)], [wav, png, cla
     }
     println!("  {:<10} {}", "the mix", decibels(played.peak));
     let share = 100.0 * played.busy.as_secs_f64() / seconds;
-    println!(
-        "\n{seconds:.1} s of sound, {} notes, {share:.1} % of real time",
-        take.hits.len()
-    );
+    println!("\n{seconds:.1} s of sound, {} notes, {share:.1} % of real time", take.hits.len());
     println!("sound    {}", wav.display());
     println!("picture  {}", png.display());
     println!("plugin   {}", clap.display());
     for format in Format::ALL {
         if let Ok(folder) = bundle::user_folder(format) {
-            println!(
-                "`cargo xtask install` puts {} into {}",
-                format.bundle_file(),
-                folder.display()
-            );
+            println!("`cargo xtask install` puts {} into {}", format.bundle_file(), folder.display());
         }
     }
 }

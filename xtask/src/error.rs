@@ -22,10 +22,7 @@ pub fn exit_code(error: &anyhow::Error) -> u8 {
 
 /// An error and its causes in one line.
 pub fn one_line(error: &anyhow::Error) -> String {
-    format!("{error:#}")
-        .split_whitespace()
-        .collect::<Vec<_>>()
-        .join(" ")
+    format!("{error:#}").split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 #[cfg(test)]
@@ -37,10 +34,7 @@ mod tests {
     fn bad_input_exits_with_2_even_under_context() {
         let bare = bad_input!("piece is `gong`");
         assert_eq!(exit_code(&bare), 2);
-        assert_eq!(
-            exit_code(&Err::<(), _>(bare).context("hear").unwrap_err()),
-            2
-        );
+        assert_eq!(exit_code(&Err::<(), _>(bare).context("hear").unwrap_err()), 2);
         assert_eq!(exit_code(&anyhow::anyhow!("the disk is full")), 1);
     }
 

@@ -35,14 +35,7 @@ const HELD: u32 = 60;
 const CHANNEL: u8 = 9;
 
 /// Beats a minute, from which bar on.
-const TEMPO: [(u32, f64); 6] = [
-    (0, 96.0),
-    (9, 97.5),
-    (13, 98.5),
-    (17, 97.0),
-    (19, 94.0),
-    (20, 88.0),
-];
+const TEMPO: [(u32, f64); 6] = [(0, 96.0), (9, 97.5), (13, 98.5), (17, 97.0), (19, 94.0), (20, 88.0)];
 
 /// One stroke of the score.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -55,10 +48,7 @@ struct Stroke {
 /// The bytes of `assets/groove.mid`.
 pub fn file() -> Vec<u8> {
     let Score { feet, hands } = Score::written();
-    let mut smf = Smf::new(Header::new(
-        Format::Parallel,
-        Timing::Metrical(u15::new(PPQ as u16)),
-    ));
+    let mut smf = Smf::new(Header::new(Format::Parallel, Timing::Metrical(u15::new(PPQ as u16))));
     smf.tracks.push(tempo_track());
     smf.tracks.push(track(b"Feet", &feet));
     smf.tracks.push(track(b"Hands", &hands));
@@ -87,14 +77,8 @@ fn deltas(mut events: Vec<(u32, TrackEventKind<'static>)>) -> Vec<TrackEvent<'st
 
 fn tempo_track() -> Vec<TrackEvent<'static>> {
     let mut events = vec![
-        (
-            0,
-            TrackEventKind::Meta(MetaMessage::TrackName(b"Overhear groove")),
-        ),
-        (
-            0,
-            TrackEventKind::Meta(MetaMessage::TimeSignature(4, 2, 24, 8)),
-        ),
+        (0, TrackEventKind::Meta(MetaMessage::TrackName(b"Overhear groove"))),
+        (0, TrackEventKind::Meta(MetaMessage::TimeSignature(4, 2, 24, 8))),
     ];
     for (bar, beats_a_minute) in TEMPO {
         let tempo = u24::new((60e6 / beats_a_minute).round() as u32);
@@ -107,18 +91,9 @@ fn track(name: &'static [u8], strokes: &[Stroke]) -> Vec<TrackEvent<'static>> {
     let mut events = vec![(0, TrackEventKind::Meta(MetaMessage::TrackName(name)))];
     for stroke in strokes {
         let (key, vel) = (u7::new(stroke.key), u7::new(stroke.velocity));
-        let midi = |message| TrackEventKind::Midi {
-            channel: u4::new(CHANNEL),
-            message,
-        };
+        let midi = |message| TrackEventKind::Midi { channel: u4::new(CHANNEL), message };
         events.push((stroke.tick, midi(MidiMessage::NoteOn { key, vel })));
-        events.push((
-            stroke.tick + HELD,
-            midi(MidiMessage::NoteOff {
-                key,
-                vel: u7::new(0),
-            }),
-        ));
+        events.push((stroke.tick + HELD, midi(MidiMessage::NoteOff { key, vel: u7::new(0) })));
     }
     deltas(events)
 }
@@ -134,10 +109,7 @@ mod tests {
     fn the_file_in_assets_is_the_one_written_here() {
         let path = crate::workspace::root().join("assets/groove.mid");
         let stored = std::fs::read(path).expect("assets/groove.mid");
-        assert!(
-            stored == file(),
-            "write it anew: cargo xtask groove -o assets/groove.mid"
-        );
+        assert!(stored == file(), "write it anew: cargo xtask groove -o assets/groove.mid");
     }
 
     #[test]
@@ -146,44 +118,24 @@ mod tests {
         let seconds = song.last_note().unwrap();
         assert!((45.0..60.0).contains(&seconds), "{seconds} s");
         for piece in PieceId::KIT {
-            let strokes = song.notes.iter().filter(|note| {
-                midi_map::stroke(note.key).is_some_and(|stroke| stroke.piece == piece)
-            });
+            let strokes = song
+                .notes
+                .iter()
+                .filter(|note| midi_map::stroke(note.key).is_some_and(|stroke| stroke.piece == piece));
             assert!(strokes.count() >= 2, "{}", piece.name());
         }
-        assert!(
-            song.notes
-                .iter()
-                .all(|note| midi_map::stroke(note.key).is_some())
-        );
+        assert!(song.notes.iter().all(|note| midi_map::stroke(note.key).is_some()));
     }
 
     #[test]
     fn it_has_ghost_notes_accents_and_human_timing() {
         let song = Song::parse(&file()).unwrap();
         let snare = |note: &&crate::song::Note| note.key == 38;
-        let ghosts = song
-            .notes
-            .iter()
-            .filter(snare)
-            .filter(|note| note.velocity < 45)
-            .count();
-        let accents = song
-            .notes
-            .iter()
-            .filter(snare)
-            .filter(|note| note.velocity > 95)
-            .count();
-        assert!(
-            ghosts > 30 && accents > 30,
-            "{ghosts} ghosts, {accents} accents"
-        );
+        let ghosts = song.notes.iter().filter(snare).filter(|note| note.velocity < 45).count();
+        let accents = song.notes.iter().filter(snare).filter(|note| note.velocity > 95).count();
+        assert!(ghosts > 30 && accents > 30, "{ghosts} ghosts, {accents} accents");
         let Score { feet, hands } = Score::written();
-        let off_grid = feet
-            .iter()
-            .chain(&hands)
-            .filter(|hit| hit.tick % SIXTEENTH != 0)
-            .count();
+        let off_grid = feet.iter().chain(&hands).filter(|hit| hit.tick % SIXTEENTH != 0).count();
         assert!(off_grid > (feet.len() + hands.len()) / 2);
     }
 

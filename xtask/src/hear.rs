@@ -58,12 +58,7 @@ pub fn default_strike(piece: PieceId) -> Strike {
             striker: stroke.striker,
         },
         // The timpani is in no map: three quarters out, where timpanists play.
-        None => Strike {
-            speed: DEFAULT_SPEED,
-            radius: 0.75,
-            angle: 0.0,
-            striker: Striker::TimpaniMallet,
-        },
+        None => Strike { speed: DEFAULT_SPEED, radius: 0.75, angle: 0.0, striker: Striker::TimpaniMallet },
     }
 }
 
@@ -98,8 +93,7 @@ pub struct Sound {
 /// # Errors
 /// [`BadInput`](crate::error::BadInput) if the piece cannot be built so.
 pub fn render(request: &Request) -> Result<Sound> {
-    let mut piece =
-        Piece::new(request.piece, &request.options).map_err(|error| bad_input!("{error}"))?;
+    let mut piece = Piece::new(request.piece, &request.options).map_err(|error| bad_input!("{error}"))?;
     for setting in &request.settings {
         setting.apply(&mut piece);
     }
@@ -119,13 +113,7 @@ pub fn render(request: &Request) -> Result<Sound> {
         *sample /= FULL_SCALE_PA;
     }
     let (energy_end, contact) = (piece.energy(), piece.last_strike());
-    Ok(Sound {
-        samples,
-        striker_energy,
-        energy_peak,
-        energy_end,
-        contact,
-    })
+    Ok(Sound { samples, striker_energy, energy_peak, energy_end, contact })
 }
 
 /// Lets the tuning and the muffling glide to where they were set, at rest.
@@ -144,13 +132,7 @@ pub fn run(request: &Request) -> Result<Measurement> {
     let rate = request.options.sample_rate;
     let frames = (request.seconds * rate).round() as u64;
     let file = match &request.wav {
-        Some(path) => Some(WavFile::create(
-            path,
-            Bits::Float32,
-            rate as u32,
-            1,
-            frames,
-        )?),
+        Some(path) => Some(WavFile::create(path, Bits::Float32, rate as u32, 1, frames)?),
         None => None,
     };
     let sound = render(request)?;
@@ -172,20 +154,12 @@ mod tests {
             assert!((0.0..=1.0).contains(&strike.radius));
         }
         assert_eq!(default_strike(PieceId::Kick).striker, Striker::FeltBeater);
-        assert_eq!(
-            default_strike(PieceId::Timpani).striker,
-            Striker::TimpaniMallet
-        );
+        assert_eq!(default_strike(PieceId::Timpani).striker, Striker::TimpaniMallet);
     }
 
     #[test]
     fn an_unknown_striker_is_answered_with_all_of_them() {
         let error = striker("spoon").unwrap_err().to_string();
-        assert!(
-            Striker::ALL
-                .iter()
-                .all(|striker| error.contains(striker.name())),
-            "{error}"
-        );
+        assert!(Striker::ALL.iter().all(|striker| error.contains(striker.name())), "{error}");
     }
 }

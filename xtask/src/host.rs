@@ -50,25 +50,19 @@ impl Bundle {
     /// # Errors
     /// [`BadInput`](crate::error::BadInput) with the path if it is not a CLAP bundle.
     pub fn load(path: &Path) -> Result<Bundle> {
-        let not_a_bundle =
-            |reason: &str| bad_input!("`{}` is not a CLAP bundle: {reason}", path.display());
+        let not_a_bundle = |reason: &str| bad_input!("`{}` is not a CLAP bundle: {reason}", path.display());
         // The dynamic loader would look for a bare name everywhere but here.
-        let absolute = path
-            .canonicalize()
-            .map_err(|error| not_a_bundle(&error.to_string()))?;
+        let absolute = path.canonicalize().map_err(|error| not_a_bundle(&error.to_string()))?;
         if absolute.is_dir() && !cfg!(target_os = "macos") {
             return Err(not_a_bundle("it is a folder"));
         }
         // SAFETY: running foreign code is what loading a plugin means; it is the one the user
         // names or has just built.
-        let entry = unsafe { PluginEntry::load(&absolute) }
-            .map_err(|error| not_a_bundle(&error.to_string()))?;
-        let factory = entry
-            .get_plugin_factory()
-            .ok_or_else(|| not_a_bundle("it makes no plugins"))?;
+        let entry =
+            unsafe { PluginEntry::load(&absolute) }.map_err(|error| not_a_bundle(&error.to_string()))?;
+        let factory = entry.get_plugin_factory().ok_or_else(|| not_a_bundle("it makes no plugins"))?;
         let text = |text: Option<&std::ffi::CStr>| {
-            text.map(|text| text.to_string_lossy().into_owned())
-                .unwrap_or_default()
+            text.map(|text| text.to_string_lossy().into_owned()).unwrap_or_default()
         };
         let plugins: Vec<_> = factory
             .plugin_descriptors()
@@ -77,10 +71,7 @@ impl Bundle {
                     id: plugin.id()?.to_owned(),
                     name: text(plugin.name()),
                     version: text(plugin.version()),
-                    features: plugin
-                        .features()
-                        .map(|feature| text(Some(feature)))
-                        .collect(),
+                    features: plugin.features().map(|feature| text(Some(feature))).collect(),
                 })
             })
             .collect();
@@ -89,11 +80,7 @@ impl Bundle {
         }
         let info = HostInfo::new("Overhear commands", "", "", env!("CARGO_PKG_VERSION"))
             .context("the host's own name")?;
-        Ok(Bundle {
-            entry,
-            plugins,
-            info,
-        })
+        Ok(Bundle { entry, plugins, info })
     }
 
     /// The plugins in the bundle; at least one.

@@ -92,13 +92,7 @@ pub fn run(id: PieceId, options: &BuildOptions, settings: &[PieceSetting]) -> Re
 
 impl fmt::Display for Modes {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        writeln!(
-            f,
-            "{}: {} modes at {} Hz",
-            self.piece,
-            self.modes.len(),
-            self.sample_rate_hz
-        )?;
+        writeln!(f, "{}: {} modes at {} Hz", self.piece, self.modes.len(), self.sample_rate_hz)?;
         for (body, tension) in &self.tension_n_m {
             writeln!(f, "tension of the {body}: {tension:.0} N/m")?;
         }
@@ -108,9 +102,7 @@ impl fmt::Display for Modes {
             "body", "m", "n", "member", "Hz", "T60 s", "mass kg", "radiation",
         )?;
         for mode in &self.modes {
-            let t60 = mode
-                .t60_s
-                .map_or_else(|| "-".to_owned(), |t60| format!("{t60:.3}"));
+            let t60 = mode.t60_s.map_or_else(|| "-".to_owned(), |t60| format!("{t60:.3}"));
             writeln!(
                 f,
                 "{:<10} {:>3} {:>3} {:<6} {:>11.3} {t60:>9} {:>9.5} {:>11.3e}  {}",
@@ -147,9 +139,6 @@ mod tests {
         };
         let json = serde_json::to_value(Mode::from(info)).unwrap();
         assert!(json["t60_s"].is_null());
-        assert_eq!(
-            (json["member"].as_str(), json["kind"].as_str()),
-            (Some("sine"), Some("complete"))
-        );
+        assert_eq!((json["member"].as_str(), json["kind"].as_str()), (Some("sine"), Some("complete")));
     }
 }

@@ -44,11 +44,7 @@ impl Draft {
         hidden.push(format!(".{}.part", std::process::id()));
         let temporary = target.with_file_name(hidden);
         File::create(&temporary).map_err(|error| unusable(&error.to_string()))?;
-        Ok(Draft {
-            target,
-            temporary,
-            finished: false,
-        })
+        Ok(Draft { target, temporary, finished: false })
     }
 
     /// Where to write until [`finish`](Self::finish).
@@ -92,8 +88,7 @@ pub fn folder(path: &Path) -> Result<()> {
 /// As [`Draft::new`] and [`Draft::finish`].
 pub fn write(target: &Path, bytes: &[u8]) -> Result<()> {
     let draft = Draft::new(target)?;
-    fs::write(draft.path(), bytes)
-        .with_context(|| format!("cannot write `{}`", target.display()))?;
+    fs::write(draft.path(), bytes).with_context(|| format!("cannot write `{}`", target.display()))?;
     draft.finish()
 }
 
@@ -120,27 +115,17 @@ mod tests {
         assert_eq!(count(&folder), 0);
         write(&target, b"sound").unwrap();
         write(&target, b"more").unwrap();
-        assert_eq!(
-            (fs::read(&target).unwrap(), count(&folder)),
-            (b"more".to_vec(), 1)
-        );
+        assert_eq!((fs::read(&target).unwrap(), count(&folder)), (b"more".to_vec(), 1));
         fs::remove_dir_all(folder).unwrap();
     }
 
     #[test]
     fn folders_devices_and_missing_folders_are_refused() {
         let folder = empty_folder("refused");
-        for target in [
-            folder.clone(),
-            folder.join("no/such/a.wav"),
-            PathBuf::from("/dev/null"),
-        ] {
+        for target in [folder.clone(), folder.join("no/such/a.wav"), PathBuf::from("/dev/null")] {
             let error = Draft::new(&target).unwrap_err();
             assert!(error.is::<crate::error::BadInput>(), "{error}");
-            assert!(
-                error.to_string().contains(&target.display().to_string()),
-                "{error}"
-            );
+            assert!(error.to_string().contains(&target.display().to_string()), "{error}");
         }
         assert_eq!(count(&folder), 0);
         fs::remove_dir_all(folder).unwrap();

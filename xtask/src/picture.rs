@@ -27,12 +27,8 @@ const WAVE: RGBColor = RGBColor(240, 170, 80);
 /// # Errors
 /// If drawing or encoding fails.
 pub fn png(title: &str, left: &[f32], right: &[f32], rate: u32) -> Result<Vec<u8>> {
-    register_font(
-        "sans-serif",
-        FontStyle::Normal,
-        epaint_default_fonts::UBUNTU_LIGHT,
-    )
-    .map_err(|_| anyhow!("the font cannot be used"))?;
+    register_font("sans-serif", FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT)
+        .map_err(|_| anyhow!("the font cannot be used"))?;
     let mut pixels = vec![0; (SIZE.0 * SIZE.1 * 3) as usize];
     {
         let area = BitMapBackend::with_buffer(&mut pixels, SIZE).into_drawing_area();
@@ -65,10 +61,8 @@ fn draw(
     let area = area.titled(title, ("sans-serif", 26).into_font().color(&INK))?;
     let (waves, below) = area.split_vertically(WAVES);
     let seconds = channels[0].len() as f64 / rate;
-    for (half, (name, channel)) in waves
-        .split_evenly((2, 1))
-        .iter()
-        .zip([("left", channels[0]), ("right", channels[1])])
+    for (half, (name, channel)) in
+        waves.split_evenly((2, 1)).iter().zip([("left", channels[0]), ("right", channels[1])])
     {
         draw_wave(half, name, channel, seconds)?;
     }
@@ -100,30 +94,17 @@ fn draw_wave(
         .draw()?;
     let columns = chart.plotting_area().dim_in_pixel().0 as usize;
     let per_column = samples.len().div_ceil(columns.max(1)).max(1);
-    chart.draw_series(
-        samples
-            .chunks(per_column)
-            .enumerate()
-            .map(|(column, chunk)| {
-                let time = (column * per_column) as f64 / samples.len().max(1) as f64 * seconds;
-                let least = chunk
-                    .iter()
-                    .fold(f32::INFINITY, |least, &sample| least.min(sample));
-                let most = chunk
-                    .iter()
-                    .fold(f32::NEG_INFINITY, |most, &sample| most.max(sample));
-                let ends = [(time, f64::from(least)), (time, f64::from(most))];
-                PathElement::new(ends.to_vec(), WAVE)
-            }),
-    )?;
+    chart.draw_series(samples.chunks(per_column).enumerate().map(|(column, chunk)| {
+        let time = (column * per_column) as f64 / samples.len().max(1) as f64 * seconds;
+        let least = chunk.iter().fold(f32::INFINITY, |least, &sample| least.min(sample));
+        let most = chunk.iter().fold(f32::NEG_INFINITY, |most, &sample| most.max(sample));
+        let ends = [(time, f64::from(least)), (time, f64::from(most))];
+        PathElement::new(ends.to_vec(), WAVE)
+    }))?;
     Ok(())
 }
 
-fn draw_spectrogram(
-    area: &Area,
-    channels: [&[f32]; 2],
-    rate: f64,
-) -> Result<(), Box<dyn std::error::Error>> {
+fn draw_spectrogram(area: &Area, channels: [&[f32]; 2], rate: f64) -> Result<(), Box<dyn std::error::Error>> {
     let seconds = channels[0].len() as f64 / rate;
     let mut chart = ChartBuilder::on(area)
         .margin(6)
@@ -141,9 +122,7 @@ fn draw_spectrogram(
         .draw()?;
     let plot = chart.plotting_area().strip_coord_spec();
     let (columns, rows) = plot.dim_in_pixel();
-    let mono: Vec<f32> = std::iter::zip(channels[0], channels[1])
-        .map(|(l, r)| l + r)
-        .collect();
+    let mono: Vec<f32> = std::iter::zip(channels[0], channels[1]).map(|(l, r)| l + r).collect();
     let spectrogram = Spectrogram::new(&mono, rate, columns as usize);
     let ratio = FREQUENCIES.end / FREQUENCIES.start;
     for row in 0..rows {
@@ -167,11 +146,7 @@ fn heat(level: f64) -> (u8, u8, u8) {
         (1.0, [255.0, 245.0, 215.0]),
     ];
     let level = level.clamp(0.0, 1.0);
-    let above = STOPS
-        .iter()
-        .position(|stop| stop.0 >= level)
-        .unwrap_or(STOPS.len() - 1)
-        .max(1);
+    let above = STOPS.iter().position(|stop| stop.0 >= level).unwrap_or(STOPS.len() - 1).max(1);
     let ((from, low), (to, high)) = (STOPS[above - 1], STOPS[above]);
     let share = (level - from) / (to - from);
     let mix = |index: usize| (low[index] + share * (high[index] - low[index])).round() as u8;

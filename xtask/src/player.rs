@@ -95,10 +95,7 @@ impl Source {
                 instance.set_offline()?;
                 instance.set_parameters(&values)?;
                 instance.run(f64::from(setup.rate), 1..=LONGEST_BLOCK, |processor| {
-                    work(&mut ClapPlayer {
-                        processor,
-                        events: Vec::new(),
-                    })
+                    work(&mut ClapPlayer { processor, events: Vec::new() })
                 })
             }
         }
@@ -118,9 +115,7 @@ impl EnginePlayer {
             performer.set_parameter(index, value);
         }
         let options = BuildOptions::new(rate);
-        let ids = PieceId::KIT
-            .into_iter()
-            .filter(|id| setup.only.is_none_or(|only| only == *id));
+        let ids = PieceId::KIT.into_iter().filter(|id| setup.only.is_none_or(|only| only == *id));
         for id in ids {
             let piece = Piece::new(id, &options).map_err(|error| bad_input!("{error}"))?;
             performer.install(Box::new(piece));
@@ -135,12 +130,10 @@ impl Player for EnginePlayer {
         for hit in hits {
             let at = hit.sample as usize;
             if at > now {
-                self.performer
-                    .render(&mut left[now..at], &mut right[now..at]);
+                self.performer.render(&mut left[now..at], &mut right[now..at]);
                 now = at;
             }
-            self.performer
-                .note_on(hit.key, velocity_from_midi(hit.velocity), hit.channel);
+            self.performer.note_on(hit.key, velocity_from_midi(hit.velocity), hit.channel);
         }
         if now < left.len() {
             self.performer.render(&mut left[now..], &mut right[now..]);
@@ -239,14 +232,8 @@ impl Take {
         blocks: Blocks,
         mut sink: impl FnMut(&[f32], &[f32]) -> Result<()>,
     ) -> Result<Played> {
-        let mut played = Played {
-            finite: true,
-            ..Played::default()
-        };
-        let mut buffers = [
-            vec![0.0; LONGEST_BLOCK as usize],
-            vec![0.0; LONGEST_BLOCK as usize],
-        ];
+        let mut played = Played { finite: true, ..Played::default() };
+        let mut buffers = [vec![0.0; LONGEST_BLOCK as usize], vec![0.0; LONGEST_BLOCK as usize]];
         let [left, right] = &mut buffers;
         let (mut start, mut next, mut inside) = (0, 0, Vec::new());
         for length in blocks.lengths() {
@@ -257,16 +244,11 @@ impl Take {
             let later = self.hits[next..].iter().position(|hit| hit.sample >= end);
             let last = later.map_or(self.hits.len(), |count| next + count);
             inside.clear();
-            inside.extend(self.hits[next..last].iter().map(|hit| Hit {
-                sample: hit.sample - start,
-                ..*hit
-            }));
+            inside.extend(self.hits[next..last].iter().map(|hit| Hit { sample: hit.sample - start, ..*hit }));
             let frames = (end - start) as usize;
             let (left, right) = (&mut left[..frames], &mut right[..frames]);
             let begun = Instant::now();
-            player
-                .render(&inside, left, right)
-                .with_context(|| format!("at sample {start}"))?;
+            player.render(&inside, left, right).with_context(|| format!("at sample {start}"))?;
             played.busy += begun.elapsed();
             for &sample in left.iter().chain(right.iter()) {
                 played.peak = played.peak.max(sample.abs());
@@ -301,16 +283,8 @@ mod tests {
     }
 
     fn ruled(blocks: Blocks) -> Vec<f32> {
-        let hit = |sample| Hit {
-            sample,
-            channel: 9,
-            key: 36,
-            velocity: 1,
-        };
-        let take = Take {
-            hits: [0, 16, 17, 17, 99].map(hit).to_vec(),
-            frames: 100,
-        };
+        let hit = |sample| Hit { sample, channel: 9, key: 36, velocity: 1 };
+        let take = Take { hits: [0, 16, 17, 17, 99].map(hit).to_vec(), frames: 100 };
         let mut all = Vec::new();
         let played = take.play(&mut Ruler(0), blocks, |left, right| {
             assert_eq!(left, right);
@@ -325,10 +299,7 @@ mod tests {
     fn every_cut_gives_every_note_its_sample() {
         let whole = ruled(Blocks::Fixed(8192));
         assert_eq!(whole.len(), 100);
-        assert_eq!(
-            (whole[15], whole[16], whole[17], whole[99]),
-            (15.0, 1016.0, 2017.0, 1099.0)
-        );
+        assert_eq!((whole[15], whole[16], whole[17], whole[99]), (15.0, 1016.0, 2017.0, 1099.0));
         for blocks in [Blocks::Fixed(1), Blocks::Fixed(17), Blocks::Random] {
             assert_eq!(ruled(blocks), whole, "{blocks:?}");
         }

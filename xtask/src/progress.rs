@@ -21,24 +21,12 @@ impl Progress {
     /// Starts at nothing of `total`.
     pub fn new(label: impl Into<String>, total: u64) -> Progress {
         let visible = std::io::stderr().is_terminal();
-        Progress {
-            label: label.into(),
-            total,
-            done: 0,
-            shown: None,
-            visible,
-        }
+        Progress { label: label.into(), total, done: 0, shown: None, visible }
     }
 
     /// A line that is never written.
     pub fn hidden() -> Progress {
-        Progress {
-            label: String::new(),
-            total: 0,
-            done: 0,
-            shown: None,
-            visible: false,
-        }
+        Progress { label: String::new(), total: 0, done: 0, shown: None, visible: false }
     }
 
     /// Counts on.

@@ -77,11 +77,9 @@ pub fn run(request: &Request) -> Result<()> {
             errors
         };
         let threads: Vec<_> = (0..workers).map(|_| scope.spawn(work)).collect();
-        let joined = threads.into_iter().map(|thread| {
-            thread
-                .join()
-                .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
-        });
+        let joined = threads
+            .into_iter()
+            .map(|thread| thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
         joined.flatten().collect::<Vec<_>>()
     });
     let failed = errors.len();
@@ -120,13 +118,8 @@ fn songs(inputs: &[PathBuf]) -> Result<Vec<PathBuf>> {
 }
 
 fn is_midi(path: &Path) -> bool {
-    let extension = path
-        .extension()
-        .and_then(|extension| extension.to_str())
-        .unwrap_or_default();
-    ["mid", "midi", "smf", "rmi"]
-        .iter()
-        .any(|known| extension.eq_ignore_ascii_case(known))
+    let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
+    ["mid", "midi", "smf", "rmi"].iter().any(|known| extension.eq_ignore_ascii_case(known))
 }
 
 /// Which song becomes which files.
@@ -157,18 +150,8 @@ fn jobs(request: &Request, songs: &[PathBuf], many: bool) -> Result<Vec<Job>> {
                 output.display(),
             ));
         }
-        let stems = request.stems.as_ref().map(|stems| {
-            if many {
-                stems.join(name)
-            } else {
-                stems.clone()
-            }
-        });
-        jobs.push(Job {
-            song: song.clone(),
-            output,
-            stems,
-        });
+        let stems = request.stems.as_ref().map(|stems| if many { stems.join(name) } else { stems.clone() });
+        jobs.push(Job { song: song.clone(), output, stems });
     }
     Ok(jobs)
 }

@@ -17,10 +17,7 @@ const PRESETS: [&str; 1] = ["default"];
 /// # Errors
 /// [`BadInput`](crate::error::BadInput) with the value and what is accepted.
 pub fn parse(assignments: &[String]) -> Result<Vec<Setting>> {
-    assignments
-        .iter()
-        .map(|text| parse_assignment(text).map_err(|error| bad_input!("{error}")))
-        .collect()
+    assignments.iter().map(|text| parse_assignment(text).map_err(|error| bad_input!("{error}"))).collect()
 }
 
 /// Checks the value of `--preset`.
@@ -31,10 +28,7 @@ pub fn check_preset(name: &str) -> Result<()> {
     if PRESETS.contains(&name) {
         Ok(())
     } else {
-        Err(bad_input!(
-            "no preset is called `{name}`, accepted: {}",
-            PRESETS.join(", ")
-        ))
+        Err(bad_input!("no preset is called `{name}`, accepted: {}", PRESETS.join(", ")))
     }
 }
 
@@ -78,9 +72,7 @@ pub fn parse_for_piece(id: PieceId, assignments: &[String]) -> Result<Vec<PieceS
         .iter()
         .map(|text| {
             let Some((name, value)) = text.split_once('=') else {
-                return Err(bad_input!(
-                    "`{text}` is not of the form name=value, as in kick_tune=60"
-                ));
+                return Err(bad_input!("`{text}` is not of the form name=value, as in kick_tune=60"));
             };
             let [tune, muffle] = &accepted;
             let name = name.trim();
@@ -93,9 +85,7 @@ pub fn parse_for_piece(id: PieceId, assignments: &[String]) -> Result<Vec<PieceS
                     muffle.name,
                 ));
             };
-            let value = parameter
-                .parse(value)
-                .map_err(|error| bad_input!("{error}"))?;
+            let value = parameter.parse(value).map_err(|error| bad_input!("{error}"))?;
             let value = f64::from(value);
             Ok(if parameter.name == muffle.name {
                 PieceSetting::Muffling(value)
@@ -111,12 +101,7 @@ pub fn parse_for_piece(id: PieceId, assignments: &[String]) -> Result<Vec<PieceS
 
 /// Tuning and muffling of a piece.
 fn piece_parameters(id: PieceId) -> [Parameter; 2] {
-    let find = |name: &str| {
-        PARAMETERS
-            .iter()
-            .copied()
-            .find(|parameter| parameter.name == name)
-    };
+    let find = |name: &str| PARAMETERS.iter().copied().find(|parameter| parameter.name == name);
     let prefix = id.name().replace('-', "_");
     let named = |what: &str| find(&format!("{prefix}_{what}"));
     match (named("tune"), named("muffle")) {
@@ -132,18 +117,8 @@ fn timpani_parameters() -> [Parameter; 2] {
     let (min, default, max) = Piece::tuning_range(PieceId::Timpani);
     let (min, default, max) = (min as f32, default as f32, max as f32);
     [
-        Parameter {
-            name: "timpani_tune",
-            min,
-            default,
-            max,
-            centre: default,
-            ..tune
-        },
-        Parameter {
-            name: "timpani_muffle",
-            ..muffle
-        },
+        Parameter { name: "timpani_tune", min, default, max, centre: default, ..tune },
+        Parameter { name: "timpani_muffle", ..muffle },
     ]
 }
 
@@ -152,41 +127,25 @@ mod tests {
     use super::*;
 
     fn error(id: PieceId, text: &str) -> String {
-        parse_for_piece(id, &[text.to_owned()])
-            .unwrap_err()
-            .to_string()
+        parse_for_piece(id, &[text.to_owned()]).unwrap_err().to_string()
     }
 
     #[test]
     fn every_piece_takes_its_tuning_and_muffling() {
         for id in PieceId::ALL {
             let prefix = id.name().replace('-', "_");
-            let default = if id.is_drum() {
-                Piece::tuning_range(id).1
-            } else {
-                0.0
-            };
-            let assignments = [
-                format!("{prefix}_tune={default}"),
-                format!("{prefix}_muffle=.25"),
-            ];
+            let default = if id.is_drum() { Piece::tuning_range(id).1 } else { 0.0 };
+            let assignments = [format!("{prefix}_tune={default}"), format!("{prefix}_muffle=.25")];
             let settings = parse_for_piece(id, &assignments).unwrap();
-            let PieceSetting::Tuning(tuning) = settings[0] else {
-                panic!("{settings:?}")
-            };
-            assert!(
-                (tuning / Piece::tuning_range(id).1 - 1.0).abs() < 1e-4,
-                "{id:?}: {tuning}"
-            );
+            let PieceSetting::Tuning(tuning) = settings[0] else { panic!("{settings:?}") };
+            assert!((tuning / Piece::tuning_range(id).1 - 1.0).abs() < 1e-4, "{id:?}: {tuning}");
             assert_eq!(settings[1], PieceSetting::Muffling(0.25));
         }
     }
 
     #[test]
     fn what_does_not_act_on_the_piece_is_refused() {
-        assert!(
-            error(PieceId::Kick, "master_level=0").ends_with("accepted: kick_tune, kick_muffle")
-        );
+        assert!(error(PieceId::Kick, "master_level=0").ends_with("accepted: kick_tune, kick_muffle"));
         assert!(error(PieceId::Timpani, "kick_tune=60").contains("timpani_tune"));
         assert_eq!(
             error(PieceId::Timpani, "timpani_tune=20"),
@@ -198,11 +157,6 @@ mod tests {
     #[test]
     fn only_the_default_preset_is_known() {
         assert!(check_preset("default").is_ok());
-        assert!(
-            check_preset("jazz")
-                .unwrap_err()
-                .to_string()
-                .contains("accepted: default")
-        );
+        assert!(check_preset("jazz").unwrap_err().to_string().contains("accepted: default"));
     }
 }

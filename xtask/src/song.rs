@@ -50,8 +50,8 @@ impl Song {
     /// # Errors
     /// [`BadInput`](crate::error::BadInput) with the path if it is missing or broken.
     pub fn read(path: &Path) -> Result<Song> {
-        let bytes = std::fs::read(path)
-            .map_err(|error| bad_input!("cannot read `{}`: {error}", path.display()))?;
+        let bytes =
+            std::fs::read(path).map_err(|error| bad_input!("cannot read `{}`: {error}", path.display()))?;
         Song::parse(&bytes)
             .map_err(|reason| bad_input!("`{}` is not a whole MIDI file: {reason}", path.display()))
     }
@@ -61,21 +61,14 @@ impl Song {
     /// # Errors
     /// What is broken, in a few words.
     pub fn parse(bytes: &[u8]) -> Result<Song, String> {
-        let Chunks {
-            timing,
-            sequential,
-            tracks,
-        } = Chunks::parse(bytes)?;
+        let Chunks { timing, sequential, tracks } = Chunks::parse(bytes)?;
         let base = TimeBase::new(timing)?;
         let tracks = tracks
             .iter()
             .enumerate()
             .map(|(index, track)| read_track(index + 1, track))
             .collect::<Result<Vec<_>, _>>()?;
-        let mut song = Song {
-            notes: Vec::new(),
-            unit: base.unit,
-        };
+        let mut song = Song { notes: Vec::new(), unit: base.unit };
         if sequential {
             let mut start = 0;
             for track in &tracks {
@@ -98,17 +91,8 @@ impl Song {
             tick = event.tick;
             match event.what {
                 What::Tempo(new) => tempo = new,
-                What::Note {
-                    channel,
-                    key,
-                    velocity,
-                } => {
-                    self.notes.push(Note {
-                        time,
-                        channel,
-                        key,
-                        velocity,
-                    });
+                What::Note { channel, key, velocity } => {
+                    self.notes.push(Note { time, channel, key, velocity });
                 }
                 What::End => {}
             }
@@ -124,9 +108,7 @@ impl Song {
 
     /// Time of the last note, seconds; nothing in a file without notes.
     pub fn last_note(&self) -> Option<f64> {
-        self.notes
-            .last()
-            .map(|note| note.time as f64 / self.unit as f64)
+        self.notes.last().map(|note| note.time as f64 / self.unit as f64)
     }
 }
 
@@ -184,20 +166,12 @@ fn read_track(number: usize, bytes: &[u8]) -> Result<Vec<TrackEvent>, String> {
         tick += u64::from(event.delta.as_int());
         let what = match event.kind {
             // A velocity of nothing is another way to end a note.
-            TrackEventKind::Midi {
-                channel,
-                message: MidiMessage::NoteOn { key, vel },
-            } if vel > 0 => What::Note {
-                channel: channel.as_int(),
-                key: key.as_int(),
-                velocity: vel.as_int(),
-            },
+            TrackEventKind::Midi { channel, message: MidiMessage::NoteOn { key, vel } } if vel > 0 => {
+                What::Note { channel: channel.as_int(), key: key.as_int(), velocity: vel.as_int() }
+            }
             TrackEventKind::Meta(MetaMessage::Tempo(tempo)) => What::Tempo(tempo.as_int()),
             TrackEventKind::Meta(MetaMessage::EndOfTrack) => {
-                events.push(TrackEvent {
-                    tick,
-                    what: What::End,
-                });
+                events.push(TrackEvent { tick, what: What::End });
                 return Ok(events);
             }
             _ => continue,
@@ -206,15 +180,9 @@ fn read_track(number: usize, bytes: &[u8]) -> Result<Vec<TrackEvent>, String> {
     }
     // The parser ends a track quietly at the first event it cannot read.
     if read < bytes.len() {
-        return Err(format!(
-            "track {number} breaks off at byte {read} of {}",
-            bytes.len()
-        ));
+        return Err(format!("track {number} breaks off at byte {read} of {}", bytes.len()));
     }
-    events.push(TrackEvent {
-        tick,
-        what: What::End,
-    });
+    events.push(TrackEvent { tick, what: What::End });
     Ok(events)
 }
 

@@ -36,24 +36,12 @@ pub fn run() -> Result<()> {
     let python = setup::run(&target)?;
 
     let mut fmt = workspace::cargo();
-    check(
-        &mut tally,
-        "formatting",
-        fmt.args(["fmt", "--all", "--check"]),
-    );
+    check(&mut tally, "formatting", fmt.args(["fmt", "--all", "--check"]));
     let mut clippy = workspace::cargo();
-    clippy.args([
-        "clippy",
-        "--workspace",
-        "--all-targets",
-        "--",
-        "-D",
-        "warnings",
-    ]);
+    clippy.args(["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]);
     check(&mut tally, "lints", &mut clippy);
     let mut doc = workspace::cargo();
-    doc.args(["doc", "--workspace", "--no-deps"])
-        .env("RUSTDOCFLAGS", "-D warnings");
+    doc.args(["doc", "--workspace", "--no-deps"]).env("RUSTDOCFLAGS", "-D warnings");
     check(&mut tally, "documentation", &mut doc);
 
     runner::heading("release bundles");
@@ -74,14 +62,7 @@ pub fn run() -> Result<()> {
     tests(&mut tally, "tests", &mut all);
     if workspace::root().join("tests/tests/realtime.rs").exists() {
         let mut realtime = workspace::cargo();
-        realtime.args([
-            "test",
-            "--release",
-            "--package",
-            "overhear-tests",
-            "--test",
-            "realtime",
-        ]);
+        realtime.args(["test", "--release", "--package", "overhear-tests", "--test", "realtime"]);
         tests(&mut tally, "real-time tests in release", &mut realtime);
     }
     drop(display);

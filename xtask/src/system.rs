@@ -28,34 +28,18 @@ pub const LINKER: Need = Need {
 };
 
 /// A display server without a display.
-pub const XVFB: Need = Need {
-    what: "a virtual display (Xvfb)",
-    present: || program("Xvfb").is_some(),
-    packages: &["xvfb"],
-};
+pub const XVFB: Need =
+    Need { what: "a virtual display (Xvfb)", present: || program("Xvfb").is_some(), packages: &["xvfb"] };
 
 /// What the editor opens when it is shown.
 pub const WINDOW_LIBRARIES: Need = Need {
     what: "the X11 and OpenGL libraries of the editor",
     present: || {
-        [
-            "libX11.so.6",
-            "libX11-xcb.so.1",
-            "libxcb.so.1",
-            "libGL.so.1",
-            "libXcursor.so.1",
-        ]
-        .iter()
-        .all(|name| library(name))
+        ["libX11.so.6", "libX11-xcb.so.1", "libxcb.so.1", "libGL.so.1", "libXcursor.so.1"]
+            .iter()
+            .all(|name| library(name))
     },
-    packages: &[
-        "libx11-6",
-        "libx11-xcb1",
-        "libxcb1",
-        "libgl1",
-        "libgl1-mesa-dri",
-        "libxcursor1",
-    ],
+    packages: &["libx11-6", "libx11-xcb1", "libxcb1", "libgl1", "libgl1-mesa-dri", "libxcursor1"],
 };
 
 /// Python with virtual environments.
@@ -72,11 +56,7 @@ pub const PYTHON: Need = Need {
 /// What the VST3 host of the tests is linked with.
 pub const HOST_LIBRARIES: Need = Need {
     what: "the libraries of the VST3 test host (DawDreamer)",
-    present: || {
-        ["libfreetype.so.6", "libasound.so.2"]
-            .iter()
-            .all(|name| library(name))
-    },
+    present: || ["libfreetype.so.6", "libasound.so.2"].iter().all(|name| library(name)),
     packages: &["libfreetype6", "libasound2"],
 };
 
@@ -89,16 +69,8 @@ pub fn ensure(needs: &[Need]) -> Result<()> {
     if missing.is_empty() {
         return Ok(());
     }
-    let what = missing
-        .iter()
-        .map(|need| need.what)
-        .collect::<Vec<_>>()
-        .join(", ");
-    let packages: Vec<_> = missing
-        .iter()
-        .flat_map(|need| need.packages)
-        .copied()
-        .collect();
+    let what = missing.iter().map(|need| need.what).collect::<Vec<_>>().join(", ");
+    let packages: Vec<_> = missing.iter().flat_map(|need| need.packages).copied().collect();
     let list = packages.join(" ");
     if program("apt-get").is_none() {
         bail!("missing: {what}; install what your system calls {list}");
@@ -109,13 +81,7 @@ pub fn ensure(needs: &[Need]) -> Result<()> {
     eprintln!("installing {list}, for {what}");
     // The lists of a fresh machine are empty or old.
     apt_get(&["update", "-q"])?;
-    apt_get(
-        &[
-            &["install", "-y", "-q", "--no-install-recommends"],
-            &packages[..],
-        ]
-        .concat(),
-    )?;
+    apt_get(&[&["install", "-y", "-q", "--no-install-recommends"], &packages[..]].concat())?;
     match needs.iter().find(|need| !(need.present)()) {
         None => Ok(()),
         Some(need) => bail!("still missing after installing {list}: {}", need.what),
@@ -138,31 +104,23 @@ fn apt_get(arguments: &[&str]) -> Result<()> {
 /// Where a program lies, if it is in the search path.
 pub fn program(name: &str) -> Option<PathBuf> {
     let folders = env::var_os("PATH")?;
-    env::split_paths(&folders)
-        .map(|folder| folder.join(name))
-        .find(|path| path.is_file())
+    env::split_paths(&folders).map(|folder| folder.join(name)).find(|path| path.is_file())
 }
 
 /// Whether the dynamic loader knows a library.
 fn library(name: &str) -> bool {
     let loader = ["/sbin/ldconfig", "/usr/sbin/ldconfig", "ldconfig"];
     loader.iter().any(|ldconfig| {
-        Command::new(ldconfig)
-            .arg("-p")
-            .output()
-            .is_ok_and(|output| {
-                String::from_utf8_lossy(&output.stdout)
-                    .lines()
-                    .any(|line| line.split_whitespace().next() == Some(name))
-            })
+        Command::new(ldconfig).arg("-p").output().is_ok_and(|output| {
+            String::from_utf8_lossy(&output.stdout)
+                .lines()
+                .any(|line| line.split_whitespace().next() == Some(name))
+        })
     })
 }
 
 fn is_root() -> bool {
-    Command::new("id")
-        .arg("-u")
-        .output()
-        .is_ok_and(|output| output.stdout.trim_ascii() == b"0")
+    Command::new("id").arg("-u").output().is_ok_and(|output| output.stdout.trim_ascii() == b"0")
 }
 
 /// Whether a command succeeds, whatever it says.

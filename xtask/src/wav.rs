@@ -34,12 +34,7 @@ impl Bits {
             Bits::Int24 => (24, SampleFormat::Int),
             Bits::Float32 => (32, SampleFormat::Float),
         };
-        WavSpec {
-            channels,
-            sample_rate: rate,
-            bits_per_sample,
-            sample_format,
-        }
+        WavSpec { channels, sample_rate: rate, bits_per_sample, sample_format }
     }
 }
 
@@ -60,13 +55,7 @@ impl WavFile {
     ///
     /// # Errors
     /// [`BadInput`](crate::error::BadInput) if it cannot be written or does not fit the format.
-    pub fn create(
-        target: &Path,
-        bits: Bits,
-        rate: u32,
-        channels: u16,
-        frames: u64,
-    ) -> Result<WavFile> {
+    pub fn create(target: &Path, bits: Bits, rate: u32, channels: u16, frames: u64) -> Result<WavFile> {
         let spec = bits.spec(rate, channels);
         let frame = u64::from(channels) * u64::from(spec.bits_per_sample / 8);
         if frames.saturating_mul(frame) > LARGEST {
@@ -81,13 +70,7 @@ impl WavFile {
         let draft = Draft::new(target)?;
         let writer = hound::WavWriter::create(draft.path(), spec)
             .with_context(|| format!("cannot write `{}`", target.display()))?;
-        Ok(WavFile {
-            target: target.to_path_buf(),
-            draft,
-            writer,
-            bits,
-            clipped: 0,
-        })
+        Ok(WavFile { target: target.to_path_buf(), draft, writer, bits, clipped: 0 })
     }
 
     /// Appends samples, full scale 1: `[channel][frame]`, all channels of one length.
@@ -122,16 +105,8 @@ impl WavFile {
     /// # Errors
     /// If the disk refuses.
     pub fn finish(self) -> Result<u64> {
-        let WavFile {
-            target,
-            draft,
-            writer,
-            clipped,
-            ..
-        } = self;
-        writer
-            .finalize()
-            .with_context(|| format!("cannot write `{}`", target.display()))?;
+        let WavFile { target, draft, writer, clipped, .. } = self;
+        writer.finalize().with_context(|| format!("cannot write `{}`", target.display()))?;
         draft.finish()?;
         Ok(clipped)
     }
@@ -142,8 +117,8 @@ impl WavFile {
 /// # Errors
 /// If it cannot be read or holds integers.
 pub fn read_float(path: &Path) -> Result<(u32, Vec<Vec<f32>>)> {
-    let mut reader = hound::WavReader::open(path)
-        .with_context(|| format!("cannot read `{}`", path.display()))?;
+    let mut reader =
+        hound::WavReader::open(path).with_context(|| format!("cannot read `{}`", path.display()))?;
     let spec = reader.spec();
     let mut channels = vec![Vec::new(); usize::from(spec.channels)];
     for (index, sample) in reader.samples::<f32>().enumerate() {
@@ -168,10 +143,7 @@ mod tests {
         let mut file = WavFile::create(&path, Bits::Float32, 44_100, 2, 3).unwrap();
         file.write(&[&left, &right]).unwrap();
         assert_eq!(file.finish().unwrap(), 0);
-        assert_eq!(
-            read_float(&path).unwrap(),
-            (44_100, vec![left.to_vec(), right.to_vec()])
-        );
+        assert_eq!(read_float(&path).unwrap(), (44_100, vec![left.to_vec(), right.to_vec()]));
         std::fs::remove_file(path).unwrap();
     }
 
@@ -190,13 +162,8 @@ mod tests {
     #[test]
     fn a_file_too_long_for_the_format_is_refused_at_once() {
         let path = scratch("long");
-        let error = WavFile::create(&path, Bits::Float32, 48_000, 2, 1 << 40)
-            .err()
-            .unwrap();
-        assert!(
-            error.to_string().contains("accepted: up to 11184 s"),
-            "{error}"
-        );
+        let error = WavFile::create(&path, Bits::Float32, 48_000, 2, 1 << 40).err().unwrap();
+        assert!(error.to_string().contains("accepted: up to 11184 s"), "{error}");
         assert!(!path.exists());
     }
 }

@@ -64,9 +64,7 @@ pub fn target_dir() -> Result<PathBuf> {
         .context("cannot run cargo metadata")?;
     let metadata: serde_json::Value =
         serde_json::from_slice(&output.stdout).context("cargo metadata gave no JSON")?;
-    let folder = metadata["target_directory"]
-        .as_str()
-        .context("cargo names no target folder")?;
+    let folder = metadata["target_directory"].as_str().context("cargo names no target folder")?;
     Ok(PathBuf::from(folder))
 }
 

@@ -79,12 +79,7 @@ const fn drum_tune(
     }
 }
 
-const fn cymbal_tune(
-    piece: PieceId,
-    group: &'static str,
-    id: &'static str,
-    name: &'static str,
-) -> Parameter {
+const fn cymbal_tune(piece: PieceId, group: &'static str, id: &'static str, name: &'static str) -> Parameter {
     Parameter {
         id,
         name,
@@ -101,12 +96,7 @@ const fn cymbal_tune(
     }
 }
 
-const fn muffle(
-    piece: PieceId,
-    group: &'static str,
-    id: &'static str,
-    name: &'static str,
-) -> Parameter {
+const fn muffle(piece: PieceId, group: &'static str, id: &'static str, name: &'static str) -> Parameter {
     Parameter {
         id,
         name,
@@ -123,12 +113,7 @@ const fn muffle(
     }
 }
 
-const fn level(
-    piece: PieceId,
-    group: &'static str,
-    id: &'static str,
-    name: &'static str,
-) -> Parameter {
+const fn level(piece: PieceId, group: &'static str, id: &'static str, name: &'static str) -> Parameter {
     Parameter { id, name, label: "Level", group, ..decibels(Control::Level(piece)) }
 }
 

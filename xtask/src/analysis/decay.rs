@@ -9,9 +9,7 @@
 use realfft::RealFftPlanner;
 
 /// Centres of the bands, Hz.
-pub const OCTAVES: [f64; 10] = [
-    31.5, 63.0, 125.0, 250.0, 500.0, 1000.0, 2000.0, 4000.0, 8000.0, 16_000.0,
-];
+pub const OCTAVES: [f64; 10] = [31.5, 63.0, 125.0, 250.0, 500.0, 1000.0, 2000.0, 4000.0, 8000.0, 16_000.0];
 
 /// Start of the fitted stretch, dB below the whole.
 const FROM_DB: f64 = -5.0;
@@ -30,10 +28,7 @@ const LEAST_BANDWIDTH_TIMES_T60: f64 = 4.0;
 pub fn octave_decays(samples: &[f32], rate: f64) -> [Option<f64>; OCTAVES.len()] {
     let size = (2 * samples.len()).max(16).next_power_of_two();
     let mut planner = RealFftPlanner::<f64>::new();
-    let (forward, inverse) = (
-        planner.plan_fft_forward(size),
-        planner.plan_fft_inverse(size),
-    );
+    let (forward, inverse) = (planner.plan_fft_forward(size), planner.plan_fft_inverse(size));
     let mut input = forward.make_input_vec();
     for (place, &sample) in input.iter_mut().zip(samples) {
         *place = f64::from(sample);
@@ -55,10 +50,8 @@ pub fn octave_decays(samples: &[f32], rate: f64) -> [Option<f64>; OCTAVES.len()]
         let mut output = inverse.make_output_vec();
         inverse.process(&mut band, &mut output).ok()?;
         let scale = 1.0 / size as f64;
-        let energy: Vec<f64> = output[..samples.len()]
-            .iter()
-            .map(|sample| (sample * scale).powi(2))
-            .collect();
+        let energy: Vec<f64> =
+            output[..samples.len()].iter().map(|sample| (sample * scale).powi(2)).collect();
         if energy.iter().sum::<f64>() < LEAST_SHARE * total {
             return None;
         }
@@ -145,22 +138,13 @@ mod tests {
 
     #[test]
     fn each_octave_gives_the_decay_of_what_rings_in_it() {
-        let partials = [
-            (31.5, 2.0),
-            (63.0, 1.5),
-            (250.0, 0.8),
-            (1000.0, 0.5),
-            (4000.0, 0.2),
-            (16_000.0, 0.1),
-        ];
+        let partials =
+            [(31.5, 2.0), (63.0, 1.5), (250.0, 0.8), (1000.0, 0.5), (4000.0, 0.2), (16_000.0, 0.1)];
         let decays = octave_decays(&ringing(&partials, 3.0), RATE);
         for (centre, t60) in partials {
             let band = OCTAVES.iter().position(|octave| *octave == centre).unwrap();
             let found = decays[band].unwrap();
-            assert!(
-                (found / t60 - 1.0).abs() < 0.03,
-                "{centre} Hz: {found} for {t60}"
-            );
+            assert!((found / t60 - 1.0).abs() < 0.03, "{centre} Hz: {found} for {t60}");
         }
     }
 
@@ -180,10 +164,7 @@ mod tests {
         assert_eq!((decays[1], decays[9]), (None, None));
         assert_eq!(octave_decays(&[0.0; 4800], RATE), [None; 10]);
         assert_eq!(octave_decays(&[], RATE), [None; 10]);
-        assert_eq!(
-            octave_decays(&ringing(&[(1000.0, 1e9)], 1.0), RATE),
-            [None; 10]
-        );
+        assert_eq!(octave_decays(&ringing(&[(1000.0, 1e9)], 1.0), RATE), [None; 10]);
     }
 
     #[test]

@@ -77,10 +77,7 @@ mod tests {
     #[test]
     fn too_little_sound_gives_no_figure() {
         assert_eq!(glide_cents(&[0.0; 48_000], RATE, 100.0), None);
-        assert_eq!(
-            glide_cents(&gliding(0.0, 1.0, 8.0)[..9600], RATE, 100.0),
-            None
-        );
+        assert_eq!(glide_cents(&gliding(0.0, 1.0, 8.0)[..9600], RATE, 100.0), None);
         assert_eq!(glide_cents(&gliding(0.0, 1.0, 60.0), RATE, 100.0), None);
         assert_eq!(glide_cents(&gliding(0.0, 1.0, 8.0), RATE, 20.0), None);
     }

@@ -54,10 +54,7 @@ impl Spectrum {
         let transformed = fft.process(&mut input, &mut output);
         debug_assert!(transformed.is_ok());
         let magnitudes = output.iter().map(|bin| bin.norm()).collect();
-        Spectrum {
-            magnitudes,
-            spacing: rate / size as f64,
-        }
+        Spectrum { magnitudes, spacing: rate / size as f64 }
     }
 
     fn bins(&self, from: f64, to: f64) -> std::ops::Range<usize> {
@@ -82,11 +79,7 @@ impl Spectrum {
         let log = |bin: usize| self.magnitudes[bin].max(f64::MIN_POSITIVE).ln();
         let (before, at, after) = (log(bin - 1), log(bin), log(bin + 1));
         let curvature = before - 2.0 * at + after;
-        if curvature < 0.0 {
-            (0.5 * (before - after) / curvature).clamp(-0.5, 0.5)
-        } else {
-            0.0
-        }
+        if curvature < 0.0 { (0.5 * (before - after) / curvature).clamp(-0.5, 0.5) } else { 0.0 }
     }
 
     /// Frequency of the strongest audible peak, Hz.

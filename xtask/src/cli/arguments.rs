@@ -194,14 +194,7 @@ impl HearArguments {
         options.lossless = self.lossless;
         options.unsplit = self.unsplit;
         let settings = settings::parse_for_piece(piece, &self.set)?;
-        Ok(hear::Request {
-            piece,
-            strike,
-            settings,
-            options,
-            seconds: self.seconds,
-            wav: self.wav,
-        })
+        Ok(hear::Request { piece, strike, settings, options, seconds: self.seconds, wav: self.wav })
     }
 }
 
@@ -222,13 +215,10 @@ pub struct ModesArguments {
 }
 
 fn rate(text: &str) -> Result<u32, String> {
-    text.parse()
-        .ok()
-        .filter(|&rate: &i64| RATES.contains(&rate))
-        .map_or_else(
-            || Err(format!("accepted: {} to {} Hz", RATES.start(), RATES.end())),
-            |rate| u32::try_from(rate).map_err(|error| error.to_string()),
-        )
+    text.parse().ok().filter(|&rate: &i64| RATES.contains(&rate)).map_or_else(
+        || Err(format!("accepted: {} to {} Hz", RATES.start(), RATES.end())),
+        |rate| u32::try_from(rate).map_err(|error| error.to_string()),
+    )
 }
 
 /// A number from `least` (left out if `open`) to `most`.

@@ -27,18 +27,10 @@ const PICKUP: Bar = &[
 ];
 
 /// Time on the ride's bow.
-const A: Bar = &[
-    (RIDE, "x.-.o.--x.-.o.-."),
-    (SNARE, ".g.gX..g.g.gX.g."),
-    (KICK, "x.....x.x.o....."),
-];
+const A: Bar = &[(RIDE, "x.-.o.--x.-.o.-."), (SNARE, ".g.gX..g.g.gX.g."), (KICK, "x.....x.x.o.....")];
 
 /// The same with the kick displaced.
-const A_ANSWER: Bar = &[
-    (RIDE, "x.-.o.-.x.--o.-."),
-    (SNARE, ".g..X.gg.g..X..g"),
-    (KICK, "x..o....x.x..o.."),
-];
+const A_ANSWER: Bar = &[(RIDE, "x.-.o.-.x.--o.-."), (SNARE, ".g..X.gg.g..X..g"), (KICK, "x..o....x.x..o..")];
 
 /// Ends four bars: the last beat goes down the toms.
 const A_TURN: Bar = &[
@@ -59,11 +51,7 @@ const A_FILL: Bar = &[
 ];
 
 /// Time on the bell, a busier foot.
-const B: Bar = &[
-    (RIDE_BELL, "X.-.x.-.X.-.x.-."),
-    (SNARE, "..ggX.g..g.gX.gg"),
-    (KICK, "x..x..x..xx...x."),
-];
+const B: Bar = &[(RIDE_BELL, "X.-.x.-.X.-.x.-."), (SNARE, "..ggX.g..g.gX.gg"), (KICK, "x..x..x..xx...x.")];
 
 /// The same with bow between the bells and a splash.
 const B_ANSWER: Bar = &[
@@ -84,11 +72,8 @@ const B_TURN: Bar = &[
 ];
 
 /// Ends the B: a roll that grows.
-const B_FILL: Bar = &[
-    (SNARE, "gggg----ooooxxXX"),
-    (FLOOR_TOM, "............X.X."),
-    (KICK, "x...x...x...x.x."),
-];
+const B_FILL: Bar =
+    &[(SNARE, "gggg----ooooxxXX"), (FLOOR_TOM, "............X.X."), (KICK, "x...x...x...x.x.")];
 
 /// Trading: time for half a bar, toms for the other.
 const TRADE: Bar = &[
@@ -191,10 +176,7 @@ impl Person {
     fn wobble(&mut self, range: i32) -> i32 {
         let mut next = || {
             // A linear congruential generator (Numerical Recipes); its high bits are good enough.
-            self.state = self
-                .state
-                .wrapping_mul(1_664_525)
-                .wrapping_add(1_013_904_223);
+            self.state = self.state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
             (self.state >> 16) as i32 % (range + 1)
         };
         next() - next()
@@ -221,17 +203,9 @@ impl Person {
         let loud = (eased + self.wobble(7)).clamp(12, 124) as u8;
         if mark == 'f' {
             // The other hand's grace note, about 25 ms ahead.
-            let grace = Stroke {
-                tick: at.saturating_sub(21),
-                key,
-                velocity: loud / 3,
-            };
+            let grace = Stroke { tick: at.saturating_sub(21), key, velocity: loud / 3 };
             track.push(grace);
         }
-        track.push(Stroke {
-            tick: at,
-            key,
-            velocity: loud,
-        });
+        track.push(Stroke { tick: at, key, velocity: loud });
     }
 }

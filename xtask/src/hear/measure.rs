@@ -71,9 +71,7 @@ impl Measurement {
         // A stroke that never touched measured nothing.
         let touched = (sound.contact.touches > 0).then_some(sound.contact);
         let measured = |figure: fn(&StrikeSnapshot) -> f32| {
-            touched
-                .map(|contact| exact(figure(&contact)))
-                .filter(|figure| figure.is_finite())
+            touched.map(|contact| exact(figure(&contact))).filter(|figure| figure.is_finite())
         };
         Measurement {
             piece: request.piece.name(),

@@ -7,10 +7,7 @@ use crate::analysis::OCTAVES;
 
 /// A figure, or a dash for what could not be measured.
 fn figure(value: Option<f64>, decimals: usize, unit: &str) -> String {
-    value.map_or_else(
-        || "-".to_owned(),
-        |value| format!("{value:.decimals$} {unit}"),
-    )
+    value.map_or_else(|| "-".to_owned(), |value| format!("{value:.decimals$} {unit}"))
 }
 
 impl fmt::Display for Measurement {
@@ -20,9 +17,7 @@ impl fmt::Display for Measurement {
             "{} struck by {} at {} m/s, {} of the radius, {:.0} degrees, {} Hz\n",
             self.piece, self.striker, self.speed_m_s, self.at, self.angle_deg, self.sample_rate_hz,
         )?;
-        let touches = self
-            .touches
-            .map_or_else(|| "-".to_owned(), |touches| touches.to_string());
+        let touches = self.touches.map_or_else(|| "-".to_owned(), |touches| touches.to_string());
         let energies = format!(
             "{:.4} J in, {:.4} J at most, {:.3e} J at the end",
             self.striker_energy_in_j, self.energy_peak_j, self.energy_end_j,
@@ -39,11 +34,7 @@ impl fmt::Display for Measurement {
             ("centroid", figure(self.centroid_hz, 0, "Hz")),
             ("peak", figure(self.peak_dbfs, 1, "dBFS")),
             ("rms", figure(self.rms_dbfs, 1, "dBFS")),
-            (
-                "mean",
-                self.mean
-                    .map_or_else(|| "-".to_owned(), |mean| format!("{mean:.2e}")),
-            ),
+            ("mean", self.mean.map_or_else(|| "-".to_owned(), |mean| format!("{mean:.2e}"))),
         ] {
             writeln!(f, "{name:<14} {value}")?;
         }

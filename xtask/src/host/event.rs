@@ -58,24 +58,11 @@ impl Event {
     pub fn push(&self, buffer: &mut EventBuffer) {
         let Event { offset, what } = *self;
         let note = |channel: u8, key: u8| {
-            Pckn::new(
-                0u16,
-                u16::from(channel),
-                u16::from(key),
-                clack_host::events::Match::All,
-            )
+            Pckn::new(0u16, u16::from(channel), u16::from(key), clack_host::events::Match::All)
         };
         match what {
-            What::NoteOn {
-                channel,
-                key,
-                velocity,
-            } => {
-                buffer.push(&NoteOnEvent::new(
-                    offset,
-                    note(channel, key),
-                    f64::from(velocity),
-                ));
+            What::NoteOn { channel, key, velocity } => {
+                buffer.push(&NoteOnEvent::new(offset, note(channel, key), f64::from(velocity)));
             }
             What::NoteOff { channel, key } => {
                 buffer.push(&NoteOffEvent::new(offset, note(channel, key), 0.0));

@@ -56,9 +56,7 @@ pub struct ParameterInfo {
 
 /// Id in the CLAP and VST3 formats of a parameter with a text id, as the framework hashes it.
 pub fn parameter_id(id: &str) -> u32 {
-    let hash = id.bytes().fold(0u32, |hash, byte| {
-        hash.wrapping_mul(31).wrapping_add(u32::from(byte))
-    });
+    let hash = id.bytes().fold(0u32, |hash, byte| hash.wrapping_mul(31).wrapping_add(u32::from(byte)));
     // The highest bit belongs to the host in VST3.
     hash & !(1 << 31)
 }
@@ -74,14 +72,8 @@ fn text(bytes: &[u8]) -> String {
 
 impl Instance {
     pub(super) fn new(entry: &PluginEntry, id: &CStr, info: &HostInfo) -> Result<Instance> {
-        let plugin = PluginInstance::new(
-            |_| Shared::new(),
-            |_| MainThread::default(),
-            entry,
-            id,
-            info,
-        )
-        .with_context(|| format!("the plugin {} cannot be made", id.to_string_lossy()))?;
+        let plugin = PluginInstance::new(|_| Shared::new(), |_| MainThread::default(), entry, id, info)
+            .with_context(|| format!("the plugin {} cannot be made", id.to_string_lossy()))?;
         Ok(Instance { plugin })
     }
 
@@ -105,12 +97,8 @@ impl Instance {
         (0..ports.count(&handle, false))
             .map(|index| {
                 let port = ports.get(&handle, index, false, &mut buffer);
-                let port =
-                    port.with_context(|| format!("audio output {index} is not described"))?;
-                Ok(AudioPort {
-                    name: text(port.name),
-                    channels: port.channel_count,
-                })
+                let port = port.with_context(|| format!("audio output {index} is not described"))?;
+                Ok(AudioPort { name: text(port.name), channels: port.channel_count })
             })
             .collect()
     }
@@ -127,9 +115,7 @@ impl Instance {
             .map(|index| {
                 let port = ports.get(&handle, index, true, &mut buffer);
                 let port = port.with_context(|| format!("note input {index} is not described"))?;
-                Ok(NotePort {
-                    name: text(port.name),
-                })
+                Ok(NotePort { name: text(port.name) })
             })
             .collect()
     }
@@ -169,9 +155,7 @@ impl Instance {
         let id = ClapId::from_raw(id).context("not a parameter id")?;
         let mut buffer = [0; 256];
         let shown = params.value_to_text(&self.plugin.plugin_handle(), id, value, &mut buffer);
-        Ok(text(
-            shown.map_err(|_| anyhow!("the value {value} is not shown"))?,
-        ))
+        Ok(text(shown.map_err(|_| anyhow!("the value {value} is not shown"))?))
     }
 
     /// The value that a shown text stands for.
@@ -195,17 +179,10 @@ impl Instance {
         let params: PluginParams = self.extension()?;
         let mut events = EventBuffer::new();
         for &(id, value) in values {
-            Event {
-                offset: 0,
-                what: What::Parameter { id, value },
-            }
-            .push(&mut events);
+            Event { offset: 0, what: What::Parameter { id, value } }.push(&mut events);
         }
         let mut output = EventBuffer::new();
-        let mut handle = self
-            .plugin
-            .inactive_plugin_handle()
-            .context("the plugin is still active")?;
+        let mut handle = self.plugin.inactive_plugin_handle().context("the plugin is still active")?;
         params.flush(
             &mut handle,
             &InputEvents::from_buffer(&events),
@@ -221,9 +198,7 @@ impl Instance {
     pub fn save_state(&mut self) -> Result<Vec<u8>> {
         let state: PluginState = self.extension()?;
         let mut bytes = Vec::new();
-        state
-            .save(&self.plugin.plugin_handle(), &mut bytes)
-            .context("saving the state")?;
+        state.save(&self.plugin.plugin_handle(), &mut bytes).context("saving the state")?;
         Ok(bytes)
     }
 
@@ -233,9 +208,7 @@ impl Instance {
     /// If the plugin refuses it.
     pub fn load_state(&mut self, bytes: &[u8]) -> Result<()> {
         let state: PluginState = self.extension()?;
-        state
-            .load(&self.plugin.plugin_handle(), &mut &*bytes)
-            .context("loading the state")
+        state.load(&self.plugin.plugin_handle(), &mut &*bytes).context("loading the state")
     }
 
     /// Latency in samples; zero if the plugin does not tell.

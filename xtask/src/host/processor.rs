@@ -41,14 +41,8 @@ impl Processor {
     /// # Errors
     /// If the buffers are of different or too great lengths, or the plugin fails.
     pub fn process(&mut self, events: &[Event], left: &mut [f32], right: &mut [f32]) -> Result<()> {
-        ensure!(
-            left.len() == right.len(),
-            "the two channels differ in length"
-        );
-        ensure!(
-            left.len() <= self.max_frames as usize,
-            "the plugin was activated for less"
-        );
+        ensure!(left.len() == right.len(), "the two channels differ in length");
+        ensure!(left.len() <= self.max_frames as usize, "the plugin was activated for less");
         self.input.clear();
         self.output.clear();
         for event in events {

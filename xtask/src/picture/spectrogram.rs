@@ -20,20 +20,14 @@ impl Spectrogram {
     pub fn new(samples: &[f32], rate: f64, columns: usize) -> Spectrogram {
         let fft = RealFftPlanner::<f32>::new().plan_fft_forward(WINDOW);
         let (mut input, mut output) = (fft.make_input_vec(), fft.make_output_vec());
-        let bell =
-            |n: usize| 0.5 - 0.5 * (std::f32::consts::TAU * (n as f32 + 0.5) / WINDOW as f32).cos();
+        let bell = |n: usize| 0.5 - 0.5 * (std::f32::consts::TAU * (n as f32 + 0.5) / WINDOW as f32).cos();
         let mut levels: Vec<Vec<f32>> = (0..columns)
             .map(|column| {
                 let middle = samples.len() as f64 * (column as f64 + 0.5) / columns as f64;
                 let start = middle as isize - (WINDOW / 2) as isize;
                 for (n, place) in input.iter_mut().enumerate() {
-                    let sample = start
-                        .checked_add_unsigned(n)
-                        .and_then(|at| usize::try_from(at).ok());
-                    let sample = sample
-                        .and_then(|at| samples.get(at))
-                        .copied()
-                        .unwrap_or(0.0);
+                    let sample = start.checked_add_unsigned(n).and_then(|at| usize::try_from(at).ok());
+                    let sample = sample.and_then(|at| samples.get(at)).copied().unwrap_or(0.0);
                     *place = sample * bell(n);
                 }
                 // The buffers are the plan's own: their lengths fit.
@@ -42,17 +36,11 @@ impl Spectrogram {
                 output.iter().map(|bin| bin.norm_sqr().max(1e-30)).collect()
             })
             .collect();
-        let loudest = levels
-            .iter()
-            .flatten()
-            .fold(1e-20f32, |loudest, &power| loudest.max(power));
+        let loudest = levels.iter().flatten().fold(1e-20f32, |loudest, &power| loudest.max(power));
         for power in levels.iter_mut().flatten() {
             *power = 1.0 + (10.0 * f64::from(*power / loudest).log10() / RANGE_DB) as f32;
         }
-        Spectrogram {
-            levels,
-            bins_per_hz: WINDOW as f64 / rate,
-        }
+        Spectrogram { levels, bins_per_hz: WINDOW as f64 / rate }
     }
 
     /// Level from 0 to 1 (and below) at a column and a frequency (Hz).

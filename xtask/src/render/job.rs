@@ -46,10 +46,7 @@ pub fn takes(song: &Song, style: &Style) -> Result<(Take, usize)> {
     let mut silent = 0;
     let mut hits = Vec::new();
     for note in &song.notes {
-        if style
-            .channel
-            .is_some_and(|channel| channel != note.channel + 1)
-        {
+        if style.channel.is_some_and(|channel| channel != note.channel + 1) {
             continue;
         }
         silent += usize::from(midi_map::stroke(note.key).is_none());
@@ -62,13 +59,7 @@ pub fn takes(song: &Song, style: &Style) -> Result<(Take, usize)> {
     }
     let tail = (style.tail * f64::from(style.rate)).round() as u64;
     let last = hits.last().map_or(0, |hit| hit.sample);
-    Ok((
-        Take {
-            hits,
-            frames: last.saturating_add(tail),
-        },
-        silent,
-    ))
+    Ok((Take { hits, frames: last.saturating_add(tail) }, silent))
 }
 
 impl Job {
@@ -84,31 +75,20 @@ impl Job {
         let stems = self.stem_files(style, take.frames)?;
         let name = self.output.display().to_string();
         let progress = |label: String| {
-            if show {
-                Progress::new(label, take.frames)
-            } else {
-                Progress::hidden()
-            }
+            if show { Progress::new(label, take.frames) } else { Progress::hidden() }
         };
         let played = play(&take, style, None, &mut file, progress(name.clone()))?;
         let mut files = vec![file];
         for (piece, mut file) in stems {
-            let strikes =
-                |hit: &&Hit| midi_map::stroke(hit.key).is_some_and(|stroke| stroke.piece == piece);
-            let part = Take {
-                hits: take.hits.iter().filter(strikes).copied().collect(),
-                ..take
-            };
+            let strikes = |hit: &&Hit| midi_map::stroke(hit.key).is_some_and(|stroke| stroke.piece == piece);
+            let part = Take { hits: take.hits.iter().filter(strikes).copied().collect(), ..take };
             let label = format!("{name}, {}", piece.name());
             play(&part, style, Some(piece), &mut file, progress(label))?;
             files.push(file);
         }
         let stems = files.len() - 1;
         // All are whole before any gets its name.
-        let clipped = files
-            .into_iter()
-            .map(WavFile::finish)
-            .sum::<Result<u64>>()?;
+        let clipped = files.into_iter().map(WavFile::finish).sum::<Result<u64>>()?;
         Ok(Report {
             output: self.output.clone(),
             seconds: take.frames as f64 / f64::from(style.rate),
@@ -135,10 +115,7 @@ impl Job {
                         path.display(),
                     ));
                 }
-                Ok((
-                    piece,
-                    WavFile::create(&path, style.bits, style.rate, 2, frames)?,
-                ))
+                Ok((piece, WavFile::create(&path, style.bits, style.rate, 2, frames)?))
             })
             .collect()
     }
@@ -151,45 +128,26 @@ fn play(
     file: &mut WavFile,
     mut progress: Progress,
 ) -> Result<Played> {
-    let setup = Setup {
-        rate: style.rate,
-        settings: style.settings.clone(),
-        only,
-    };
+    let setup = Setup { rate: style.rate, settings: style.settings.clone(), only };
     let played = style.source.perform(&setup, |player| {
         take.play(player, style.blocks, |left, right| {
             progress.advance(left.len() as u64);
             file.write(&[left, right])
         })
     })?;
-    ensure!(
-        played.finite,
-        "the render holds values that are not numbers"
-    );
+    ensure!(played.finite, "the render holds values that are not numbers");
     Ok(played)
 }
 
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let Report {
-            output,
-            seconds,
-            played,
-            clipped,
-            hits,
-            silent,
-            stems,
-        } = self;
+        let Report { output, seconds, played, clipped, hits, silent, stems } = self;
         write!(f, "{}: {seconds:.2} s, {hits} notes", output.display())?;
         if *silent > 0 {
             write!(f, " ({silent} of them strike nothing in the kit)")?;
         }
         let share = 100.0 * busy_share(played.busy, *seconds);
-        write!(
-            f,
-            ", peak {}, {share:.1} % of real time",
-            decibels(played.peak)
-        )?;
+        write!(f, ", peak {}, {share:.1} % of real time", decibels(played.peak))?;
         if *clipped > 0 {
             write!(f, ", {clipped} samples clipped")?;
         }
@@ -202,18 +160,10 @@ impl fmt::Display for Report {
 
 /// Time spent rendering as a share of the sound's length.
 fn busy_share(busy: Duration, seconds: f64) -> f64 {
-    if seconds > 0.0 {
-        busy.as_secs_f64() / seconds
-    } else {
-        0.0
-    }
+    if seconds > 0.0 { busy.as_secs_f64() / seconds } else { 0.0 }
 }
 
 /// A peak in dBFS.
 fn decibels(peak: f32) -> String {
-    if peak > 0.0 {
-        format!("{:.1} dBFS", 20.0 * peak.log10())
-    } else {
-        "silent".to_owned()
-    }
+    if peak > 0.0 { format!("{:.1} dBFS", 20.0 * peak.log10()) } else { "silent".to_owned() }
 }

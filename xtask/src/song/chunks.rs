@@ -26,9 +26,7 @@ impl<'a> Chunks<'a> {
             return Err("it does not begin with `MThd`".to_owned());
         }
         let header = midly::parse(bytes).map_err(|error| error.to_string())?.0;
-        let announced = bytes
-            .get(10..12)
-            .map_or(0, |count| u16::from_be_bytes([count[0], count[1]]));
+        let announced = bytes.get(10..12).map_or(0, |count| u16::from_be_bytes([count[0], count[1]]));
         let mut tracks = Vec::new();
         let mut rest = bytes;
         // Fewer bytes than a chunk's head are padding.
@@ -51,20 +49,13 @@ impl<'a> Chunks<'a> {
             rest = after;
         }
         if tracks.len() < usize::from(announced) {
-            return Err(format!(
-                "{announced} tracks announced, {} there",
-                tracks.len()
-            ));
+            return Err(format!("{announced} tracks announced, {} there", tracks.len()));
         }
         if tracks.is_empty() {
             return Err("it has no track".to_owned());
         }
         let sequential = header.format == midly::Format::Sequential;
-        Ok(Chunks {
-            timing: header.timing,
-            sequential,
-            tracks,
-        })
+        Ok(Chunks { timing: header.timing, sequential, tracks })
     }
 }
 
@@ -79,9 +70,7 @@ fn unwrapped(bytes: &[u8]) -> &[u8] {
             return &body[..length.min(body.len())];
         }
         // Chunks start at even bytes.
-        rest = body
-            .get(length.saturating_add(length % 2)..)
-            .unwrap_or_default();
+        rest = body.get(length.saturating_add(length % 2)..).unwrap_or_default();
     }
     bytes
 }

@@ -18,10 +18,7 @@ const END: [u8; 4] = [0, 0xFF, 0x2F, 0];
 
 fn samples(bytes: &[u8], rate: u32) -> Vec<(u64, u8)> {
     let song = Song::parse(bytes).unwrap();
-    song.notes
-        .iter()
-        .map(|note| (song.sample(note.time, rate), note.key))
-        .collect()
+    song.notes.iter().map(|note| (song.sample(note.time, rate), note.key)).collect()
 }
 
 #[test]
@@ -38,47 +35,29 @@ fn a_tempo_in_the_first_track_moves_notes_in_the_others() {
     // 120 bpm for a beat, then 60 bpm.
     let tempo = [&[96, 0xFF, 0x51, 3, 0x0F, 0x42, 0x40][..], &END].concat();
     let notes = [&[96, 0x99, 38, 1, 96, 38, 2][..], &END].concat();
-    assert_eq!(
-        samples(&file(1, [0, 96], &[&tempo, &notes]), 48_000),
-        [(24_000, 38), (72_000, 38)],
-    );
+    assert_eq!(samples(&file(1, [0, 96], &[&tempo, &notes]), 48_000), [(24_000, 38), (72_000, 38)],);
 }
 
 #[test]
 fn patterns_of_format_2_follow_each_other() {
     let pattern = [&[0, 0x99, 36, 1][..], &[96, 0xFF, 0x2F, 0]].concat();
-    assert_eq!(
-        samples(&file(2, [0, 96], &[&pattern, &pattern]), 1000),
-        [(0, 36), (500, 36)]
-    );
+    assert_eq!(samples(&file(2, [0, 96], &[&pattern, &pattern]), 1000), [(0, 36), (500, 36)]);
 }
 
 #[test]
 fn smpte_frames_last_what_they_last() {
     let note = |ticks| [&[ticks, 0x99, 36, 1][..], &END].concat();
     // 25 frames of 40 ticks: a tick is a millisecond.
-    assert_eq!(
-        samples(&file(0, [0xE7, 40], &[&note(100)]), 48_000),
-        [(4800, 36)]
-    );
+    assert_eq!(samples(&file(0, [0xE7, 40], &[&note(100)]), 48_000), [(4800, 36)]);
     // 29.97: 30 frames last 1.001 s.
-    assert_eq!(
-        samples(&file(0, [0xE3, 1], &[&note(30)]), 48_000),
-        [(48_048, 36)]
-    );
+    assert_eq!(samples(&file(0, [0xE3, 1], &[&note(30)]), 48_000), [(48_048, 36)]);
 }
 
 #[test]
 fn times_round_once_to_the_nearest_sample_halves_up() {
-    let song = Song {
-        notes: Vec::new(),
-        unit: 4,
-    };
+    let song = Song { notes: Vec::new(), unit: 4 };
     let at = |time| song.sample(time, 2);
-    assert_eq!(
-        [at(0), at(1), at(2), at(3), at(4), at(5)],
-        [0, 1, 1, 2, 2, 3]
-    );
+    assert_eq!([at(0), at(1), at(2), at(3), at(4), at(5)], [0, 1, 1, 2, 2, 3]);
 }
 
 #[test]
@@ -104,25 +83,14 @@ fn broken_files_are_refused_with_the_reason() {
     let whole = file(1, [0, 96], &[&track, &track]);
     let reason = |bytes: &[u8]| Song::parse(bytes).unwrap_err();
     assert_eq!(reason(b""), "it is empty");
-    assert_eq!(
-        reason(b"ID3 not a song at all"),
-        "it does not begin with `MThd`"
-    );
-    assert_eq!(
-        reason(&whole[..whole.len() - 3]),
-        "track 2 is cut off: 8 bytes announced, 5 there"
-    );
+    assert_eq!(reason(b"ID3 not a song at all"), "it does not begin with `MThd`");
+    assert_eq!(reason(&whole[..whole.len() - 3]), "track 2 is cut off: 8 bytes announced, 5 there");
     assert_eq!(reason(&whole[..30]), "2 tracks announced, 1 there");
-    assert_eq!(
-        reason(&file(0, [0, 0], &[&track])),
-        "its time base is 0 ticks"
-    );
+    assert_eq!(reason(&file(0, [0, 0], &[&track])), "its time base is 0 ticks");
     assert!(reason(&file(0, [0, 96], &[])).contains("no track"));
     assert!(!reason(&whole[..9]).is_empty());
     // A data byte where a status must be: running status without one before.
-    assert!(
-        reason(&file(0, [0, 96], &[&[0, 36, 100, 0]])).contains("track 1 breaks off at byte 0")
-    );
+    assert!(reason(&file(0, [0, 96], &[&[0, 36, 100, 0]])).contains("track 1 breaks off at byte 0"));
     assert!(reason(&file(0, [0, 96], &[&[0, 0x99, 36]])).contains("track 1 breaks off"));
 }
 
@@ -144,13 +112,7 @@ fn what_surrounds_the_tracks_is_no_obstacle() {
 
 #[test]
 fn any_cut_or_flipped_byte_is_survived() {
-    let track = [
-        &[
-            0, 0xFF, 0x51, 3, 7, 0xA1, 0x20, 0, 0x99, 36, 100, 48, 38, 90,
-        ][..],
-        &END,
-    ]
-    .concat();
+    let track = [&[0, 0xFF, 0x51, 3, 7, 0xA1, 0x20, 0, 0x99, 36, 100, 48, 38, 90][..], &END].concat();
     let whole = file(1, [0, 96], &[&track, &track]);
     for length in 0..whole.len() {
         assert!(Song::parse(&whole[..length]).is_err(), "cut to {length}");

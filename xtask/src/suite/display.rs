@@ -27,14 +27,9 @@ impl Display {
             .context("cannot start Xvfb")?;
         let mut number = String::new();
         if let Some(output) = server.stdout.take() {
-            BufReader::new(output)
-                .read_line(&mut number)
-                .context("Xvfb says nothing")?;
+            BufReader::new(output).read_line(&mut number).context("Xvfb says nothing")?;
         }
-        let display = Display {
-            server,
-            name: format!(":{}", number.trim()),
-        };
+        let display = Display { server, name: format!(":{}", number.trim()) };
         ensure!(!number.trim().is_empty(), "Xvfb does not start");
         Ok(display)
     }

@@ -55,25 +55,17 @@ pub fn tests(tally: &mut Tally, what: &'static str, command: &mut Command) {
     heading(what);
     let begun = Instant::now();
     let mut failed_before = tally.failed;
-    let succeeded = command
-        .stdout(Stdio::piped())
-        .spawn()
-        .and_then(|mut child| {
-            for line in child
-                .stdout
-                .take()
-                .into_iter()
-                .flat_map(|out| BufReader::new(out).lines())
-            {
-                let line = line?;
-                println!("{line}");
-                if let Some((passed, failed)) = summary(&line) {
-                    tally.passed += passed;
-                    tally.failed += failed;
-                }
+    let succeeded = command.stdout(Stdio::piped()).spawn().and_then(|mut child| {
+        for line in child.stdout.take().into_iter().flat_map(|out| BufReader::new(out).lines()) {
+            let line = line?;
+            println!("{line}");
+            if let Some((passed, failed)) = summary(&line) {
+                tally.passed += passed;
+                tally.failed += failed;
             }
-            Ok(child.wait()?.success())
-        });
+        }
+        Ok(child.wait()?.success())
+    });
     tally.times.push((what, begun.elapsed()));
     // A test that does not compile, or takes its runner down, is in no summary.
     failed_before += u64::from(!succeeded.unwrap_or(false));
@@ -85,9 +77,7 @@ fn summary(line: &str) -> Option<(u64, u64)> {
     let counts = line.strip_prefix("test result: ")?;
     let count = |what: &str| {
         let words: Vec<_> = counts.split_whitespace().collect();
-        let place = words
-            .iter()
-            .position(|word| word.trim_end_matches(';') == what)?;
+        let place = words.iter().position(|word| word.trim_end_matches(';') == what)?;
         words[place.checked_sub(1)?].parse().ok()
     };
     Some((count("passed")?, count("failed")?))
@@ -99,8 +89,7 @@ mod tests {
 
     #[test]
     fn the_runner_s_summary_is_understood() {
-        let line =
-            "test result: FAILED. 12 passed; 3 failed; 1 ignored; 0 measured; 0 filtered out";
+        let line = "test result: FAILED. 12 passed; 3 failed; 1 ignored; 0 measured; 0 filtered out";
         assert_eq!(summary(line), Some((12, 3)));
         assert_eq!(summary("test a_result ... ok"), None);
     }
@@ -108,16 +97,8 @@ mod tests {
     #[test]
     fn a_command_that_fails_without_a_summary_counts_as_one_failure() {
         let mut tally = Tally::default();
-        tests(
-            &mut tally,
-            "nothing",
-            &mut Command::new("no-such-program-anywhere"),
-        );
-        check(
-            &mut tally,
-            "nothing",
-            &mut Command::new("no-such-program-anywhere"),
-        );
+        tests(&mut tally, "nothing", &mut Command::new("no-such-program-anywhere"));
+        check(&mut tally, "nothing", &mut Command::new("no-such-program-anywhere"));
         assert_eq!(tally.to_string(), "0 passed, 2 failed");
     }
 }

@@ -37,11 +37,7 @@ fn rust_component(subcommand: &str) -> Result<()> {
     if present {
         return Ok(());
     }
-    let component = if subcommand == "fmt" {
-        "rustfmt"
-    } else {
-        subcommand
-    };
+    let component = if subcommand == "fmt" { "rustfmt" } else { subcommand };
     if system::program("rustup").is_none() {
         bail!("missing: {component}, a part of Rust");
     }
@@ -63,24 +59,13 @@ fn python(folder: &Path) -> Result<PathBuf> {
     if python.exists() && fs::read_to_string(&stamp).is_ok_and(|installed| installed == wanted) {
         return Ok(python);
     }
-    eprintln!(
-        "installing {} into {}",
-        PYTHON_PACKAGES.join(", "),
-        folder.display()
-    );
+    eprintln!("installing {} into {}", PYTHON_PACKAGES.join(", "), folder.display());
     if folder.exists() {
-        fs::remove_dir_all(folder)
-            .with_context(|| format!("cannot renew `{}`", folder.display()))?;
+        fs::remove_dir_all(folder).with_context(|| format!("cannot renew `{}`", folder.display()))?;
     }
     let steps: [(&Path, Vec<&str>); 2] = [
-        (
-            Path::new("python3"),
-            vec!["-m", "venv", folder.to_str().context("an odd path")?],
-        ),
-        (
-            &python,
-            [&["-m", "pip", "install", "--quiet"], &PYTHON_PACKAGES[..]].concat(),
-        ),
+        (Path::new("python3"), vec!["-m", "venv", folder.to_str().context("an odd path")?]),
+        (&python, [&["-m", "pip", "install", "--quiet"], &PYTHON_PACKAGES[..]].concat()),
     ];
     for (program, arguments) in steps {
         let status = Command::new(program)

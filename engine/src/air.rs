@@ -1,0 +1,228 @@
+//! The air a membrane carries and the sound it sends out: added mass and radiation resistance.
+//!
+//! Model: one face in an infinite baffle (the Rayleigh integral), in the wavenumber domain. With
+//! `f(x)` the Hankel transform of the mode shape in units of the radius, `u = omega a / c`,
+//! `C_m = 2 pi` for `m = 0` and `pi` otherwise:
+//!
+//! ```text
+//! mass       = rho a^3 C_m        int_0^inf f(sqrt(u^2 + s^2))^2 ds
+//! resistance = rho omega a^3 C_m  int_0^u   f(sqrt(u^2 - s^2))^2 ds
+//! ```
+//!
+//! per face; `omega` is where the mode rings. The substitutions under the roots take the
+//! singularity of `1 / sqrt(u^2 - x^2)` away. For a membrane `f` is known in closed form.
+//!
+//! Limits: modes of one order are coupled a little by the air; that coupling is neglected.
+//! Source: Morse & Ingard, Theoretical Acoustics, ch. 7; Christian et al., JASA 76 (1984).
+
+use crate::math::bessel::JTable;
+use crate::math::quadrature::GaussLegendre;
+
+/// Density of air, kg/m3.
+pub const DENSITY: f64 = 1.2;
+/// Speed of sound, m/s.
+pub const SPEED_OF_SOUND: f64 = 343.0;
+
+/// Chebyshev nodes of a load curve. *Measured*: over a range of 4 the mass is met within 1e-4, a
+/// hundredth of a cent, the resistance within 1e-3.
+const NODES: usize = 8;
+
+/// `C_m`: how the square of a shape integrates around the circle.
+fn circle(m: u32) -> f64 {
+    if m == 0 { std::f64::consts::TAU } else { std::f64::consts::PI }
+}
+
+/// Load of one face by the air, in units of `rho a^3` (mass) and `rho omega a^3` (resistance).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AirLoad {
+    /// Added mass over `rho a^3`.
+    pub mass: f64,
+    /// Radiation resistance over `rho omega a^3`.
+    pub resistance: f64,
+}
+
+/// Works out the loads of membrane modes of one order.
+pub struct MembraneAir<'a> {
+    m: u32,
+    bessel: &'a JTable,
+    panel: GaussLegendre,
+}
+
+/// How far past the mode's own wavenumber the mass integral is carried; the rest has a closed form.
+const BEYOND: f64 = 40.0;
+
+impl<'a> MembraneAir<'a> {
+    /// For order `m`; `bessel` tabulates `J_m` to at least the largest zero used plus 45.
+    pub fn new(m: u32, bessel: &'a JTable) -> Self {
+        MembraneAir { m, bessel, panel: GaussLegendre::unit(8) }
+    }
+
+    /// Argument the Bessel table must reach for modes up to the zero `j`.
+    pub fn reach(j: f64) -> f64 {
+        j + BEYOND + 5.0
+    }
+
+    /// Load of the mode whose radial wavenumber is the zero `j` of `J_m`, at `u = omega a / c`.
+    pub fn load(&self, j: f64, u: f64) -> AirLoad {
+        let shape = HankelShape::new(self.m, j, self.bessel);
+        let square = |x: f64| shape.at(x).powi(2);
+        let end = j + BEYOND;
+        let mass = self.integrate((end * end - u * u).max(0.0).sqrt(), |s| square((u * u + s * s).sqrt()));
+        // Past `end` the squared cosine of J_m averages to a half: f^2 is 1 / (pi x^5) times this.
+        let tail = shape.scale * shape.scale / (4.0 * std::f64::consts::PI * end.powi(4));
+        let resistance = self.integrate(u, |s| square((u * u - s * s).max(0.0).sqrt()));
+        AirLoad { mass: circle(self.m) * (mass + tail), resistance: circle(self.m) * resistance }
+    }
+
+    /// Integral over `0..end` in panels shorter than a swing of the integrand.
+    fn integrate(&self, end: f64, f: impl Fn(f64) -> f64) -> f64 {
+        let panels = (end / 1.5).ceil().max(1.0);
+        let width = end / panels;
+        (0..panels as usize)
+            .map(|i| width * self.panel.integrate(|t| f(width * (i as f64 + t))))
+            .sum()
+    }
+
+    /// The load as a function of `u` in a range, for solving and retuning.
+    pub fn curve(&self, j: f64, u_min: f64, u_max: f64) -> LoadCurve {
+        let (low, high) = (u_min.ln(), u_max.ln());
+        let logarithms = std::array::from_fn(|i| {
+            let load = self.load(j, (low + (high - low) * chebyshev(i)).exp());
+            AirLoad { mass: load.mass.max(NO_LOAD).ln(), resistance: load.resistance.max(NO_LOAD).ln() }
+        });
+        LoadCurve { low, high, logarithms }
+    }
+}
+
+/// Hankel transform `f(x) = N j J_m'(j) J_m(x) / (x^2 - j^2)` of a membrane's shape.
+struct HankelShape<'a> {
+    j: f64,
+    /// `N j J_m'(j)`, of size `j` or `sqrt 2 j`.
+    scale: f64,
+    slope: f64,
+    bessel: &'a JTable,
+}
+
+impl<'a> HankelShape<'a> {
+    fn new(m: u32, j: f64, bessel: &'a JTable) -> Self {
+        let slope = bessel.pair(j).1;
+        HankelShape { j, scale: shape_norm(m, slope) * j * slope, slope, bessel }
+    }
+
+    fn at(&self, x: f64) -> f64 {
+        let gap = x * x - self.j * self.j;
+        if gap.abs() < 1e-3 * self.j {
+            // J_m is a straight line this close to its zero, to 1e-6.
+            return self.scale * self.slope / (x + self.j);
+        }
+        self.scale * self.bessel.value(x) / gap
+    }
+}
+
+/// `N` of a membrane's shape `N J_m(j r) cos(m theta)` for a mean square of one, from `J_m'(j)`.
+pub fn shape_norm(m: u32, slope: f64) -> f64 {
+    (if m == 0 { 1.0 } else { std::f64::consts::SQRT_2 }) / slope.abs()
+}
+
+/// Area (m2) of the monopole in a baffle that radiates, at the same acceleration, the power of a mode
+/// with this resistance (over `rho omega a^3`): `R = rho omega^2 S^2 / (2 pi c)`.
+pub fn monopole_area(radius: f64, resistance: f64, omega: f64) -> f64 {
+    (std::f64::consts::TAU * SPEED_OF_SOUND * radius.powi(3) * resistance / omega).sqrt()
+}
+
+/// Load of a mode against frequency, by Chebyshev interpolation of `ln mass` and `ln resistance`
+/// in `ln u` (the resistance grows as `u^(2m+1)`: straight lines in these).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LoadCurve {
+    low: f64,
+    high: f64,
+    /// Logarithms at the nodes; minus infinity in vacuum.
+    logarithms: [AirLoad; NODES],
+}
+
+/// A load too small to matter; keeps logarithms finite.
+const NO_LOAD: f64 = 1e-200;
+
+/// The `i`-th Chebyshev node of the second kind on `0..1`.
+fn chebyshev(i: usize) -> f64 {
+    0.5 - 0.5 * (std::f64::consts::PI * i as f64 / (NODES - 1) as f64).cos()
+}
+
+impl LoadCurve {
+    /// A mode in vacuum.
+    pub const VACUUM: LoadCurve = {
+        let none = AirLoad { mass: f64::NEG_INFINITY, resistance: f64::NEG_INFINITY };
+        LoadCurve { low: f64::NEG_INFINITY, high: f64::INFINITY, logarithms: [none; NODES] }
+    };
+
+    /// Load at `u = omega a / c`; held at the ends beyond the range.
+    pub fn at(&self, u: f64) -> AirLoad {
+        if self.low == f64::NEG_INFINITY {
+            return AirLoad { mass: 0.0, resistance: 0.0 };
+        }
+        let t = ((u.ln() - self.low) / (self.high - self.low)).clamp(0.0, 1.0);
+        let (mut mass, mut resistance, mut total) = (0.0, 0.0, 0.0);
+        for (i, load) in self.logarithms.iter().enumerate() {
+            let gap = t - chebyshev(i);
+            if gap == 0.0 {
+                return AirLoad { mass: load.mass.exp(), resistance: load.resistance.exp() };
+            }
+            let end = if i == 0 || i == NODES - 1 { 0.5 } else { 1.0 };
+            let weight = if i % 2 == 0 { end / gap } else { -end / gap };
+            mass += weight * load.mass;
+            resistance += weight * load.resistance;
+            total += weight;
+        }
+        AirLoad { mass: (mass / total).exp(), resistance: (resistance / total).exp() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::bessel;
+
+    #[test]
+    fn slow_piston_like_mode_radiates_its_volume_velocity() {
+        // For u -> 0 the resistance is rho omega^2 (int W dA)^2 / (2 pi c).
+        let j = bessel::zero(0, 1);
+        let table = JTable::new(0, MembraneAir::reach(j));
+        let u = 0.01;
+        let load = MembraneAir::new(0, &table).load(j, u);
+        let volume = 2.0 * std::f64::consts::PI / j;
+        let monopole = u * volume * volume / std::f64::consts::TAU;
+        assert!((load.resistance / monopole - 1.0).abs() < 1e-3, "{} {monopole}", load.resistance);
+    }
+
+    #[test]
+    fn loads_agree_with_a_fine_direct_integral() {
+        for (m, n, u) in [(0, 1, 0.4), (1, 1, 1.0), (2, 3, 5.0), (7, 2, 9.0)] {
+            let j = bessel::zero(m, n);
+            let table = JTable::new(m, 400.0);
+            let load = MembraneAir::new(m, &table).load(j, u);
+            let norm = shape_norm(m, bessel::j_prime(m, j)) * j * bessel::j_prime(m, j);
+            let f2 = |x: f64| (norm * bessel::j(m, x) / (x * x - j * j)).powi(2);
+            let sum = |end: f64, steps: u32, f: &dyn Fn(f64) -> f64| {
+                (0..steps).map(|i| f((f64::from(i) + 0.5) * end / f64::from(steps))).sum::<f64>() * end
+                    / f64::from(steps)
+            };
+            let mass = circle(m) * sum(300.0, 300_000, &|s| f2((u * u + s * s).sqrt()));
+            let resistance = circle(m) * sum(u, 20_000, &|s| f2((u * u - s * s).sqrt()));
+            assert!((load.mass / mass - 1.0).abs() < 1e-5, "({m},{n}) {} {mass}", load.mass);
+            assert!((load.resistance / resistance - 1.0).abs() < 1e-4, "({m},{n})");
+        }
+    }
+
+    #[test]
+    fn the_curve_meets_the_integral_between_its_nodes() {
+        let j = bessel::zero(1, 2);
+        let table = JTable::new(1, MembraneAir::reach(j));
+        let air = MembraneAir::new(1, &table);
+        let curve = air.curve(j, 0.5, 2.0);
+        for u in [0.5, 0.63, 0.9, 1.3, 1.9, 2.0] {
+            let (got, want) = (curve.at(u), air.load(j, u));
+            assert!((got.mass / want.mass - 1.0).abs() < 1e-4);
+            assert!((got.resistance / want.resistance - 1.0).abs() < 1e-3, "{u}: {got:?} {want:?}");
+        }
+    }
+}

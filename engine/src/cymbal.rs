@@ -1,0 +1,317 @@
+//! A cymbal: a domed plate on a stand, struck and heard.
+//!
+//! Model: the linear shell modes of the plate, up to the edge of hearing, and the plate's rigid
+//! motions on its stand, a bounce and a rock. Its bending stays small: what a hard stroke does beyond
+//! that is not modelled. The rigid motions move no net air between the faces and are not heard.
+
+use std::f64::consts::TAU;
+
+use crate::air;
+use crate::contact::Material;
+use crate::damping::{LossLaw, Muffler, SIGMA_T60};
+use crate::error::SpecError;
+use crate::glide::Glide;
+use crate::listening::{ListeningPoint, Radiator, Rayleigh};
+use crate::modal::Mode;
+use crate::piece::{BuildOptions, ModeInfo, ModeKind};
+use crate::plate::{PlateModes, PlateSpec, PlateTables};
+use crate::shapes::{ShapeIndex, ShapeTable};
+use crate::split::Splitting;
+use crate::surface::Surface;
+
+/// A cymbal's description.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CymbalSpec {
+    /// The plate.
+    pub plate: PlateSpec,
+    /// What it is made of, as the tip feels it.
+    pub material: Material,
+    /// Losses in the metal.
+    pub loss: LossLaw,
+    /// What holds it.
+    pub stand: Stand,
+    /// What muffles it.
+    pub muffler: Muffler,
+    /// How uneven it is.
+    pub splitting: Splitting,
+    /// Where it is heard from.
+    pub listening_point: ListeningPoint,
+}
+
+/// A cymbal stand: felts the plate bounces and rocks on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stand {
+    /// Frequency of the bounce, Hz.
+    pub bounce_hz: f64,
+    /// Frequency of the rock, Hz.
+    pub rock_hz: f64,
+    /// Quality factor of both.
+    pub q: f64,
+}
+
+/// Highest mode, Hz: the edge of hearing. The same at every rate that can carry it, so that a
+/// stroke meets the same body.
+const LIMIT_HZ: f64 = 21_000.0;
+
+/// Share of the sample rate that modes may reach.
+const LIMIT_OF_RATE: f64 = 0.48;
+
+impl CymbalSpec {
+    /// Lowest, default and highest ratio a cymbal's frequencies can be scaled by.
+    pub const TUNING: (f64, f64, f64) = (0.5, 1.0, 2.0);
+
+    const fn bronze(plate: PlateSpec) -> CymbalSpec {
+        CymbalSpec {
+            plate,
+            material: Material::BRONZE,
+            loss: LossLaw::BRONZE,
+            stand: Stand { bounce_hz: 20.0, rock_hz: 5.0, q: 3.0 },
+            // A strip of tape near the edge. *By ear*.
+            muffler: Muffler::Gel { sigma: 40.0, radius: 0.85, angle: 2.3 },
+            splitting: Splitting::CYMBAL,
+            listening_point: ListeningPoint { distance: 0.5, inclination: 0.6, azimuth: 0.4 },
+        }
+    }
+
+    /// A 16 in crash.
+    pub const fn crash() -> CymbalSpec {
+        CymbalSpec::bronze(PlateSpec::CRASH)
+    }
+
+    /// A 20 in ride.
+    pub const fn ride() -> CymbalSpec {
+        CymbalSpec::bronze(PlateSpec::RIDE)
+    }
+
+    /// A 10 in splash.
+    pub const fn splash() -> CymbalSpec {
+        CymbalSpec::bronze(PlateSpec::SPLASH)
+    }
+}
+
+/// One mode of the body, as built.
+#[derive(Debug, Clone, Copy)]
+struct BuiltMode {
+    m: u32,
+    n: u32,
+    kind: ModeKind,
+    /// Undamped angular frequency at tuning 1, with the member's detuning, rad/s.
+    omega: f64,
+    /// Radiation resistance over twice the mass at tuning 1, 1/s.
+    radiated: f64,
+    /// Decay rate at full muffling, 1/s.
+    muffling: f64,
+    /// Area of the monopole that would radiate its power, m2.
+    monopole_area: f64,
+}
+
+/// A cymbal that can be struck.
+pub struct Cymbal {
+    surface: Surface,
+    modes: Vec<BuiltMode>,
+    loss: LossLaw,
+    stand: Stand,
+    mass: f64,
+    lossless: bool,
+    tuning: Glide,
+    muffling: Glide,
+    /// Whether a control has moved since the modes last followed.
+    stale: bool,
+}
+
+impl Cymbal {
+    /// Builds a cymbal. Allocates; takes some tenths of a second.
+    ///
+    /// # Errors
+    /// [`SpecError`] if a number is out of range.
+    pub fn new(spec: &CymbalSpec, options: &BuildOptions) -> Result<Cymbal, SpecError> {
+        let limit_hz = LIMIT_HZ.min(LIMIT_OF_RATE * options.sample_rate);
+        let plate = PlateModes::new(&spec.plate, limit_hz)?;
+        let (orders, extent) = plate.table_extent(limit_hz);
+        let tables = PlateTables::new(orders, extent);
+        let splitting = if options.unsplit { Splitting::ROUND } else { spec.splitting };
+        let (modes, index) = lay_out(spec, &plate, &tables, splitting);
+        let surface = Surface::new(
+            modes.iter().map(|mode| Mode { omega: mode.omega, sigma: 0.0, mass: spec.plate.mass }).collect(),
+            ShapeTable::new(&radial_rows(&plate, &tables, &ShapeTable::radii()), index),
+            transfer(spec, &plate, &tables),
+            spec.material,
+            options.sample_rate,
+        );
+        let (low, tuning, high) = CymbalSpec::TUNING;
+        let mut cymbal = Cymbal {
+            surface,
+            modes,
+            loss: spec.loss,
+            stand: spec.stand,
+            mass: spec.plate.mass,
+            lossless: options.lossless,
+            tuning: Glide::new(tuning, low, high),
+            muffling: Glide::new(0.0, 0.0, 1.0),
+            stale: true,
+        };
+        cymbal.lay_muffler(spec);
+        cymbal.follow_controls();
+        Ok(cymbal)
+    }
+
+    /// Works out how much the muffler takes from each mode.
+    fn lay_muffler(&mut self, spec: &CymbalSpec) {
+        let mut shape = vec![1.0_f32; self.modes.len()];
+        let full = match spec.muffler {
+            Muffler::Pillow { sigma } => sigma,
+            Muffler::Gel { sigma, radius, angle } => {
+                self.surface.shapes().fill(radius, angle, &mut shape);
+                sigma
+            }
+        };
+        for (mode, shape) in self.modes.iter_mut().zip(shape) {
+            mode.muffling = full * f64::from(shape).powi(2);
+        }
+    }
+
+    /// The plate and what is about it.
+    pub fn surface(&self) -> &Surface {
+        &self.surface
+    }
+
+    /// The plate and what is about it.
+    pub fn surface_mut(&mut self) -> &mut Surface {
+        &mut self.surface
+    }
+
+    /// Asks for a ratio of all frequencies to the cymbal's own.
+    pub fn set_tuning(&mut self, ratio: f64) {
+        self.tuning.set(ratio);
+    }
+
+    /// Asks for muffling, 0 to 1.
+    pub fn set_muffling(&mut self, amount: f64) {
+        self.muffling.set(amount);
+    }
+
+    /// Lets the controls glide for `seconds`.
+    pub fn advance_controls(&mut self, seconds: f64) {
+        let moved = [&mut self.tuning, &mut self.muffling].map(|glide| glide.advance(seconds));
+        self.stale |= moved.contains(&true);
+    }
+
+    /// Lets the controls arrive at once.
+    pub fn finish_controls(&mut self) {
+        let moved = [&mut self.tuning, &mut self.muffling].map(Glide::jump);
+        self.stale |= moved.contains(&true);
+        self.follow_controls();
+    }
+
+    /// Brings the modes to where the controls are.
+    ///
+    /// # Real-time
+    /// Nothing while they rest; linear in the number of modes while they move.
+    pub fn follow_controls(&mut self) {
+        if !std::mem::take(&mut self.stale) {
+            return;
+        }
+        let (tuning, muffling) = (self.tuning.value(), self.muffling.value());
+        let (modes, loss, stand, lossless) = (&self.modes, self.loss, self.stand, self.lossless);
+        self.surface.retune(|k, old| {
+            let built = &modes[k];
+            let omega = match built.kind {
+                ModeKind::Rigid => built.omega,
+                _ => built.omega * tuning,
+            };
+            let own = match built.kind {
+                ModeKind::Rigid => omega / (2.0 * stand.q),
+                _ => loss.sigma(omega) + built.radiated,
+            };
+            let sigma = if lossless { 0.0 } else { own + muffling * built.muffling };
+            Mode { omega, sigma, ..*old }
+        });
+    }
+
+    /// Every mode as it is now.
+    pub fn modes(&self) -> Vec<ModeInfo> {
+        let rows = self.surface.body().modes().iter().zip(self.surface.shapes().index()).zip(&self.modes);
+        rows.map(|((mode, shape), built)| ModeInfo {
+            body: if built.kind == ModeKind::Rigid { "stand" } else { "plate" },
+            m: built.m,
+            n: built.n,
+            member: shape.member,
+            frequency_hz: mode.omega_d() / TAU,
+            t60: SIGMA_T60 / mode.sigma,
+            modal_mass: self.mass,
+            radiation: built.monopole_area,
+            kind: built.kind,
+        })
+        .collect()
+    }
+}
+
+/// Radial shapes of the rigid motions: bounce, rock; of unit mean square over the disc.
+const RIGID: [(u32, fn(f64) -> f64); 2] = [(0, |_| 1.0), (1, |r| 2.0 * r)];
+
+/// The modes of the body: the rigid ones, then the shell's by frequency; and how each goes around.
+fn lay_out(
+    spec: &CymbalSpec,
+    plate: &PlateModes,
+    tables: &PlateTables,
+    splitting: Splitting,
+) -> (Vec<BuiltMode>, Vec<ShapeIndex>) {
+    let (mut modes, mut index) = (Vec::new(), Vec::new());
+    let rigid = [spec.stand.bounce_hz, spec.stand.rock_hz].map(|hz| TAU * hz);
+    for (radial, ((m, _), omega)) in RIGID.into_iter().zip(rigid).enumerate() {
+        let built =
+            BuiltMode { m, n: 0, kind: ModeKind::Rigid, omega, radiated: 0.0, muffling: 0.0, monopole_area: 0.0 };
+        for (member, _) in Splitting::ROUND.members(m, 0) {
+            modes.push(built);
+            index.push(ShapeIndex { radial, m, member, axis: 0.0 });
+        }
+    }
+    let resistances = plate.radiation_resistances(tables);
+    for ((row, shell), resistance) in plate.shells.iter().enumerate().zip(resistances) {
+        // Both faces are in the resistance, one in the area.
+        let unit = air::DENSITY * shell.omega * spec.plate.radius().powi(3);
+        let monopole_area = air::monopole_area(spec.plate.radius(), 0.5 * resistance / unit, shell.omega);
+        let axis = spec.splitting.axis(shell.m, shell.n);
+        for (member, detuning) in splitting.members(shell.m, shell.n) {
+            modes.push(BuiltMode {
+                m: shell.m,
+                n: shell.n,
+                kind: ModeKind::Complete,
+                omega: shell.omega * detuning,
+                radiated: resistance / (2.0 * spec.plate.mass),
+                muffling: 0.0,
+                monopole_area,
+            });
+            index.push(ShapeIndex { radial: RIGID.len() + row, m: shell.m, member, axis });
+        }
+    }
+    (modes, index)
+}
+
+/// Radial shapes of everything at `radii`, rigid motions first.
+fn radial_rows(plate: &PlateModes, tables: &PlateTables, radii: &[f64]) -> Vec<f64> {
+    let mut rows: Vec<f64> = RIGID.iter().flat_map(|&(_, shape)| radii.iter().map(move |&r| shape(r))).collect();
+    rows.extend(plate.radial_shapes(tables, radii));
+    rows
+}
+
+/// How each mode is heard at the listening point, `[mode]`.
+fn transfer(spec: &CymbalSpec, plate: &PlateModes, tables: &PlateTables) -> Vec<[f64; 2]> {
+    let highest = plate.shells.last().map_or(0.0, |shell| shell.omega);
+    let finest = plate.flat.iter().flatten().map(|flat| flat.root).fold(0.0, f64::max);
+    let trace = highest * spec.plate.radius() / air::SPEED_OF_SOUND;
+    let nodes = 12 + (0.7 * (finest + trace)) as usize;
+    let rayleigh = Rayleigh::new(spec.plate.radius(), spec.listening_point, nodes);
+    let shapes = plate.radial_shapes(tables, rayleigh.radii());
+    // Bounce and the two members of the rock.
+    let mut out = vec![[0.0, 0.0]; 3];
+    for (shell, radial) in plate.shells.iter().zip(shapes.chunks_exact(nodes)) {
+        let [re, im] = rayleigh.transfer(&Radiator { m: shell.m, radial, omega: shell.omega });
+        let axis = spec.splitting.axis(shell.m, shell.n);
+        for (member, _) in Splitting::ROUND.members(shell.m, shell.n) {
+            let share = rayleigh.toward(shell.m, member, axis);
+            out.push([share * re, share * im]);
+        }
+    }
+    out
+}

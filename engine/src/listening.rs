@@ -1,0 +1,145 @@
+//! What is heard of a vibrating disc at a point: the Rayleigh integral, mode by mode.
+//!
+//! Model: the disc is flush in an infinite baffle; the pressure at a point is
+//!
+//! ```text
+//! p = rho / (2 pi)  int  a(x) e^(-i k d) / d  dS
+//! ```
+//!
+//! with `a` the acceleration toward the listener's side, `d` the distance, `k = omega / c`. Near and
+//! far field are in it alike. The delay from the centre is taken out, `e^(i k D)`: whoever mixes
+//! puts it back, exactly.
+//!
+//! Coordinates: radius of the disc 1 in `[r]`, `z` the disc's axis toward the listener, angles as
+//! in [`Strike`](crate::strike::Strike).
+//!
+//! Limits: a baffle is right for a drum's struck side at short distance; a plate in free air
+//! radiates less than this at low frequency.
+
+use std::f64::consts::{PI, TAU};
+
+use crate::air::{DENSITY, SPEED_OF_SOUND};
+use crate::math::quadrature::GaussLegendre;
+use crate::piece::Member;
+
+/// A listening point beside a disc.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ListeningPoint {
+    /// Distance from the disc's centre, m.
+    pub distance: f64,
+    /// Angle from the disc's axis, rad, 0 to below pi/2.
+    pub inclination: f64,
+    /// Direction of the point seen from the centre, in the disc's own angle, rad.
+    pub azimuth: f64,
+}
+
+/// One pair of modes as it is heard.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Radiator<'a> {
+    /// Nodal diameters.
+    pub m: u32,
+    /// Radial shape on the grid of [`Rayleigh::radii`].
+    pub radial: &'a [f64],
+    /// Angular frequency, rad/s.
+    pub omega: f64,
+}
+
+/// Integrates modes of one disc to one point.
+pub struct Rayleigh {
+    radius: f64,
+    point: ListeningPoint,
+    rule: GaussLegendre,
+}
+
+impl Rayleigh {
+    /// For a disc of `radius` (m). `nodes` along the radius: three a wavelength of the finest shape.
+    pub fn new(radius: f64, point: ListeningPoint, nodes: usize) -> Rayleigh {
+        Rayleigh { radius, point, rule: GaussLegendre::unit(nodes) }
+    }
+
+    /// Where along the radius shapes are wanted, shares of the radius.
+    pub fn radii(&self) -> &[f64] {
+        &self.rule.nodes
+    }
+
+    /// Pressure over modal acceleration into the struck surface, `[re, im]` in Pa s2/m, for a mode
+    /// whose shape is largest toward the point; see [`toward`](Self::toward) for others.
+    pub fn transfer(&self, mode: &Radiator) -> [f64; 2] {
+        let k = mode.omega / SPEED_OF_SOUND;
+        let (height, offset) = {
+            let (sin, cos) = self.point.inclination.sin_cos();
+            (self.point.distance * cos, self.point.distance * sin)
+        };
+        // Midpoints around half the circle: exact once they outnumber the waves around it.
+        let waves = f64::from(mode.m) + k * self.radius * self.point.inclination.sin();
+        let count = 8 + (0.6 * waves) as usize + (3.0 * waves.cbrt()) as usize;
+        let (mut re, mut im) = (0.0, 0.0);
+        let rings = self.rule.nodes.iter().zip(&self.rule.weights).zip(mode.radial);
+        for ((&r, &weight), &shape) in rings {
+            let x = r * self.radius;
+            let (mut ring_re, mut ring_im) = (0.0, 0.0);
+            for i in 0..count {
+                let theta = PI * (i as f64 + 0.5) / count as f64;
+                let cos = theta.cos();
+                let d = (height * height + offset * offset + x * x - 2.0 * offset * x * cos).sqrt();
+                let around = (f64::from(mode.m) * theta).cos() / d;
+                let (sin_kd, cos_kd) = (k * (self.point.distance - d)).sin_cos();
+                ring_re += around * cos_kd;
+                ring_im += around * sin_kd;
+            }
+            let area = weight * shape * x * self.radius * TAU / count as f64;
+            re += area * ring_re;
+            im += area * ring_im;
+        }
+        // Into the surface is away from the listener.
+        let scale = -DENSITY / TAU;
+        [scale * re, scale * im]
+    }
+
+    /// Share of [`transfer`](Self::transfer) for a member whose pair's axes lie at `axis` (rad).
+    pub fn toward(&self, m: u32, member: Member, axis: f64) -> f64 {
+        let (sin, cos) = (f64::from(m) * (self.point.azimuth - axis)).sin_cos();
+        match member {
+            Member::Cosine => cos,
+            Member::Sine => sin,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn on_the_axis_a_piston_has_its_closed_form() {
+        // p = rho c v (1 - e^(-i k (s - z))) e^(-i k z), s the distance to the rim.
+        let (a, z) = (0.2, 0.35);
+        let point = ListeningPoint { distance: z, inclination: 0.0, azimuth: 0.0 };
+        let rayleigh = Rayleigh::new(a, point, 48);
+        let ones = vec![1.0; 48];
+        for omega in [300.0, 3000.0, 30_000.0] {
+            let [re, im] = rayleigh.transfer(&Radiator { m: 0, radial: &ones, omega });
+            let k = omega / SPEED_OF_SOUND;
+            let (sin, cos) = (k * (a.hypot(z) - z)).sin_cos();
+            // Over acceleration: divide by i omega.
+            let scale = DENSITY * SPEED_OF_SOUND / omega;
+            let (want_re, want_im) = (-scale * sin, scale * (1.0 - cos));
+            let size = want_re.hypot(want_im);
+            assert!((re - want_re).abs() < 1e-6 * size, "{omega}: {re} {want_re}");
+            assert!((im - want_im).abs() < 1e-6 * size, "{omega}: {im} {want_im}");
+        }
+    }
+
+    #[test]
+    fn far_away_only_the_volume_counts_at_low_frequency() {
+        let point = ListeningPoint { distance: 50.0, inclination: 0.5, azimuth: 0.0 };
+        let rayleigh = Rayleigh::new(0.2, point, 32);
+        let radial: Vec<f64> = rayleigh.radii().iter().map(|r| 1.0 - r * r).collect();
+        let [re, im] = rayleigh.transfer(&Radiator { m: 0, radial: &radial, omega: 100.0 });
+        let volume = 0.5 * PI * 0.04;
+        assert!((re / (-DENSITY * volume / (TAU * 50.0)) - 1.0).abs() < 1e-3);
+        assert!(im.abs() < 0.02 * re.abs());
+        let [side, _] = rayleigh.transfer(&Radiator { m: 3, radial: &radial, omega: 100.0 });
+        assert!(side.abs() < 1e-4 * re.abs());
+    }
+}

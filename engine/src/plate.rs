@@ -1,0 +1,212 @@
+//! Cymbals' plates: geometry and metal turned into modes.
+//!
+//! Model: a thin circular plate of uniform thickness (Kirchhoff), free at its rim, domed to a
+//! shallow spherical cap (Marguerre). [`spec`] describes the plate, [`edges`] finds the flat plate's
+//! modes, [`dome`] turns those of each order into shell modes, [`radial`] knows their shapes and
+//! transforms, [`radiation`] what they lose to the air. Nothing is said here of losses in the metal, of a bell, a taper, a hole or a stand.
+//!
+//! Coordinates: `r` is a share of the radius; shapes are `R(r) cos(m theta)` and
+//! `R(r) sin(m theta)`, of unit mean square over the disc, so each mode's mass is the plate's.
+//!
+//! Limits: complete up to the frequency asked for; rigid motions of the plate on its stand are not
+//! among the modes.
+
+use std::f64::consts::TAU;
+
+use crate::error::SpecError;
+use crate::math::bessel::{ITable, JTable};
+
+pub mod dome;
+pub mod edges;
+pub mod radial;
+pub mod radiation;
+pub mod spec;
+
+use radial::RadialMode;
+use radiation::{Radiator, SOUND_SPEED};
+
+pub use spec::PlateSpec;
+
+/// Wave numbers by which the flat modes of an eigenproblem reach past the frequency asked for: four
+/// more modes an order. *Measured*: any more move no frequency by 0.01 %.
+const FLAT_MARGIN: f64 = 2.0 * TAU;
+
+/// A mode of the domed plate; for `m > 0` it has two members, cosine and sine.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ShellMode {
+    /// Nodal diameters.
+    pub m: u32,
+    /// Nodal circles of the flat mode it grows out of.
+    pub n: u32,
+    /// Undamped angular frequency, rad/s.
+    pub omega: f64,
+    /// Share of each flat mode of its order, as in [`PlateModes::flat`]; a unit vector.
+    pub expansion: Vec<f64>,
+}
+
+/// Every mode of a plate up to a frequency.
+#[derive(Debug, Clone)]
+pub struct PlateModes {
+    /// What it was built from.
+    pub spec: PlateSpec,
+    /// Flat modes, `[order][circle]`, reaching past the limit; what shell modes are expanded in.
+    pub flat: Vec<Vec<RadialMode>>,
+    /// Shell modes, one per pair of members, by ascending frequency.
+    pub shells: Vec<ShellMode>,
+}
+
+/// Tables of the cylinder functions that plates' shapes and radiation are read from.
+///
+/// One set, made for the plate with the largest [`PlateModes::table_extent`], serves a whole kit.
+#[derive(Debug, Clone)]
+pub struct PlateTables {
+    /// `J_m`, `[order]`.
+    pub j: Vec<JTable>,
+    /// `e^-x I_m`, `[order]`.
+    pub i: Vec<ITable>,
+}
+
+impl PlateTables {
+    /// Tables of every order to `max_order` and arguments to `x_max`.
+    pub fn new(max_order: u32, x_max: f64) -> PlateTables {
+        PlateTables {
+            j: JTable::orders(max_order, x_max),
+            i: ITable::orders(max_order, x_max),
+        }
+    }
+}
+
+impl PlateModes {
+    /// Finds every mode up to `limit_hz` (100 to 48000).
+    ///
+    /// # Errors
+    /// [`SpecError`] if the plate or the limit is out of range.
+    pub fn new(spec: &PlateSpec, limit_hz: f64) -> Result<PlateModes, SpecError> {
+        spec.check()?;
+        SpecError::check("highest mode (Hz)", limit_hz, 100.0, 48_000.0)?;
+        let limit = TAU * limit_hz;
+        let reach = (limit / spec.flat_omega()).sqrt() + FLAT_MARGIN;
+        // Every order from 2 on begins with a higher wave number than the one before.
+        let flat: Vec<Vec<RadialMode>> = (0..)
+            .map(|m| edges::free_modes(m, spec.poisson_ratio, reach))
+            .take_while(|modes| !modes.is_empty())
+            .collect();
+        let mut shells: Vec<ShellMode> = flat
+            .iter()
+            .flat_map(|modes| order_shells(spec, modes))
+            .collect();
+        shells.retain(|shell| shell.omega <= limit);
+        shells.sort_by(|a, b| a.omega.total_cmp(&b.omega));
+        Ok(PlateModes {
+            spec: *spec,
+            flat,
+            shells,
+        })
+    }
+
+    /// Flat modes that `shell` is expanded in.
+    pub fn flat_of(&self, shell: &ShellMode) -> &[RadialMode] {
+        &self.flat[shell.m as usize]
+    }
+
+    /// Radial shape of a shell mode at `r`, to rounding.
+    pub fn radial_shape(&self, shell: &ShellMode, r: f64) -> f64 {
+        self.expand(shell, |flat| flat.value(r))
+    }
+
+    /// Hankel transform `int_0^1 R(r) J_m(x r) r dr` of a shell mode's radial shape.
+    pub fn hankel(&self, shell: &ShellMode, x: f64) -> f64 {
+        self.expand(shell, |flat| flat.hankel(x))
+    }
+
+    /// Sum over the flat modes of a shell mode.
+    fn expand(&self, shell: &ShellMode, of_flat: impl Fn(&RadialMode) -> f64) -> f64 {
+        let terms = self.flat_of(shell).iter().zip(&shell.expansion);
+        terms.map(|(flat, share)| share * of_flat(flat)).sum()
+    }
+
+    /// Highest order and largest argument the tables must reach for this plate's modes, at
+    /// frequencies up to `limit_hz`.
+    pub fn table_extent(&self, limit_hz: f64) -> (u32, f64) {
+        let root = self
+            .flat
+            .iter()
+            .flatten()
+            .map(|flat| flat.root)
+            .fold(0.0, f64::max);
+        let trace = TAU * limit_hz * self.spec.radius() / SOUND_SPEED;
+        (self.flat.len().saturating_sub(1) as u32, root.max(trace))
+    }
+
+    /// Radial shapes of all flat modes at `radii`, `[order][circle * radii.len() + radius]`, within
+    /// about 1e-7.
+    ///
+    /// # Panics
+    /// If the tables do not reach the plate's highest order.
+    pub fn flat_shapes(&self, tables: &PlateTables, radii: &[f64]) -> Vec<Vec<f64>> {
+        let sample_order = |(m, modes): (usize, &Vec<RadialMode>)| {
+            let mut rows = vec![0.0; modes.len() * radii.len()];
+            for (mode, row) in modes.iter().zip(rows.chunks_exact_mut(radii.len().max(1))) {
+                mode.sample(&tables.j[m], &tables.i[m], radii, row);
+            }
+            rows
+        };
+        self.flat.iter().enumerate().map(sample_order).collect()
+    }
+
+    /// Radial shapes of all shell modes at `radii`, `[shell * radii.len() + radius]`, within about
+    /// 1e-6.
+    ///
+    /// # Panics
+    /// If the tables do not reach the plate's highest order.
+    pub fn radial_shapes(&self, tables: &PlateTables, radii: &[f64]) -> Vec<f64> {
+        let flat_shapes = self.flat_shapes(tables, radii);
+        // An empty grid has no chunks of any length.
+        let length = radii.len().max(1);
+        let mut shapes = vec![0.0; self.shells.len() * radii.len()];
+        for (shell, shape) in self.shells.iter().zip(shapes.chunks_exact_mut(length)) {
+            let rows = flat_shapes[shell.m as usize].chunks_exact(length);
+            for (row, &share) in rows.zip(&shell.expansion) {
+                for (shape, flat) in shape.iter_mut().zip(row) {
+                    *shape += share * flat;
+                }
+            }
+        }
+        shapes
+    }
+
+    /// Radiation resistance of every shell mode at its own frequency, both faces, kg/s.
+    ///
+    /// What it adds to a mode's decay rate is this over twice the plate's mass.
+    ///
+    /// # Panics
+    /// If the tables do not reach the plate's highest order.
+    pub fn radiation_resistances(&self, tables: &PlateTables) -> Vec<f64> {
+        let mut radiator = Radiator::new(&tables.j, self.spec.radius());
+        let shells = self.shells.iter();
+        shells
+            .map(|s| radiator.resistance(self.flat_of(s), &s.expansion, s.omega))
+            .collect()
+    }
+}
+
+/// Shell modes of one order.
+fn order_shells(spec: &PlateSpec, flat: &[RadialMode]) -> Vec<ShellMode> {
+    let unit = spec.flat_omega();
+    let omegas: Vec<f64> = flat
+        .iter()
+        .map(|mode| unit * mode.root * mode.root)
+        .collect();
+    let solved = dome::shells(flat, &omegas, spec.ring_omega());
+    let named = solved.into_iter().zip(flat);
+    let shell = |(shell, flat): (dome::Shell, &RadialMode)| ShellMode {
+        m: flat.m,
+        n: flat.n,
+        omega: shell.omega_squared.sqrt(),
+        expansion: shell.expansion,
+    };
+    named.map(shell).collect()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,150 @@
+//! What a cymbal's plate is made of, and the numbers that follow from it.
+
+use std::f64::consts::PI;
+
+use crate::error::SpecError;
+
+/// Young's modulus of cymbal bronze, Pa. *Literature* (B20, cast and hammered).
+pub const BRONZE_YOUNGS_MODULUS: f64 = 110e9;
+
+/// Poisson's ratio of cymbal bronze. *Literature*.
+pub const BRONZE_POISSON_RATIO: f64 = 0.34;
+
+/// Density of cymbal bronze, kg/m3. *Literature*.
+pub const BRONZE_DENSITY: f64 = 8600.0;
+
+/// A cymbal's plate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlateSpec {
+    /// Diameter, m, 0.1 to 0.8.
+    pub diameter: f64,
+    /// Mass, kg, 0.02 to 20.
+    pub mass: f64,
+    /// Rise of the dome's centre over its rim, m, 0 (flat) to a quarter of the diameter.
+    pub rise: f64,
+    /// Young's modulus, Pa, 1e9 to 1e12.
+    pub youngs_modulus: f64,
+    /// Poisson's ratio, 0 to 0.49.
+    pub poisson_ratio: f64,
+    /// Density, kg/m3, 500 to 25000.
+    pub density: f64,
+}
+
+impl PlateSpec {
+    /// A 16 inch crash.
+    pub const CRASH: PlateSpec = PlateSpec::bronze(0.4064, 1.10, 0.020);
+    /// A 20 inch ride.
+    pub const RIDE: PlateSpec = PlateSpec::bronze(0.5080, 2.50, 0.028);
+    /// A 10 inch splash.
+    pub const SPLASH: PlateSpec = PlateSpec::bronze(0.2540, 0.25, 0.012);
+    /// The upper of a pair of 14 inch hi-hat cymbals.
+    pub const HI_HAT_TOP: PlateSpec = PlateSpec::bronze(0.3556, 0.95, 0.014);
+    /// The lower of a pair of 14 inch hi-hat cymbals.
+    pub const HI_HAT_BOTTOM: PlateSpec = PlateSpec::bronze(0.3556, 1.25, 0.014);
+
+    /// A bronze plate from its diameter (m), mass (kg) and rise (m).
+    pub const fn bronze(diameter: f64, mass: f64, rise: f64) -> PlateSpec {
+        PlateSpec {
+            diameter,
+            mass,
+            rise,
+            youngs_modulus: BRONZE_YOUNGS_MODULUS,
+            poisson_ratio: BRONZE_POISSON_RATIO,
+            density: BRONZE_DENSITY,
+        }
+    }
+
+    /// Checks every field, and that the plate they make is thin.
+    ///
+    /// # Errors
+    /// [`SpecError`] naming the first field out of range.
+    pub fn check(&self) -> Result<(), SpecError> {
+        SpecError::check("plate diameter (m)", self.diameter, 0.1, 0.8)?;
+        SpecError::check("plate mass (kg)", self.mass, 0.02, 20.0)?;
+        SpecError::check("plate rise (m)", self.rise, 0.0, 0.25 * self.diameter)?;
+        SpecError::check("Young's modulus (Pa)", self.youngs_modulus, 1e9, 1e12)?;
+        SpecError::check("Poisson's ratio", self.poisson_ratio, 0.0, 0.49)?;
+        SpecError::check("plate density (kg/m3)", self.density, 500.0, 25_000.0)?;
+        // Thicker than a fiftieth of its radius, a plate's upper modes shear (Mindlin).
+        let thickest = 0.01 * self.diameter;
+        SpecError::check(
+            "plate thickness by mass (m)",
+            self.thickness(),
+            1e-4,
+            thickest,
+        )?;
+        Ok(())
+    }
+
+    /// Radius, m.
+    pub fn radius(&self) -> f64 {
+        0.5 * self.diameter
+    }
+
+    /// Thickness, m, from the mass.
+    pub fn thickness(&self) -> f64 {
+        self.mass / (self.density * PI * self.radius().powi(2))
+    }
+
+    /// Flexural rigidity D = E h^3 / (12 (1 - nu^2)), N m.
+    pub fn flexural_rigidity(&self) -> f64 {
+        let nu = self.poisson_ratio;
+        self.youngs_modulus * self.thickness().powi(3) / (12.0 * (1.0 - nu * nu))
+    }
+
+    /// Curvature 1 / R of the cap, 1/m; R = (a^2 + H^2) / (2 H).
+    pub fn curvature(&self) -> f64 {
+        let (a, rise) = (self.radius(), self.rise);
+        2.0 * rise / (a * a + rise * rise)
+    }
+
+    /// Ring frequency sqrt(E / rho) / R, rad/s: where a shell begins to bend as a plate.
+    pub fn ring_omega(&self) -> f64 {
+        (self.youngs_modulus / self.density).sqrt() * self.curvature()
+    }
+
+    /// Frequency of the flat plate at wave number 1, rad/s; a mode's is its root squared times this.
+    pub fn flat_omega(&self) -> f64 {
+        let area_density = self.density * self.thickness();
+        (self.flexural_rigidity() / area_density).sqrt() / self.radius().powi(2)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_plate_that_cannot_be_is_refused_by_name() {
+        let crash = PlateSpec::CRASH;
+        let refused = |spec: PlateSpec| spec.check().unwrap_err().to_string();
+        assert!(refused(PlateSpec { rise: 0.3, ..crash }).starts_with("plate rise (m) is 0.3"));
+        assert!(
+            refused(PlateSpec {
+                diameter: f64::NAN,
+                ..crash
+            })
+            .contains("diameter")
+        );
+        assert!(
+            refused(PlateSpec {
+                mass: 15.0,
+                ..crash
+            })
+            .contains("thickness")
+        );
+    }
+
+    #[test]
+    fn every_plate_of_the_kit_can_be() {
+        for spec in [
+            PlateSpec::CRASH,
+            PlateSpec::RIDE,
+            PlateSpec::SPLASH,
+            PlateSpec::HI_HAT_TOP,
+            PlateSpec::HI_HAT_BOTTOM,
+        ] {
+            assert_eq!(spec.check(), Ok(()));
+        }
+    }
+}

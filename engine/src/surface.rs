@@ -1,0 +1,353 @@
+//! A round surface that is struck and heard: a modal body, its shapes, and the strikers about it.
+//!
+//! Displacement and force are positive along the stroke, into the surface. Each striker is a
+//! point mass; both it and the body integrate a force held over the sample exactly, so a contact
+//! is one scalar equation, and several at once a few sweeps of it (Gauss-Seidel: each contact is
+//! solved with the others' forces held; it converges because a place yields more to its own force
+//! than to another's).
+
+use crate::contact::{ContactLaw, ContactStep, Material};
+use crate::modal::{ModalBody, Mode, Pickup, Port};
+use crate::shapes::ShapeTable;
+use crate::snapshot::StrikeSnapshot;
+use crate::strike::{Strike, StrikerSpec};
+
+/// Strikers that can be about one surface at a time; the one that has been away longest gives way.
+pub const MAX_STRIKERS: usize = 4;
+
+/// A striker farther off than this has left for good, m. *By ear*: no head comes up so far.
+const AWAY: f64 = 0.010;
+
+/// A striker that neither leaves nor falls silent is lifted after this, s. *By ear*.
+const LIFTED_AFTER: f64 = 0.3;
+
+/// Sweeps over simultaneous contacts; they stop as soon as nothing changes.
+const MAX_SWEEPS: usize = 40;
+
+/// A striker at or near the surface.
+struct StrikerState {
+    /// Whether there is one.
+    present: bool,
+    spec: StrikerSpec,
+    law: ContactLaw,
+    port: Port,
+    /// Pressure at the pickup at once per unit force, Pa/N.
+    direct: f32,
+    /// Position along the stroke, m; velocity, m/s.
+    position: f64,
+    velocity: f64,
+    /// Overlap with the surface now, m.
+    compression: f64,
+    /// Loss of the present touch, s/m.
+    lambda: f64,
+    touching: bool,
+    /// Samples since the stroke.
+    age: u64,
+    force: f64,
+    step: ContactStep,
+    /// Which stroke of the surface this was.
+    stroke: u32,
+}
+
+/// The surface and everything that touches it.
+pub struct Surface {
+    body: ModalBody,
+    shapes: ShapeTable,
+    pickup: Pickup,
+    material: Material,
+    strikers: [StrikerState; MAX_STRIKERS],
+    /// Between present strikers: one-sample compliance of the body, m/N.
+    compliance: [[f64; MAX_STRIKERS]; MAX_STRIKERS],
+    any_present: bool,
+    last: StrikeSnapshot,
+    dt: f64,
+}
+
+impl Surface {
+    /// A surface at rest. `transfer` is the pickup's, see [`Pickup::new`]. Allocates.
+    pub fn new(
+        modes: Vec<Mode>,
+        shapes: ShapeTable,
+        transfer: Vec<[f64; 2]>,
+        material: Material,
+        sample_rate: f64,
+    ) -> Surface {
+        let count = modes.len();
+        let body = ModalBody::new(modes, sample_rate);
+        let mut pickup = Pickup::new(transfer);
+        body.tune(&mut pickup);
+        Surface {
+            body,
+            shapes,
+            pickup,
+            material,
+            strikers: std::array::from_fn(|_| StrikerState::absent(count)),
+            compliance: [[0.0; MAX_STRIKERS]; MAX_STRIKERS],
+            any_present: false,
+            last: StrikeSnapshot::default(),
+            dt: 1.0 / sample_rate,
+        }
+    }
+
+    /// The modes and their motion.
+    pub fn body(&self) -> &ModalBody {
+        &self.body
+    }
+
+    /// The modes and their motion, to be looked at or set up by tests and tools.
+    pub fn body_mut(&mut self) -> &mut ModalBody {
+        &mut self.body
+    }
+
+    /// Shapes of the modes.
+    pub fn shapes(&self) -> &ShapeTable {
+        &self.shapes
+    }
+
+    /// What the latest stroke's contact measured.
+    pub fn last_strike(&self) -> StrikeSnapshot {
+        self.last
+    }
+
+    /// Changes the modes while they ring; `mode(k, old)` gives the new one.
+    ///
+    /// # Real-time
+    /// Linear in the number of modes, about 100 ns each.
+    pub fn retune(&mut self, mode: impl Fn(usize, &Mode) -> Mode) {
+        for k in 0..self.body.len() {
+            let new = mode(k, &self.body.modes()[k]);
+            self.body.set_mode(k, new);
+        }
+        self.body.tune(&mut self.pickup);
+        for i in 0..MAX_STRIKERS {
+            if self.strikers[i].present {
+                self.connect(i);
+            }
+        }
+    }
+
+    /// Strikes at the next sample: the tip is just touching and moves at the stroke's speed.
+    ///
+    /// # Real-time
+    /// No allocation; linear in the number of modes.
+    pub fn strike(&mut self, strike: &Strike) {
+        let speed = strike.speed.clamp(0.0, Strike::MAX_SPEED);
+        let radius = strike.radius.clamp(0.0, 1.0);
+        let i = self.free_place();
+        self.last = StrikeSnapshot {
+            count: self.last.count.wrapping_add(1),
+            speed: speed as f32,
+            radius: radius as f32,
+            angle: strike.angle as f32,
+            ..StrikeSnapshot::default()
+        };
+        let striker = &mut self.strikers[i];
+        striker.spec = strike.striker.spec();
+        striker.law = ContactLaw::new(&striker.spec.tip, &self.material, striker.spec.restitution);
+        self.shapes.fill(radius, strike.angle, striker.port.shape_mut());
+        striker.present = true;
+        striker.touching = false;
+        striker.age = 0;
+        striker.force = 0.0;
+        striker.velocity = speed;
+        striker.stroke = self.last.count;
+        self.any_present = true;
+        self.connect(i);
+        let striker = &mut self.strikers[i];
+        striker.position = self.body.displacement_at(&striker.port);
+        striker.compression = 0.0;
+    }
+
+    /// An empty place, or that of the striker which has been about longest without touching, or,
+    /// if all touch, of the oldest.
+    fn free_place(&self) -> usize {
+        let rank = |striker: &StrikerState| (striker.present, striker.touching, std::cmp::Reverse(striker.age));
+        (0..MAX_STRIKERS).min_by_key(|&i| rank(&self.strikers[i])).unwrap_or(0)
+    }
+
+    /// Works out what the body tells striker `i` and the others of each other.
+    fn connect(&mut self, i: usize) {
+        self.body.connect(&mut self.strikers[i].port);
+        self.strikers[i].direct = self.pickup.direct_at(&self.body, &self.strikers[i].port);
+        for j in 0..MAX_STRIKERS {
+            if self.strikers[j].present {
+                let mutual = self.body.compliance(&self.strikers[j].port, &self.strikers[i].port);
+                self.compliance[i][j] = mutual;
+                self.compliance[j][i] = mutual;
+            }
+        }
+    }
+
+    /// Renders sound pressure at the pickup, Pa, overwriting `out`. At most
+    /// [`MAX_RUN`](crate::modal::simd::MAX_RUN) samples.
+    ///
+    /// # Real-time
+    /// Linear in modes times samples; a few times dearer while a striker is about.
+    pub fn render(&mut self, out: &mut [f32]) {
+        let mut done = 0;
+        while self.any_present && done < out.len() {
+            out[done] = self.step();
+            done += 1;
+        }
+        self.body.ring(&self.pickup, &mut out[done..]);
+    }
+
+    /// One sample with strikers about.
+    fn step(&mut self) -> f32 {
+        self.body.step();
+        let dt = self.dt;
+        for (i, striker) in self.strikers.iter_mut().enumerate().filter(|(_, striker)| striker.present) {
+            let surface = self.body.displacement_at(&striker.port);
+            striker.free_flight(surface, self.compliance[i][i], dt);
+        }
+        self.solve();
+        let mut direct = 0.0;
+        let mut forces = [0.0; MAX_STRIKERS];
+        for (force, striker) in forces.iter_mut().zip(&self.strikers) {
+            if striker.present && striker.force > 0.0 {
+                *force = striker.force;
+                self.body.push(&striker.port, striker.force as f32);
+                direct += striker.force as f32 * striker.direct;
+            }
+        }
+        self.any_present = false;
+        for (i, striker) in self.strikers.iter_mut().enumerate().filter(|(_, striker)| striker.present) {
+            // Where the others' forces and its own have taken the surface.
+            let yielded: f64 = forces.iter().zip(&self.compliance[i]).map(|(force, c)| force * c).sum();
+            striker.advance(yielded, dt);
+            if striker.stroke == self.last.count {
+                striker.report(&mut self.last, dt);
+            }
+            self.any_present |= striker.present;
+        }
+        self.body.listen(&self.pickup) + direct
+    }
+
+    /// Forces of all contacts for this sample.
+    fn solve(&mut self) {
+        let mut changed = true;
+        for _ in 0..MAX_SWEEPS {
+            if !changed {
+                break;
+            }
+            changed = false;
+            let mut coupled = false;
+            for i in 0..MAX_STRIKERS {
+                if !self.strikers[i].present {
+                    continue;
+                }
+                let others: f64 = (0..MAX_STRIKERS)
+                    .filter(|&j| j != i && self.strikers[j].present)
+                    .map(|j| self.compliance[i][j] * self.strikers[j].force)
+                    .sum();
+                coupled |= others != 0.0;
+                let striker = &mut self.strikers[i];
+                let step = ContactStep { free: striker.step.free - others, ..striker.step };
+                let force = striker.law.force(&step);
+                changed |= (force - striker.force).abs() > 1e-12 * force.abs();
+                striker.force = force;
+            }
+            if !coupled && (0..MAX_STRIKERS).filter(|&i| self.strikers[i].force > 0.0).count() <= 1 {
+                break;
+            }
+        }
+    }
+
+    /// Kinetic energy of the strikers and energy held in their contacts, J.
+    pub fn striker_energy(&self) -> f64 {
+        self.strikers
+            .iter()
+            .filter(|striker| striker.present)
+            .map(|striker| {
+                0.5 * striker.spec.mass * striker.velocity.powi(2) + striker.law.potential(striker.compression)
+            })
+            .sum()
+    }
+
+    /// Zeroes what has decayed to nothing; reports whether all is finite, and rests it if not.
+    ///
+    /// # Real-time
+    /// Linear in the number of modes; meant for once a block.
+    pub fn settle(&mut self) -> bool {
+        self.body.flush_quiet();
+        let finite = self.body.is_finite()
+            && self.strikers.iter().all(|striker| !striker.present || striker.position.is_finite());
+        if !finite {
+            self.reset();
+        }
+        finite
+    }
+
+    /// Whether nothing moves and nothing is about.
+    pub fn is_still(&self) -> bool {
+        !self.any_present && self.body.is_still()
+    }
+
+    /// Puts everything to rest; strikers are gone.
+    pub fn reset(&mut self) {
+        self.body.reset();
+        self.strikers.iter_mut().for_each(|striker| striker.present = false);
+        self.any_present = false;
+    }
+}
+
+impl StrikerState {
+    fn absent(modes: usize) -> StrikerState {
+        let spec = crate::strike::Striker::Stick.spec();
+        StrikerState {
+            present: false,
+            spec,
+            law: ContactLaw::new(&spec.tip, &Material::FILM, spec.restitution),
+            port: Port::new(modes),
+            direct: 0.0,
+            position: 0.0,
+            velocity: 0.0,
+            compression: 0.0,
+            lambda: 0.0,
+            touching: false,
+            age: 0,
+            force: 0.0,
+            step: ContactStep { before: 0.0, free: 0.0, compliance: 0.0, lambda: 0.0, dt: 1.0 },
+            stroke: 0,
+        }
+    }
+
+    /// Prepares the sample's contact: where the striker and the surface would be without a force.
+    fn free_flight(&mut self, surface: f64, body_compliance: f64, dt: f64) {
+        self.position += self.velocity * dt;
+        let free = self.position - surface;
+        if !self.touching && free > 0.0 {
+            let approach = (free - self.compression) / dt;
+            self.lambda = self.law.lambda(approach);
+        }
+        let compliance = body_compliance + dt * dt / (2.0 * self.spec.mass);
+        self.step = ContactStep { before: self.compression, free, compliance, lambda: self.lambda, dt };
+        self.force = 0.0;
+    }
+
+    /// Applies the force; `yielded` is how far all forces have moved the surface here.
+    fn advance(&mut self, yielded: f64, dt: f64) {
+        let own = dt * dt / (2.0 * self.spec.mass);
+        self.position -= own * self.force;
+        self.velocity -= self.force * dt / self.spec.mass;
+        self.compression = self.step.free - yielded - own * self.force;
+        self.touching = self.compression > 0.0;
+        self.age += 1;
+        let gone = self.compression < -AWAY;
+        let lifted = !self.touching && self.age as f64 * dt > LIFTED_AFTER;
+        self.present = !(gone || lifted);
+    }
+
+    /// Adds this sample to what the stroke's contact has measured.
+    fn report(&self, last: &mut StrikeSnapshot, dt: f64) {
+        if self.force > 0.0 {
+            if self.step.before <= 0.0 {
+                last.touches += 1;
+            }
+            last.contact_time = (self.age as f64 * dt) as f32;
+            last.peak_force = last.peak_force.max(self.force as f32);
+            last.impulse += (self.force * dt) as f32;
+        }
+        last.leaving_speed = -self.velocity as f32;
+    }
+}
