@@ -68,11 +68,7 @@ impl OverhearEditor {
     }
 
     fn egui_editor(&self, window: Arc<EguiEditorState>) -> Option<EguiEditor<App>> {
-        let (width, height) = SMALLEST_WINDOW;
-        let smallest = LogicalSize::new(width as f32, height as f32);
-        let settings = EguiNiceSettings::new()
-            .with_tile(NAME)
-            .with_resize_hint(ResizeHint::RESIZABLE.with_min_logical_size(smallest));
+        let settings = EguiNiceSettings::new().with_tile(NAME).with_resize_hint(resize_hint());
         create_egui_editor(window, self.repaint.clone(), settings, App::new(self.sources.clone()))
     }
 }
@@ -80,6 +76,11 @@ impl OverhearEditor {
 fn window_of(parameters: &HostParameters) -> Arc<EguiEditorState> {
     let (width, height) = parameters.window();
     EguiEditorState::from_size(LogicalSize::new(f64::from(width), f64::from(height)), 1.0)
+}
+
+fn resize_hint() -> ResizeHint {
+    let (width, height) = SMALLEST_WINDOW;
+    ResizeHint::RESIZABLE.with_min_logical_size(LogicalSize::new(width as f32, height as f32))
 }
 
 impl Editor for OverhearEditor {
@@ -105,8 +106,7 @@ impl Editor for OverhearEditor {
     }
 
     fn resize_hint(&self) -> ResizeHint {
-        let (width, height) = SMALLEST_WINDOW;
-        ResizeHint::RESIZABLE.with_min_logical_size(LogicalSize::new(width as f32, height as f32))
+        resize_hint()
     }
 }
 

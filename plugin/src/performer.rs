@@ -6,7 +6,7 @@
 
 use no_denormals::no_denormals;
 use overhear_engine::error::SpecError;
-use overhear_engine::kit::Kit;
+use overhear_engine::kit::{Control, Kit};
 use overhear_engine::piece::{BuildOptions, Piece, PieceId};
 use overhear_engine::snapshot::KitSnapshot;
 use overhear_engine::strike::Strike;
@@ -115,6 +115,9 @@ impl Performer {
         let Some(parameter) = PARAMETERS.get(index) else {
             return;
         };
+        if std::mem::replace(&mut self.asked[index], value) == value {
+            return;
+        }
         let value = parameter.snap(value);
         if value == self.values[index] {
             return;
@@ -125,7 +128,7 @@ impl Performer {
             Drives::Control(control) => flushed(|| self.kit.set(control, value)),
             Drives::Semitones(piece) => {
                 let ratio = libm::exp2(value / 12.0);
-                flushed(|| self.kit.set(overhear_engine::kit::Control::Tuning(piece), ratio));
+                flushed(|| self.kit.set(Control::Tuning(piece), ratio));
             }
             Drives::Dynamics => self.dynamics = value,
         }
