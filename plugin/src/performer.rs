@@ -36,6 +36,8 @@ pub fn stick_speed(velocity: f32, full: f64) -> f64 {
 /// A kit and who plays it.
 pub struct Performer {
     kit: Kit,
+    /// Values as asked for, `[parameter]`: hosts repeat all of them with every buffer.
+    asked: [f32; PARAMETERS.len()],
     /// Plain values, `[parameter]`.
     values: [f32; PARAMETERS.len()],
     /// Stick speed at full velocity, m/s.
@@ -49,6 +51,7 @@ impl Performer {
     pub fn new(sample_rate: f64) -> Performer {
         let mut performer = Performer {
             kit: Kit::new(sample_rate),
+            asked: [f32::NAN; PARAMETERS.len()],
             values: [f32::NAN; PARAMETERS.len()],
             dynamics: 0.0,
             started: false,
