@@ -33,14 +33,6 @@ impl Spectrum {
         Spectrum::windowed(&samples[..length], rate, fade)
     }
 
-    /// Spectrum of a whole stretch under a bell (Hann's window).
-    pub fn of_stretch(samples: &[f32], rate: f64) -> Spectrum {
-        let length = samples.len() as f64;
-        Spectrum::windowed(samples, rate, |n| {
-            0.5 - 0.5 * (std::f64::consts::TAU * (n as f64 + 0.5) / length).cos()
-        })
-    }
-
     fn windowed(samples: &[f32], rate: f64, window: impl Fn(usize) -> f64) -> Spectrum {
         // Four times padded, so that a peak is seen at three bins or more.
         let size = (4 * samples.len()).max(16).next_power_of_two();
