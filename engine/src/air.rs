@@ -78,9 +78,7 @@ impl<'a> MembraneAir<'a> {
     fn integrate(&self, end: f64, f: impl Fn(f64) -> f64) -> f64 {
         let panels = (end / 1.5).ceil().max(1.0);
         let width = end / panels;
-        (0..panels as usize)
-            .map(|i| width * self.panel.integrate(|t| f(width * (i as f64 + t))))
-            .sum()
+        (0..panels as usize).map(|i| width * self.panel.integrate(|t| f(width * (i as f64 + t)))).sum()
     }
 
     /// The load as a function of `u` in a range, for solving and retuning.

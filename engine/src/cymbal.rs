@@ -17,7 +17,7 @@ use crate::piece::{BuildOptions, ModeInfo, ModeKind};
 use crate::plate::{PlateModes, PlateSpec, PlateTables};
 use crate::shapes::{ShapeIndex, ShapeTable};
 use crate::split::Splitting;
-use crate::surface::Surface;
+use crate::surface::{Surface, SurfaceParts};
 
 /// A cymbal's description.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -131,13 +131,15 @@ impl Cymbal {
         let tables = PlateTables::new(orders, extent);
         let splitting = if options.unsplit { Splitting::ROUND } else { spec.splitting };
         let (modes, index) = lay_out(spec, &plate, &tables, splitting);
-        let surface = Surface::new(
-            modes.iter().map(|mode| Mode { omega: mode.omega, sigma: 0.0, mass: spec.plate.mass }).collect(),
-            ShapeTable::new(&radial_rows(&plate, &tables, &ShapeTable::radii()), index),
-            transfer(spec, &plate, &tables),
-            spec.material,
-            options.sample_rate,
-        );
+        let bare = |mode: &BuiltMode| Mode { omega: mode.omega, sigma: 0.0, mass: spec.plate.mass };
+        let surface = Surface::new(SurfaceParts {
+            modes: modes.iter().map(bare).collect(),
+            shapes: ShapeTable::new(&radial_rows(&plate, &tables, &ShapeTable::radii()), index),
+            transfer: transfer(spec, &plate, &tables),
+            material: spec.material,
+            lossless: options.lossless,
+            sample_rate: options.sample_rate,
+        });
         let (low, tuning, high) = CymbalSpec::TUNING;
         let mut cymbal = Cymbal {
             surface,
@@ -246,8 +248,10 @@ impl Cymbal {
     }
 }
 
-/// Radial shapes of the rigid motions: bounce, rock; of unit mean square over the disc.
-const RIGID: [(u32, fn(f64) -> f64); 2] = [(0, |_| 1.0), (1, |r| 2.0 * r)];
+/// The rigid motions: order, and radial shape at `r`, of unit mean square over the disc.
+const RIGID: [RigidMotion; 2] = [(0, |_| 1.0), (1, |r| 2.0 * r)];
+
+type RigidMotion = (u32, fn(f64) -> f64);
 
 /// The modes of the body: the rigid ones, then the shell's by frequency; and how each goes around.
 fn lay_out(
@@ -259,8 +263,15 @@ fn lay_out(
     let (mut modes, mut index) = (Vec::new(), Vec::new());
     let rigid = [spec.stand.bounce_hz, spec.stand.rock_hz].map(|hz| TAU * hz);
     for (radial, ((m, _), omega)) in RIGID.into_iter().zip(rigid).enumerate() {
-        let built =
-            BuiltMode { m, n: 0, kind: ModeKind::Rigid, omega, radiated: 0.0, muffling: 0.0, monopole_area: 0.0 };
+        let built = BuiltMode {
+            m,
+            n: 0,
+            kind: ModeKind::Rigid,
+            omega,
+            radiated: 0.0,
+            muffling: 0.0,
+            monopole_area: 0.0,
+        };
         for (member, _) in Splitting::ROUND.members(m, 0) {
             modes.push(built);
             index.push(ShapeIndex { radial, m, member, axis: 0.0 });
@@ -290,7 +301,8 @@ fn lay_out(
 
 /// Radial shapes of everything at `radii`, rigid motions first.
 fn radial_rows(plate: &PlateModes, tables: &PlateTables, radii: &[f64]) -> Vec<f64> {
-    let mut rows: Vec<f64> = RIGID.iter().flat_map(|&(_, shape)| radii.iter().map(move |&r| shape(r))).collect();
+    let mut rows: Vec<f64> =
+        RIGID.iter().flat_map(|&(_, shape)| radii.iter().map(move |&r| shape(r))).collect();
     rows.extend(plate.radial_shapes(tables, radii));
     rows
 }

@@ -15,7 +15,7 @@ use crate::modal::Mode;
 use crate::piece::{BuildOptions, ModeInfo, ModeKind};
 use crate::shapes::{ShapeIndex, ShapeTable};
 use crate::split::Splitting;
-use crate::surface::Surface;
+use crate::surface::{Surface, SurfaceParts};
 use crate::tuned_head::{Place, TunedHead};
 
 /// A drum's description.
@@ -146,13 +146,14 @@ impl Drum {
         let coefs = DrumCoefs::new(spec, &membrane, head, options);
         let place = coefs.head.place(pitch);
         let modes = (0..coefs.rows.len()).map(|k| coefs.mode(k, &place, 0.0)).collect();
-        let surface = Surface::new(
+        let surface = Surface::new(SurfaceParts {
             modes,
-            shape_table(spec, &membrane, &coefs),
-            transfer(spec, &membrane, &coefs, &place),
-            spec.batter.material,
-            options.sample_rate,
-        );
+            shapes: shape_table(spec, &membrane, &coefs),
+            transfer: transfer(spec, &membrane, &coefs, &place),
+            material: spec.batter.material,
+            lossless: options.lossless,
+            sample_rate: options.sample_rate,
+        });
         let (pitch, muffling) = (Glide::new(pitch, low, high), Glide::new(0.0, 0.0, 1.0));
         let mut drum = Drum { surface, coefs, pitch, muffling, stale: false, membrane };
         drum.lay_muffler(spec);
@@ -224,7 +225,8 @@ impl Drum {
     /// Every mode as it is now.
     pub fn modes(&self) -> Vec<ModeInfo> {
         let index = self.surface.shapes().index();
-        let rows = self.surface.body().modes().iter().zip(index).zip(&self.coefs.orders).zip(&self.coefs.rows);
+        let rows =
+            self.surface.body().modes().iter().zip(index).zip(&self.coefs.orders).zip(&self.coefs.rows);
         rows.map(|(((mode, shape), &(m, n)), &row)| ModeInfo {
             body: "batter",
             m,

@@ -124,7 +124,11 @@ impl Membrane {
     ///
     /// # Errors
     /// [`SpecError`] if the spec is out of range.
-    pub fn new(spec: MembraneSpec, surroundings: Surroundings, range: &ModeRange) -> Result<Membrane, SpecError> {
+    pub fn new(
+        spec: MembraneSpec,
+        surroundings: Surroundings,
+        range: &ModeRange,
+    ) -> Result<Membrane, SpecError> {
         let spec = spec.validated()?;
         // Without air a head rings highest; nothing above this zero can ring below the limit.
         let speed = (range.reference_tension / spec.area_density()).sqrt();
@@ -151,7 +155,8 @@ impl Membrane {
                 Surroundings::Vacuum => LoadCurve::VACUUM,
                 Surroundings::Air => {
                     // The unloaded frequency is the highest; air lowers it to no less than a fifth.
-                    let u = |tension| membrane.ringing(&bare, tension).omega * spec.radius / air::SPEED_OF_SOUND;
+                    let u =
+                        |tension| membrane.ringing(&bare, tension).omega * spec.radius / air::SPEED_OF_SOUND;
                     let table = &tables[m as usize];
                     MembraneAir::new(m, table).curve(zero, 0.2 * u(range.tension[0]), u(range.tension[1]))
                 }
@@ -281,7 +286,9 @@ mod tests {
         let membrane = Membrane::new(timpani(), Surroundings::Air, &range(2729.0)).unwrap();
         assert!((timpani().area_density() * timpani().area() - 0.0904).abs() < 1e-4);
         let principal = frequency(&membrane, 1, 1, 2729.0);
-        for (m, computed, measured) in [(2, 1.470, 1.48), (3, 1.922, 1.92), (4, 2.363, 2.36), (5, 2.797, 2.78)] {
+        for (m, computed, measured) in
+            [(2, 1.470, 1.48), (3, 1.922, 1.92), (4, 2.363, 2.36), (5, 2.797, 2.78)]
+        {
             let ratio = frequency(&membrane, m, 1, 2729.0) / principal;
             assert!((ratio / computed - 1.0).abs() < 0.002, "({m},1): {ratio} for {computed}");
             assert!((ratio / measured - 1.0).abs() < 0.01, "({m},1): {ratio} for {measured}");

@@ -296,7 +296,8 @@ impl ModalBody {
 
     /// Pressure at a pickup now, without what follows the force at once.
     pub fn listen(&self, pickup: &Pickup) -> f32 {
-        self.kernels.dot(&pickup.weight_re, &self.state.re) + self.kernels.dot(&pickup.weight_im, &self.state.im)
+        self.kernels.dot(&pickup.weight_re, &self.state.re)
+            + self.kernels.dot(&pickup.weight_im, &self.state.im)
     }
 
     /// Advances without force and listens after each sample: [`step`](Self::step) and
@@ -360,7 +361,7 @@ impl ModalBody {
 /// change a decay of 1 s by some thousandths: of the nine neighbours in `f32` the one of the
 /// truest size is taken, at the price of an angle wrong by 1e-7 rad.
 fn round_turn(re: f64, im: f64, decay: f64) -> (f32, f32) {
-    const SLOW: f64 = 0.3;
+    const SLOW: f64 = 0.05;
     let nearest = (re as f32, im as f32);
     if im.abs() + re.abs() < SLOW {
         return nearest;

@@ -159,8 +159,8 @@ pub struct Piece {
 }
 
 enum Voice {
-    Drum(Drum),
-    Cymbal(Cymbal),
+    Drum(Box<Drum>),
+    Cymbal(Box<Cymbal>),
 }
 
 impl Voice {
@@ -186,8 +186,9 @@ impl Piece {
     /// [`SpecError`] if the options are out of range.
     pub fn new(id: PieceId, options: &BuildOptions) -> Result<Piece, SpecError> {
         SpecError::check("sample rate (Hz)", options.sample_rate, 22_050.0, 768_000.0)?;
-        let drum = |spec: DrumSpec| Drum::new(&spec, options).map(Voice::Drum);
-        let cymbal = |spec: CymbalSpec| Cymbal::new(&spec, options).map(Voice::Cymbal);
+        let drum = |spec: DrumSpec| Drum::new(&spec, options).map(|drum| Voice::Drum(Box::new(drum)));
+        let cymbal =
+            |spec: CymbalSpec| Cymbal::new(&spec, options).map(|cymbal| Voice::Cymbal(Box::new(cymbal)));
         let voice = match id {
             PieceId::Kick => drum(DrumSpec::kick())?,
             PieceId::Snare => drum(DrumSpec::snare())?,
@@ -331,6 +332,11 @@ impl Piece {
     /// Kinetic energy of the strikers about and energy held in their contacts, J.
     pub fn striker_energy(&self) -> f64 {
         self.voice.surface().striker_energy()
+    }
+
+    /// Kinetic energy that strikers have taken away with them since the last reset, J.
+    pub fn departed_energy(&self) -> f64 {
+        self.voice.surface().departed_energy()
     }
 
     /// Times the piece was put back to rest because a value was not finite.

@@ -13,6 +13,7 @@
 
 use std::f64::consts::TAU;
 
+use crate::air;
 use crate::error::SpecError;
 use crate::math::bessel::{ITable, JTable};
 
@@ -23,7 +24,7 @@ pub mod radiation;
 pub mod spec;
 
 use radial::RadialMode;
-use radiation::{Radiator, SOUND_SPEED};
+use radiation::Radiator;
 
 pub use spec::PlateSpec;
 
@@ -69,10 +70,7 @@ pub struct PlateTables {
 impl PlateTables {
     /// Tables of every order to `max_order` and arguments to `x_max`.
     pub fn new(max_order: u32, x_max: f64) -> PlateTables {
-        PlateTables {
-            j: JTable::orders(max_order, x_max),
-            i: ITable::orders(max_order, x_max),
-        }
+        PlateTables { j: JTable::orders(max_order, x_max), i: ITable::orders(max_order, x_max) }
     }
 }
 
@@ -91,17 +89,10 @@ impl PlateModes {
             .map(|m| edges::free_modes(m, spec.poisson_ratio, reach))
             .take_while(|modes| !modes.is_empty())
             .collect();
-        let mut shells: Vec<ShellMode> = flat
-            .iter()
-            .flat_map(|modes| order_shells(spec, modes))
-            .collect();
+        let mut shells: Vec<ShellMode> = flat.iter().flat_map(|modes| order_shells(spec, modes)).collect();
         shells.retain(|shell| shell.omega <= limit);
         shells.sort_by(|a, b| a.omega.total_cmp(&b.omega));
-        Ok(PlateModes {
-            spec: *spec,
-            flat,
-            shells,
-        })
+        Ok(PlateModes { spec: *spec, flat, shells })
     }
 
     /// Flat modes that `shell` is expanded in.
@@ -128,13 +119,8 @@ impl PlateModes {
     /// Highest order and largest argument the tables must reach for this plate's modes, at
     /// frequencies up to `limit_hz`.
     pub fn table_extent(&self, limit_hz: f64) -> (u32, f64) {
-        let root = self
-            .flat
-            .iter()
-            .flatten()
-            .map(|flat| flat.root)
-            .fold(0.0, f64::max);
-        let trace = TAU * limit_hz * self.spec.radius() / SOUND_SPEED;
+        let root = self.flat.iter().flatten().map(|flat| flat.root).fold(0.0, f64::max);
+        let trace = TAU * limit_hz * self.spec.radius() / air::SPEED_OF_SOUND;
         (self.flat.len().saturating_sub(1) as u32, root.max(trace))
     }
 
@@ -184,19 +170,14 @@ impl PlateModes {
     pub fn radiation_resistances(&self, tables: &PlateTables) -> Vec<f64> {
         let mut radiator = Radiator::new(&tables.j, self.spec.radius());
         let shells = self.shells.iter();
-        shells
-            .map(|s| radiator.resistance(self.flat_of(s), &s.expansion, s.omega))
-            .collect()
+        shells.map(|s| radiator.resistance(self.flat_of(s), &s.expansion, s.omega)).collect()
     }
 }
 
 /// Shell modes of one order.
 fn order_shells(spec: &PlateSpec, flat: &[RadialMode]) -> Vec<ShellMode> {
     let unit = spec.flat_omega();
-    let omegas: Vec<f64> = flat
-        .iter()
-        .map(|mode| unit * mode.root * mode.root)
-        .collect();
+    let omegas: Vec<f64> = flat.iter().map(|mode| unit * mode.root * mode.root).collect();
     let solved = dome::shells(flat, &omegas, spec.ring_omega());
     let named = solved.into_iter().zip(flat);
     let shell = |(shell, flat): (dome::Shell, &RadialMode)| ShellMode {

@@ -124,7 +124,8 @@ mod tests {
 
     #[test]
     fn the_table_meets_a_fine_shape_anywhere() {
-        let modes = [Member::Cosine, Member::Sine].map(|member| ShapeIndex { radial: 0, m: 9, member, axis: 0.3 });
+        let modes =
+            [Member::Cosine, Member::Sine].map(|member| ShapeIndex { radial: 0, m: 9, member, axis: 0.3 });
         let radial = |r: f64| libm::jn(9, 60.0 * r);
         let rows: Vec<f64> = ShapeTable::radii().into_iter().map(radial).collect();
         let table = ShapeTable::new(&rows, modes.to_vec());

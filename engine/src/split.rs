@@ -29,7 +29,8 @@ impl Splitting {
     pub fn members(&self, m: u32, n: u32) -> impl Iterator<Item = (Member, f64)> + use<> {
         // Between a half and one and a half times the mean, either way round.
         let draw = hash(self.seed, m, n, 0);
-        let half = 0.5 * self.detuning * (0.5 + draw) * if hash(self.seed, m, n, 1) < 0.5 { -1.0 } else { 1.0 };
+        let half =
+            0.5 * self.detuning * (0.5 + draw) * if hash(self.seed, m, n, 1) < 0.5 { -1.0 } else { 1.0 };
         let count = if m == 0 { 1 } else { 2 };
         let offset = if m == 0 { [0.0; 2] } else { [half, -half] };
         [Member::Cosine, Member::Sine].into_iter().zip(offset.map(|x| 1.0 + x)).take(count)

@@ -24,6 +24,9 @@ const LIFTED_AFTER: f64 = 0.3;
 /// Sweeps over simultaneous contacts; they stop as soon as nothing changes.
 const MAX_SWEEPS: usize = 40;
 
+/// Relative change of a force below which it counts as found.
+const SETTLED: f64 = 1e-12;
+
 /// A striker at or near the surface.
 struct StrikerState {
     /// Whether there is one.
@@ -49,43 +52,58 @@ struct StrikerState {
     stroke: u32,
 }
 
+/// What a surface is made from.
+pub struct SurfaceParts {
+    /// `[mode]`.
+    pub modes: Vec<Mode>,
+    /// Shapes of the modes.
+    pub shapes: ShapeTable,
+    /// How each mode is heard, `[mode]`; see [`Pickup::new`].
+    pub transfer: Vec<[f64; 2]>,
+    /// What the tip meets.
+    pub material: Material,
+    /// Whether contacts give back all they take, whatever the striker.
+    pub lossless: bool,
+    /// Hz.
+    pub sample_rate: f64,
+}
+
 /// The surface and everything that touches it.
 pub struct Surface {
     body: ModalBody,
     shapes: ShapeTable,
     pickup: Pickup,
     material: Material,
+    lossless: bool,
     strikers: [StrikerState; MAX_STRIKERS],
     /// Between present strikers: one-sample compliance of the body, m/N.
     compliance: [[f64; MAX_STRIKERS]; MAX_STRIKERS],
     any_present: bool,
+    /// Kinetic energy that strikers have taken with them, J.
+    departed_energy: f64,
     last: StrikeSnapshot,
     dt: f64,
 }
 
 impl Surface {
-    /// A surface at rest. `transfer` is the pickup's, see [`Pickup::new`]. Allocates.
-    pub fn new(
-        modes: Vec<Mode>,
-        shapes: ShapeTable,
-        transfer: Vec<[f64; 2]>,
-        material: Material,
-        sample_rate: f64,
-    ) -> Surface {
-        let count = modes.len();
-        let body = ModalBody::new(modes, sample_rate);
-        let mut pickup = Pickup::new(transfer);
+    /// A surface at rest. Allocates.
+    pub fn new(parts: SurfaceParts) -> Surface {
+        let count = parts.modes.len();
+        let body = ModalBody::new(parts.modes, parts.sample_rate);
+        let mut pickup = Pickup::new(parts.transfer);
         body.tune(&mut pickup);
         Surface {
             body,
-            shapes,
+            shapes: parts.shapes,
             pickup,
-            material,
+            material: parts.material,
+            lossless: parts.lossless,
             strikers: std::array::from_fn(|_| StrikerState::absent(count)),
             compliance: [[0.0; MAX_STRIKERS]; MAX_STRIKERS],
             any_present: false,
+            departed_energy: 0.0,
             last: StrikeSnapshot::default(),
-            dt: 1.0 / sample_rate,
+            dt: 1.0 / parts.sample_rate,
         }
     }
 
@@ -134,6 +152,9 @@ impl Surface {
         let speed = strike.speed.clamp(0.0, Strike::MAX_SPEED);
         let radius = strike.radius.clamp(0.0, 1.0);
         let i = self.free_place();
+        if self.strikers[i].present {
+            self.departed_energy += self.strikers[i].energy();
+        }
         self.last = StrikeSnapshot {
             count: self.last.count.wrapping_add(1),
             speed: speed as f32,
@@ -143,7 +164,8 @@ impl Surface {
         };
         let striker = &mut self.strikers[i];
         striker.spec = strike.striker.spec();
-        striker.law = ContactLaw::new(&striker.spec.tip, &self.material, striker.spec.restitution);
+        let restitution = if self.lossless { 1.0 } else { striker.spec.restitution };
+        striker.law = ContactLaw::new(&striker.spec.tip, &self.material, restitution);
         self.shapes.fill(radius, strike.angle, striker.port.shape_mut());
         striker.present = true;
         striker.touching = false;
@@ -161,7 +183,8 @@ impl Surface {
     /// An empty place, or that of the striker which has been about longest without touching, or,
     /// if all touch, of the oldest.
     fn free_place(&self) -> usize {
-        let rank = |striker: &StrikerState| (striker.present, striker.touching, std::cmp::Reverse(striker.age));
+        let rank =
+            |striker: &StrikerState| (striker.present, striker.touching, std::cmp::Reverse(striker.age));
         (0..MAX_STRIKERS).min_by_key(|&i| rank(&self.strikers[i])).unwrap_or(0)
     }
 
@@ -219,35 +242,35 @@ impl Surface {
                 striker.report(&mut self.last, dt);
             }
             self.any_present |= striker.present;
+            if !striker.present {
+                self.departed_energy += striker.energy();
+            }
         }
         self.body.listen(&self.pickup) + direct
     }
 
-    /// Forces of all contacts for this sample.
+    /// Forces of all contacts for this sample: sweeps until none changes any more. A striker alone
+    /// is done in one.
     fn solve(&mut self) {
-        let mut changed = true;
-        for _ in 0..MAX_SWEEPS {
-            if !changed {
-                break;
-            }
-            changed = false;
-            let mut coupled = false;
+        let present = self.strikers.iter().filter(|striker| striker.present).count();
+        for _ in 0..if present > 1 { MAX_SWEEPS } else { 1 } {
+            let mut changed = false;
             for i in 0..MAX_STRIKERS {
                 if !self.strikers[i].present {
                     continue;
                 }
+                // A force of zero, as of those not present, pushes nothing.
                 let others: f64 = (0..MAX_STRIKERS)
                     .filter(|&j| j != i && self.strikers[j].present)
                     .map(|j| self.compliance[i][j] * self.strikers[j].force)
                     .sum();
-                coupled |= others != 0.0;
                 let striker = &mut self.strikers[i];
                 let step = ContactStep { free: striker.step.free - others, ..striker.step };
                 let force = striker.law.force(&step);
-                changed |= (force - striker.force).abs() > 1e-12 * force.abs();
+                changed |= (force - striker.force).abs() > SETTLED * force;
                 striker.force = force;
             }
-            if !coupled && (0..MAX_STRIKERS).filter(|&i| self.strikers[i].force > 0.0).count() <= 1 {
+            if !changed {
                 break;
             }
         }
@@ -255,13 +278,12 @@ impl Surface {
 
     /// Kinetic energy of the strikers and energy held in their contacts, J.
     pub fn striker_energy(&self) -> f64 {
-        self.strikers
-            .iter()
-            .filter(|striker| striker.present)
-            .map(|striker| {
-                0.5 * striker.spec.mass * striker.velocity.powi(2) + striker.law.potential(striker.compression)
-            })
-            .sum()
+        self.strikers.iter().filter(|striker| striker.present).map(StrikerState::energy).sum()
+    }
+
+    /// Kinetic energy that strikers have taken away with them since the last reset, J.
+    pub fn departed_energy(&self) -> f64 {
+        self.departed_energy
     }
 
     /// Zeroes what has decayed to nothing; reports whether all is finite, and rests it if not.
@@ -288,10 +310,16 @@ impl Surface {
         self.body.reset();
         self.strikers.iter_mut().for_each(|striker| striker.present = false);
         self.any_present = false;
+        self.departed_energy = 0.0;
     }
 }
 
 impl StrikerState {
+    /// Kinetic energy and energy held in the contact, J.
+    fn energy(&self) -> f64 {
+        0.5 * self.spec.mass * self.velocity.powi(2) + self.law.potential(self.compression)
+    }
+
     fn absent(modes: usize) -> StrikerState {
         let spec = crate::strike::Striker::Stick.spec();
         StrikerState {

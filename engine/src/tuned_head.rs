@@ -35,9 +35,8 @@ impl TunedHead {
     /// Solves the head at every pitch of the table. `tension` gives the tension of a pitch (Hz).
     pub fn new(membrane: &Membrane, [low_hz, high_hz]: [f64; 2], tension: impl Fn(f64) -> f64) -> TunedHead {
         let (low, high) = (low_hz.ln(), high_hz.ln());
-        let tensions = std::array::from_fn(|i| {
-            tension((low + (high - low) * i as f64 / (PITCHES - 1) as f64).exp())
-        });
+        let tensions =
+            std::array::from_fn(|i| tension((low + (high - low) * i as f64 / (PITCHES - 1) as f64).exp()));
         let table = membrane
             .modes()
             .iter()

@@ -82,10 +82,7 @@ mod tests {
             for power in 0..2 * n as i32 {
                 let got = rule.integrate(|x| x.powi(power));
                 let want = 1.0 / f64::from(power + 1);
-                assert!(
-                    (got - want).abs() < 3e-15,
-                    "n {n}, x^{power}: {got} for {want}"
-                );
+                assert!((got - want).abs() < 3e-15, "n {n}, x^{power}: {got} for {want}");
             }
         }
     }

@@ -51,7 +51,9 @@ fn frequency_over_eight_seconds_is_within_a_twentieth_of_a_cent() {
 #[test]
 fn decay_is_within_a_thousandth() {
     for rate in [44_100.0, 192_000.0] {
-        for (frequency, sigma) in [(20.0, 0.6), (100.0, 1.2), (440.0, 5.0), (3000.0, 40.0), (7919.0, 1.0), (18_371.0, 2.0)] {
+        for (frequency, sigma) in
+            [(20.0, 0.6), (100.0, 1.2), (440.0, 5.0), (3000.0, 40.0), (7919.0, 1.0), (18_371.0, 2.0)]
+        {
             let (mut body, _) = single(frequency, sigma, 0.1, rate);
             let (_, got) = measured(&mut body, (4.0 / sigma).min(8.0));
             assert!((got / sigma - 1.0).abs() < 1e-3, "{frequency} Hz at {rate}: {got} for {sigma}");

@@ -49,25 +49,13 @@ pub(super) fn shells(flat: &[RadialMode], omegas: &[f64], ring_omega: f64) -> Ve
     let ring = ring_omega * ring_omega;
     let overlaps: Vec<f64> = flat.iter().map(RadialMode::harmonic_overlap).collect();
     let stiffness = DMatrix::from_fn(flat.len(), flat.len(), |p, q| {
-        let diagonal = if p == q {
-            omegas[p] * omegas[p] + ring
-        } else {
-            0.0
-        };
+        let diagonal = if p == q { omegas[p] * omegas[p] + ring } else { 0.0 };
         diagonal - ring * overlaps[p] * overlaps[q]
     });
     let solved = eigen::symmetric(stiffness);
-    let columns = solved
-        .vectors
-        .column_iter()
-        .map(|v| v.iter().copied().collect());
+    let columns = solved.vectors.column_iter().map(|v| v.iter().copied().collect());
     let pairs = solved.values.into_iter().zip(columns);
-    pairs
-        .map(|(omega_squared, expansion)| Shell {
-            omega_squared,
-            expansion,
-        })
-        .collect()
+    pairs.map(|(omega_squared, expansion)| Shell { omega_squared, expansion }).collect()
 }
 
 /// `c_k = E h a^2 / (8 pi zeta_k^4)`, N m, of the Airy function with wave number `zeta`.
@@ -116,10 +104,7 @@ mod tests {
                     let integrand = |r| airy.value(r) * flat.laplacian(r) * r;
                     let want = angular_norm(m) * rule.integrate(integrand);
                     let got = curvature_overlap(airy, flat);
-                    assert!(
-                        (got - want).abs() < 1e-8 * airy.root,
-                        "{airy:?} {flat:?}: {got} {want}"
-                    );
+                    assert!((got - want).abs() < 1e-8 * airy.root, "{airy:?} {flat:?}: {got} {want}");
                 }
             }
         }
@@ -146,16 +131,11 @@ mod tests {
             let overlaps: Vec<f64> = flat.iter().map(RadialMode::harmonic_overlap).collect();
             let missing = |limit| {
                 let sum = summed(&spec, &flat, limit);
-                (0..5)
-                    .map(|p| 1.0 - overlaps[p] * overlaps[p] - sum[(p, p)] / ring)
-                    .collect()
+                (0..5).map(|p| 1.0 - overlaps[p] * overlaps[p] - sum[(p, p)] / ring).collect()
             };
             let (coarse, fine): (Vec<f64>, Vec<f64>) = (missing(60.0), missing(240.0));
             for (coarse, fine) in coarse.into_iter().zip(fine) {
-                assert!(
-                    -1e-9 < fine && fine <= coarse && fine < 1e-4,
-                    "m {m}: {coarse}, {fine}"
-                );
+                assert!(-1e-9 < fine && fine <= coarse && fine < 1e-4, "m {m}: {coarse}, {fine}");
             }
         }
     }
@@ -176,10 +156,7 @@ mod tests {
                 let values = eigen::symmetric(stiffness).values;
                 for (shell, value) in closed.iter().zip(values) {
                     let (got, want) = (value.sqrt() / TAU, shell.omega_squared.sqrt() / TAU);
-                    assert!(
-                        (got / want - 1.0).abs() < 1e-3,
-                        "m {m}: {got} Hz for {want} Hz"
-                    );
+                    assert!((got / want - 1.0).abs() < 1e-3, "m {m}: {got} Hz for {want} Hz");
                 }
             }
         }

@@ -134,29 +134,17 @@ mod tests {
         ];
         for (m, n, want) in cases {
             let got = free(m, n);
-            assert!(
-                (got / want - 1.0).abs() < 1e-5,
-                "({m}, {n}): {got} for {want}"
-            );
+            assert!((got / want - 1.0).abs() < 1e-5, "({m}, {n}): {got} for {want}");
         }
     }
 
     #[test]
     fn clamped_plate_wave_numbers_are_those_of_the_literature() {
         // Leissa, table 2.1.
-        let cases = [
-            (0, 0, 10.2158),
-            (1, 0, 21.26),
-            (2, 0, 34.88),
-            (0, 1, 39.771),
-            (3, 2, 190.30),
-        ];
+        let cases = [(0, 0, 10.2158), (1, 0, 21.26), (2, 0, 34.88), (0, 1, 39.771), (3, 2, 190.30)];
         for (m, n, want) in cases {
             let got = clamped_modes(m, 30.0)[n].root.powi(2);
-            assert!(
-                (got / want - 1.0).abs() < 5e-4,
-                "({m}, {n}): {got} for {want}"
-            );
+            assert!((got / want - 1.0).abs() < 5e-4, "({m}, {n}): {got} for {want}");
         }
     }
 
@@ -164,10 +152,7 @@ mod tests {
     fn no_root_is_missed_however_finely_one_looks() {
         let limit = 80.0;
         for m in (0..82).step_by(3) {
-            let edge = FreeEdge {
-                m,
-                poisson_ratio: 0.34,
-            };
+            let edge = FreeEdge { m, poisson_ratio: 0.34 };
             let steps = 1.0 / 64.0;
             let start = 0.5 * f64::from(m) + 0.5;
             let signs = |condition: &dyn Fn(f64) -> f64| {
@@ -192,10 +177,7 @@ mod tests {
         for m in 0..100 {
             for modes in [free_modes(m, 0.34, 110.0), clamped_modes(m, 110.0)] {
                 for pair in modes.windows(2) {
-                    assert!(
-                        pair[1].root - pair[0].root > LEAST_SPACING + 1.0,
-                        "{pair:?}"
-                    );
+                    assert!(pair[1].root - pair[0].root > LEAST_SPACING + 1.0, "{pair:?}");
                 }
             }
         }
@@ -213,27 +195,16 @@ mod tests {
             let count = |m| members(m) * free_modes(m, 0.34, limit).len() as f64;
             let total: f64 = RIGID + (0..=85).map(count).sum::<f64>();
             let weyl = 0.25 * limit * limit + 0.5 * BETA * limit;
-            assert!(
-                (total - weyl).abs() < 6.0,
-                "k {limit}: {total} modes, {weyl} by Weyl"
-            );
+            assert!((total - weyl).abs() < 6.0, "k {limit}: {total} modes, {weyl} by Weyl");
         }
     }
 
     #[test]
     fn the_rim_of_a_free_plate_has_no_moment_and_no_shear() {
         for m in [0, 1, 2, 10, 60] {
-            let edge = FreeEdge {
-                m,
-                poisson_ratio: 0.34,
-            };
+            let edge = FreeEdge { m, poisson_ratio: 0.34 };
             for mode in free_modes(m, 0.34, 80.0) {
-                let RadialMode {
-                    root: k,
-                    bessel: j,
-                    modified: i,
-                    ..
-                } = mode;
+                let RadialMode { root: k, bessel: j, modified: i, .. } = mode;
                 let (moment, shear) = edge.moment_and_shear(k, -1.0, j.value, j.slope);
                 let (other_moment, other_shear) = edge.moment_and_shear(k, 1.0, i.value, i.slope);
                 assert!((moment + other_moment).abs() < 1e-10 * k * k, "{mode:?}");

@@ -57,35 +57,17 @@ impl RadialMode {
             n,
             root,
             gain: 1.0,
-            bessel: Rim {
-                value,
-                slope: root * slope,
-            },
-            modified: Rim {
-                value: balance,
-                slope: balance * log_derivative,
-            },
+            bessel: Rim { value, slope: root * slope },
+            modified: Rim { value: balance, slope: balance * log_derivative },
         };
         let norm = (angular_norm(m) / PI * raw.radial_square()).sqrt().recip();
-        let scale = |rim: Rim| Rim {
-            value: norm * rim.value,
-            slope: norm * rim.slope,
-        };
-        RadialMode {
-            gain: norm,
-            bessel: scale(raw.bessel),
-            modified: scale(raw.modified),
-            ..raw
-        }
+        let scale = |rim: Rim| Rim { value: norm * rim.value, slope: norm * rim.slope };
+        RadialMode { gain: norm, bessel: scale(raw.bessel), modified: scale(raw.modified), ..raw }
     }
 
     /// `int_0^1 W^2 r dr`, closed.
     fn radial_square(&self) -> f64 {
-        let RadialMode {
-            bessel: j,
-            modified: i,
-            ..
-        } = *self;
+        let RadialMode { bessel: j, modified: i, .. } = *self;
         let (k2, m2) = (self.root * self.root, f64::from(self.m * self.m));
         let both_bessel = j.slope * j.slope + (k2 - m2) * j.value * j.value;
         let both_modified = (k2 + m2) * i.value * i.value - i.slope * i.slope;
@@ -110,10 +92,7 @@ impl RadialMode {
         let RadialMode { m, root, .. } = *self;
         let inside = bessel::i_scaled(m, root * r) / bessel::i_scaled(m, root);
         let decay = (root * (r - 1.0)).exp();
-        (
-            self.gain * bessel::j(m, root * r),
-            self.modified.value * inside * decay,
-        )
+        (self.gain * bessel::j(m, root * r), self.modified.value * inside * decay)
     }
 
     /// Fills `out` with `W` at `radii` from tables of this order; within about 1e-7.
@@ -127,29 +106,15 @@ impl RadialMode {
 
     /// Laplacian at the rim and its slope.
     pub fn rim_laplacian(&self) -> Rim {
-        let RadialMode {
-            bessel: j,
-            modified: i,
-            ..
-        } = *self;
+        let RadialMode { bessel: j, modified: i, .. } = *self;
         let k2 = self.root * self.root;
-        Rim {
-            value: k2 * (i.value - j.value),
-            slope: k2 * (i.slope - j.slope),
-        }
+        Rim { value: k2 * (i.value - j.value), slope: k2 * (i.slope - j.slope) }
     }
 
     /// Hankel transform `H(x) = int_0^1 W(r) J_m(x r) r dr`.
     pub fn hankel(&self, x: f64) -> f64 {
         let (value, slope) = bessel::j_pair(self.m, x);
-        self.hankel_of(
-            x,
-            Rim {
-                value,
-                slope: x * slope,
-            },
-            1e-5,
-        )
+        self.hankel_of(x, Rim { value, slope: x * slope }, 1e-5)
     }
 
     /// Hankel transform at `x`, given `J_m(x)` and `x J_m'(x)`.
@@ -159,13 +124,7 @@ impl RadialMode {
     /// as `1 / guard`.
     #[inline]
     pub fn hankel_of(&self, x: f64, wave: Rim, guard: f64) -> f64 {
-        let RadialMode {
-            root: k,
-            gain,
-            bessel: j,
-            modified: i,
-            ..
-        } = *self;
+        let RadialMode { root: k, gain, bessel: j, modified: i, .. } = *self;
         let (k2, x2) = (k * k, x * x);
         let modified = (i.slope * wave.value - i.value * wave.slope) / (k2 + x2);
         let bessel = if (x - k).abs() > guard {
@@ -209,10 +168,8 @@ mod tests {
         let rule = GaussLegendre::unit(160);
         for m in [0, 1, 2, 5, 17, 40, 66] {
             for modes in [free_modes(m, 0.34, 80.0), clamped_modes(m, 80.0)] {
-                let sampled: Vec<Vec<f64>> = modes
-                    .iter()
-                    .map(|mode| rule.nodes.iter().map(|&r| mode.value(r)).collect())
-                    .collect();
+                let sampled: Vec<Vec<f64>> =
+                    modes.iter().map(|mode| rule.nodes.iter().map(|&r| mode.value(r)).collect()).collect();
                 for (p, a) in sampled.iter().enumerate() {
                     for (q, b) in sampled.iter().enumerate() {
                         let terms = a.iter().zip(b).zip(&rule.nodes).zip(&rule.weights);
@@ -230,23 +187,10 @@ mod tests {
     fn the_hankel_transform_is_the_integral() {
         let rule = GaussLegendre::unit(200);
         for mode in modes().step_by(5) {
-            for x in [
-                0.0,
-                0.01,
-                0.9,
-                7.3,
-                40.0,
-                111.0,
-                mode.root,
-                mode.root + 2e-6,
-                mode.root - 0.1,
-            ] {
+            for x in [0.0, 0.01, 0.9, 7.3, 40.0, 111.0, mode.root, mode.root + 2e-6, mode.root - 0.1] {
                 let want = rule.integrate(|r| mode.value(r) * bessel::j(mode.m, x * r) * r);
                 let got = mode.hankel(x);
-                assert!(
-                    (got - want).abs() < 1e-10,
-                    "{mode:?} at {x}: {got} for {want}"
-                );
+                assert!((got - want).abs() < 1e-10, "{mode:?} at {x}: {got} for {want}");
             }
         }
     }
@@ -274,10 +218,7 @@ mod tests {
             mode.sample(&j[m], &i[m], &radii, &mut got);
             for (&r, got) in radii.iter().zip(&got) {
                 let want = mode.value(r);
-                assert!(
-                    (got - want).abs() < 1e-7,
-                    "{mode:?} at {r}: {got} for {want}"
-                );
+                assert!((got - want).abs() < 1e-7, "{mode:?} at {r}: {got} for {want}");
             }
         }
     }

@@ -21,14 +21,9 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::radial::{RadialMode, Rim, angular_norm};
+use crate::air;
 use crate::math::bessel::JTable;
 use crate::math::quadrature::GaussLegendre;
-
-/// Density of air, kg/m3. *Literature*, 20 degrees C.
-pub const AIR_DENSITY: f64 = 1.2;
-
-/// Speed of sound in air, m/s. *Literature*, 20 degrees C.
-pub const SOUND_SPEED: f64 = 343.0;
 
 /// Distance from a flat mode's wave number within which its transform is read from a Taylor series.
 /// *Derived*: balances the tables' error over the distance with the series' own, both about 1e-6.
@@ -49,11 +44,7 @@ pub struct Radiator<'a> {
 impl<'a> Radiator<'a> {
     /// For a plate of that `radius` (m), with tables of `J_m` for each of its orders.
     pub fn new(tables: &'a [JTable], radius: f64) -> Radiator<'a> {
-        Radiator {
-            tables,
-            radius,
-            rules: Vec::new(),
-        }
+        Radiator { tables, radius, rules: Vec::new() }
     }
 
     /// Radiation resistance of both faces together, kg/s, at `omega` (rad/s), of the mode that is
@@ -64,23 +55,18 @@ impl<'a> Radiator<'a> {
         };
         let m = first.m;
         let table = &self.tables[m as usize];
-        let u = omega * self.radius / SOUND_SPEED;
+        let u = omega * self.radius / air::SPEED_OF_SOUND;
         let integrand = |phi: f64| {
             let sine = phi.sin();
             let x = u * sine;
             let (value, slope) = table.pair(x);
-            let wave = Rim {
-                value,
-                slope: x * slope,
-            };
+            let wave = Rim { value, slope: x * slope };
             let terms = flat.iter().zip(expansion);
-            let transform: f64 = terms
-                .map(|(mode, share)| share * mode.hankel_of(x, wave, GUARD))
-                .sum();
+            let transform: f64 = terms.map(|(mode, share)| share * mode.hankel_of(x, wave, GUARD)).sum();
             transform * transform * sine
         };
         let integral = u * self.rule(u).integrate(integrand);
-        2.0 * AIR_DENSITY * omega * self.radius.powi(3) * angular_norm(m) * integral
+        2.0 * air::DENSITY * omega * self.radius.powi(3) * angular_norm(m) * integral
     }
 
     /// The rule on a quarter turn that resolves a transform up to `u`.
@@ -107,32 +93,21 @@ mod tests {
         let tables = JTable::orders(40, 120.0);
         let mut radiator = Radiator::new(&tables, RADIUS);
         let fine = GaussLegendre::new(500, 0.0, 1.0);
-        for (m, u) in [
-            (0, 0.3),
-            (0, 9.0),
-            (2, 2.5),
-            (7, 30.0),
-            (7, 88.0),
-            (40, 50.0),
-            (40, 110.0),
-        ] {
+        for (m, u) in [(0, 0.3), (0, 9.0), (2, 2.5), (7, 30.0), (7, 88.0), (40, 50.0), (40, 110.0)] {
             let flat = free_modes(m, 0.34, 75.0);
             for p in [0, flat.len() / 2, flat.len() - 1] {
                 let mut expansion = vec![0.0; flat.len()];
                 expansion[p] = 1.0;
-                let omega = u * SOUND_SPEED / RADIUS;
+                let omega = u * air::SPEED_OF_SOUND / RADIUS;
                 let got = radiator.resistance(&flat, &expansion, omega);
                 let integrand = |share: f64| {
                     let s = u * share;
                     u * flat[p].hankel((u * u - s * s).sqrt()).powi(2)
                 };
-                let scale = 2.0 * AIR_DENSITY * omega * RADIUS.powi(3) * angular_norm(m);
+                let scale = 2.0 * air::DENSITY * omega * RADIUS.powi(3) * angular_norm(m);
                 let want = scale * fine.integrate(integrand);
-                let floor = 1e-9 * AIR_DENSITY * SOUND_SPEED * PI * RADIUS * RADIUS;
-                assert!(
-                    (got - want).abs() < 1e-5 * want + floor,
-                    "({m}, {p}) {u}: {got} {want}"
-                );
+                let floor = 1e-9 * air::DENSITY * air::SPEED_OF_SOUND * PI * RADIUS * RADIUS;
+                assert!((got - want).abs() < 1e-5 * want + floor, "({m}, {p}) {u}: {got} {want}");
             }
         }
     }
@@ -143,8 +118,8 @@ mod tests {
         let mut radiator = Radiator::new(&tables, RADIUS);
         let flat = free_modes(3, 0.34, 12.0);
         let expansion = vec![1.0 / (flat.len() as f64).sqrt(); flat.len()];
-        let got = radiator.resistance(&flat, &expansion, 380.0 * SOUND_SPEED / RADIUS);
-        let want = 2.0 * AIR_DENSITY * SOUND_SPEED * PI * RADIUS * RADIUS;
+        let got = radiator.resistance(&flat, &expansion, 380.0 * air::SPEED_OF_SOUND / RADIUS);
+        let want = 2.0 * air::DENSITY * air::SPEED_OF_SOUND * PI * RADIUS * RADIUS;
         assert!((got / want - 1.0).abs() < 0.01, "{got} for {want}");
     }
 
@@ -154,17 +129,14 @@ mod tests {
         let flat = free_modes(12, 0.34, 75.0);
         let expansion: Vec<f64> = (0..flat.len()).map(|p| 0.5 / (1.0 + p as f64)).collect();
         for u in [5.0, 20.0, 45.0, 70.0, 100.0] {
-            let omega = u * SOUND_SPEED / RADIUS;
+            let omega = u * air::SPEED_OF_SOUND / RADIUS;
             let coarse = Radiator::new(&tables, RADIUS).resistance(&flat, &expansion, omega);
             let mut twice = Radiator::new(&tables, RADIUS);
             let index = (u as usize + 16).div_ceil(RULE_STEP);
             twice.rules = vec![None; index + 1];
             twice.rules[index] = Some(GaussLegendre::new(2 * index * RULE_STEP, 0.0, FRAC_PI_2));
             let fine = twice.resistance(&flat, &expansion, omega);
-            assert!(
-                (coarse / fine - 1.0).abs() < 1e-5,
-                "u {u}: {coarse}, {fine}"
-            );
+            assert!((coarse / fine - 1.0).abs() < 1e-5, "u {u}: {coarse}, {fine}");
         }
     }
 }

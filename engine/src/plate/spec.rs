@@ -67,12 +67,7 @@ impl PlateSpec {
         SpecError::check("plate density (kg/m3)", self.density, 500.0, 25_000.0)?;
         // Thicker than a fiftieth of its radius, a plate's upper modes shear (Mindlin).
         let thickest = 0.01 * self.diameter;
-        SpecError::check(
-            "plate thickness by mass (m)",
-            self.thickness(),
-            1e-4,
-            thickest,
-        )?;
+        SpecError::check("plate thickness by mass (m)", self.thickness(), 1e-4, thickest)?;
         Ok(())
     }
 
@@ -119,20 +114,8 @@ mod tests {
         let crash = PlateSpec::CRASH;
         let refused = |spec: PlateSpec| spec.check().unwrap_err().to_string();
         assert!(refused(PlateSpec { rise: 0.3, ..crash }).starts_with("plate rise (m) is 0.3"));
-        assert!(
-            refused(PlateSpec {
-                diameter: f64::NAN,
-                ..crash
-            })
-            .contains("diameter")
-        );
-        assert!(
-            refused(PlateSpec {
-                mass: 15.0,
-                ..crash
-            })
-            .contains("thickness")
-        );
+        assert!(refused(PlateSpec { diameter: f64::NAN, ..crash }).contains("diameter"));
+        assert!(refused(PlateSpec { mass: 15.0, ..crash }).contains("thickness"));
     }
 
     #[test]

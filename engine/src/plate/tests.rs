@@ -6,19 +6,12 @@ use super::*;
 use crate::math::quadrature::GaussLegendre;
 
 fn hz(plate: &PlateModes, m: u32, n: u32) -> f64 {
-    let shell = plate
-        .shells
-        .iter()
-        .find(|shell| (shell.m, shell.n) == (m, n));
+    let shell = plate.shells.iter().find(|shell| (shell.m, shell.n) == (m, n));
     shell.unwrap().omega / TAU
 }
 
 fn flat_hz(spec: &PlateSpec, m: u32, n: u32) -> f64 {
-    hz(
-        &PlateModes::new(&PlateSpec { rise: 0.0, ..*spec }, 2000.0).unwrap(),
-        m,
-        n,
-    )
+    hz(&PlateModes::new(&PlateSpec { rise: 0.0, ..*spec }, 2000.0).unwrap(), m, n)
 }
 
 fn assert_close(got: f64, want: f64, share: f64) {
@@ -30,11 +23,7 @@ fn doming_the_crash_raises_its_modes_as_published() {
     let spec = PlateSpec::CRASH;
     let crash = PlateModes::new(&spec, 2000.0).unwrap();
     assert_close(spec.ring_omega() / TAU, 546.0, 0.002);
-    for ((m, n), flat, shell) in [
-        ((2, 0), 21.8, 22.9),
-        ((3, 0), 50.8, 54.4),
-        ((0, 1), 37.9, 547.4),
-    ] {
+    for ((m, n), flat, shell) in [((2, 0), 21.8, 22.9), ((3, 0), 50.8, 54.4), ((0, 1), 37.9, 547.4)] {
         assert_close(flat_hz(&spec, m, n), flat, 0.005);
         assert_close(hz(&crash, m, n), shell, 0.005);
     }
@@ -43,32 +32,18 @@ fn doming_the_crash_raises_its_modes_as_published() {
 
 #[test]
 fn the_lowest_axisymmetric_mode_of_ride_and_splash_rises_to_the_ring_frequency() {
-    for (spec, flat, shell) in [
-        (PlateSpec::RIDE, 35.3, 489.4),
-        (PlateSpec::SPLASH, 56.5, 841.4),
-    ] {
+    for (spec, flat, shell) in [(PlateSpec::RIDE, 35.3, 489.4), (PlateSpec::SPLASH, 56.5, 841.4)] {
         assert_close(flat_hz(&spec, 0, 1), flat, 0.005);
-        assert_close(
-            hz(&PlateModes::new(&spec, 2000.0).unwrap(), 0, 1),
-            shell,
-            0.005,
-        );
+        assert_close(hz(&PlateModes::new(&spec, 2000.0).unwrap(), 0, 1), shell, 0.005);
     }
 }
 
 #[test]
 fn a_dome_that_vanishes_leaves_the_flat_plate() {
-    let spec = PlateSpec {
-        rise: 1e-7,
-        ..PlateSpec::RIDE
-    };
+    let spec = PlateSpec { rise: 1e-7, ..PlateSpec::RIDE };
     let plate = PlateModes::new(&spec, 8000.0).unwrap();
     for shell in &plate.shells {
-        let flat = plate
-            .flat_of(shell)
-            .iter()
-            .find(|flat| flat.n == shell.n)
-            .unwrap();
+        let flat = plate.flat_of(shell).iter().find(|flat| flat.n == shell.n).unwrap();
         assert_close(shell.omega, spec.flat_omega() * flat.root * flat.root, 1e-8);
     }
 }
@@ -78,11 +53,7 @@ fn far_above_the_ring_frequency_a_shell_is_a_plate_stiffened_by_it() {
     let plate = PlateModes::new(&PlateSpec::CRASH, 20_000.0).unwrap();
     let ring = plate.spec.ring_omega();
     for shell in plate.shells.iter().filter(|shell| shell.n > 2) {
-        let flat = plate
-            .flat_of(shell)
-            .iter()
-            .find(|flat| flat.n == shell.n)
-            .unwrap();
+        let flat = plate.flat_of(shell).iter().find(|flat| flat.n == shell.n).unwrap();
         let omega = plate.spec.flat_omega() * flat.root * flat.root;
         assert_close(shell.omega, omega.hypot(ring), 0.01);
     }
@@ -120,32 +91,14 @@ fn shell_shapes_have_unit_mean_square_and_are_read_from_tables_within_1e_6() {
     let tables = PlateTables::new(max_order, x_max);
     let rule = GaussLegendre::unit(96);
     let shapes = plate.radial_shapes(&tables, &rule.nodes);
-    for (shell, shape) in plate
-        .shells
-        .iter()
-        .zip(shapes.chunks_exact(rule.nodes.len()))
-    {
+    for (shell, shape) in plate.shells.iter().zip(shapes.chunks_exact(rule.nodes.len())) {
         let weights = rule.nodes.iter().zip(&rule.weights);
-        let square: f64 = shape
-            .iter()
-            .zip(weights)
-            .map(|(w, (r, dr))| w * w * r * dr)
-            .sum();
+        let square: f64 = shape.iter().zip(weights).map(|(w, (r, dr))| w * w * r * dr).sum();
         let mean = radial::angular_norm(shell.m) / PI * square;
-        assert!(
-            (mean - 1.0).abs() < 1e-6,
-            "({}, {}): {mean}",
-            shell.m,
-            shell.n
-        );
+        assert!((mean - 1.0).abs() < 1e-6, "({}, {}): {mean}", shell.m, shell.n);
         for i in [0, 40, 95] {
             let exact = plate.radial_shape(shell, rule.nodes[i]);
-            assert!(
-                (shape[i] - exact).abs() < 1e-6,
-                "({}, {})",
-                shell.m,
-                shell.n
-            );
+            assert!((shape[i] - exact).abs() < 1e-6, "({}, {})", shell.m, shell.n);
         }
     }
 }
@@ -158,10 +111,7 @@ fn the_transform_of_a_shell_mode_is_the_integral_of_its_shape() {
         for x in [0.4, 5.0, 30.0] {
             let wave = |r: f64| crate::math::bessel::j(shell.m, x * r);
             let want = rule.integrate(|r| plate.radial_shape(shell, r) * wave(r) * r);
-            assert!(
-                (plate.hankel(shell, x) - want).abs() < 1e-10,
-                "{shell:?} at {x}"
-            );
+            assert!((plate.hankel(shell, x) - want).abs() < 1e-10, "{shell:?} at {x}");
         }
     }
 }
@@ -171,29 +121,21 @@ fn a_crash_radiates_little_below_coincidence_and_its_whole_area_above() {
     let plate = PlateModes::new(&PlateSpec::CRASH, 24_000.0).unwrap();
     let (max_order, x_max) = plate.table_extent(24_000.0);
     let resistances = plate.radiation_resistances(&PlateTables::new(max_order, x_max));
-    let whole = 2.0 * radiation::AIR_DENSITY * SOUND_SPEED * PI * plate.spec.radius().powi(2);
+    let whole = 2.0 * air::DENSITY * air::SPEED_OF_SOUND * PI * plate.spec.radius().powi(2);
     let mean = |from: f64, to: f64| {
         let inside = |shell: &ShellMode| (from..to).contains(&(shell.omega / TAU));
         let modes = plate.shells.iter().zip(&resistances);
-        let shares = modes
-            .filter(|(shell, _)| inside(shell))
-            .map(|(_, r)| r / whole);
+        let shares = modes.filter(|(shell, _)| inside(shell)).map(|(_, r)| r / whole);
         let shares: Vec<f64> = shares.collect();
         shares.iter().sum::<f64>() / shares.len() as f64
     };
     assert!(mean(1000.0, 4000.0) < 0.1, "{}", mean(1000.0, 4000.0));
-    assert!(
-        mean(22_000.0, 24_000.0) > 0.9,
-        "{}",
-        mean(22_000.0, 24_000.0)
-    );
+    assert!(mean(22_000.0, 24_000.0) > 0.9, "{}", mean(22_000.0, 24_000.0));
     assert!(resistances.iter().all(|&resistance| resistance >= 0.0));
 }
 
 #[test]
 fn a_limit_out_of_range_is_refused() {
-    let refused = PlateModes::new(&PlateSpec::CRASH, 10.0)
-        .unwrap_err()
-        .to_string();
+    let refused = PlateModes::new(&PlateSpec::CRASH, 10.0).unwrap_err().to_string();
     assert!(refused.starts_with("highest mode (Hz) is 10"), "{refused}");
 }

@@ -72,11 +72,7 @@ mod tests {
             (70, 20, 156.019_356_705_203_3),
         ];
         for (m, n, value) in cases {
-            assert!(
-                (zero(m, n) - value).abs() < 1e-12,
-                "j_{m},{n} = {}",
-                zero(m, n)
-            );
+            assert!((zero(m, n) - value).abs() < 1e-12, "j_{m},{n} = {}", zero(m, n));
         }
     }
 
@@ -101,10 +97,7 @@ mod tests {
         for m in 0..150 {
             let (here, next) = (zeros(m, 60), zeros(m + 1, 60));
             for n in 0..59 {
-                assert!(
-                    here[n] < next[n] && next[n] < here[n + 1],
-                    "order {m}, zero {n}"
-                );
+                assert!(here[n] < next[n] && next[n] < here[n + 1], "order {m}, zero {n}");
             }
         }
     }
