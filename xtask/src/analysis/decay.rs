@@ -18,10 +18,13 @@ const FROM_DB: f64 = -5.0;
 const TO_DB: f64 = -25.0;
 
 /// A band with less than this share of the sound's energy holds its neighbours' skirts.
-const LEAST_SHARE: f64 = 1e-9;
+const LEAST_SHARE: f64 = 1e-8;
 
 /// The filter alone gives a click about 4.5 (measured): less than this is the filter, not the sound.
 const LEAST_BANDWIDTH_TIMES_T60: f64 = 6.0;
+
+/// What is gone sooner is the click of the stroke and rings in no body, s.
+const LEAST_T60: f64 = 0.005;
 
 /// Decay time by 60 dB of each of [`OCTAVES`], s; nothing where the band holds too little or has
 /// not decayed far enough when the sound ends.
@@ -57,7 +60,7 @@ pub fn octave_decays(samples: &[f32], rate: f64) -> [Option<f64>; OCTAVES.len()]
         }
         let t60 = decay_time(&energy, rate)?;
         let bandwidth = centre / std::f64::consts::SQRT_2;
-        (bandwidth * t60 >= LEAST_BANDWIDTH_TIMES_T60).then_some(t60)
+        (t60 >= LEAST_T60.max(LEAST_BANDWIDTH_TIMES_T60 / bandwidth)).then_some(t60)
     })
 }
 
