@@ -28,7 +28,7 @@ pub const SPEED_OF_SOUND: f64 = 343.0;
 const NODES: usize = 8;
 
 /// `C_m`: how the square of a shape integrates around the circle.
-fn circle(m: u32) -> f64 {
+pub fn circle(m: u32) -> f64 {
     if m == 0 { std::f64::consts::TAU } else { std::f64::consts::PI }
 }
 
@@ -93,7 +93,7 @@ impl<'a> MembraneAir<'a> {
 }
 
 /// Hankel transform `f(x) = N j J_m'(j) J_m(x) / (x^2 - j^2)` of a membrane's shape.
-struct HankelShape<'a> {
+pub struct HankelShape<'a> {
     j: f64,
     /// `N j J_m'(j)`, of size `j` or `sqrt 2 j`.
     scale: f64,
@@ -102,12 +102,14 @@ struct HankelShape<'a> {
 }
 
 impl<'a> HankelShape<'a> {
-    fn new(m: u32, j: f64, bessel: &'a JTable) -> Self {
+    /// For the zero `j` of `J_m`.
+    pub fn new(m: u32, j: f64, bessel: &'a JTable) -> Self {
         let slope = bessel.pair(j).1;
         HankelShape { j, scale: shape_norm(m, slope) * j * slope, slope, bessel }
     }
 
-    fn at(&self, x: f64) -> f64 {
+    /// `f(x)`.
+    pub fn at(&self, x: f64) -> f64 {
         let gap = x * x - self.j * self.j;
         if gap.abs() < 1e-3 * self.j {
             // J_m is a straight line this close to its zero, to 1e-6.

@@ -274,7 +274,7 @@ fn lay_out(
         };
         for (member, _) in Splitting::ROUND.members(m, 0) {
             modes.push(built);
-            index.push(ShapeIndex { radial, m, member, axis: 0.0 });
+            index.push(ShapeIndex { radial, rows: 1, m, member, axis: 0.0 });
         }
     }
     let resistances = plate.radiation_resistances(tables);
@@ -293,7 +293,7 @@ fn lay_out(
                 muffling: 0.0,
                 monopole_area,
             });
-            index.push(ShapeIndex { radial: RIGID.len() + row, m: shell.m, member, axis });
+            index.push(ShapeIndex { radial: RIGID.len() + row, rows: 1, m: shell.m, member, axis });
         }
     }
     (modes, index)

@@ -10,6 +10,7 @@
 #![warn(missing_docs)]
 
 pub mod air;
+pub mod cavity;
 pub mod contact;
 pub mod cymbal;
 pub mod damping;
@@ -24,9 +25,9 @@ pub mod membrane;
 pub mod modal;
 pub mod piece;
 pub mod plate;
+pub mod potential;
 pub mod shapes;
 pub mod snapshot;
 pub mod split;
 pub mod strike;
 pub mod surface;
-pub mod tuned_head;

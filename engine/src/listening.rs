@@ -33,6 +33,15 @@ pub struct ListeningPoint {
     pub azimuth: f64,
 }
 
+impl ListeningPoint {
+    /// The same point seen from a place `depth` (m) further along the disc's axis, away from it.
+    pub fn from_behind(&self, depth: f64) -> ListeningPoint {
+        let (sin, cos) = self.inclination.sin_cos();
+        let (height, offset) = (self.distance * cos + depth, self.distance * sin);
+        ListeningPoint { distance: height.hypot(offset), inclination: offset.atan2(height), ..*self }
+    }
+}
+
 /// One pair of modes as it is heard.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Radiator<'a> {

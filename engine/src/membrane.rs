@@ -170,6 +170,12 @@ impl Membrane {
         Ok(membrane)
     }
 
+    /// The same head, its modes ordered by diameters, then circles.
+    pub fn by_order(mut self) -> Membrane {
+        self.modes.sort_by_key(|mode| (mode.m, mode.n));
+        self
+    }
+
     /// The head.
     pub fn spec(&self) -> &MembraneSpec {
         &self.spec
@@ -189,6 +195,17 @@ impl Membrane {
         self.modes.iter().flat_map(|mode| radii.iter().map(|&r| shape(mode, r)).collect::<Vec<_>>()).collect()
     }
 
+    /// Stiffness of a mode at a tension (N/m), N/m.
+    pub fn restoring(&self, mode: &MembraneMode, tension: f64) -> f64 {
+        self.stiffness(mode, tension) * self.spec.area()
+    }
+
+    /// Mass of the air on one face at an angular frequency, kg.
+    pub fn face_mass(&self, mode: &MembraneMode, omega: f64) -> f64 {
+        let u = omega * self.spec.radius / air::SPEED_OF_SOUND;
+        air::DENSITY * self.spec.radius.powi(3) * mode.load.at(u).mass
+    }
+
     /// `T k^2 + D k^4`, N/m3.
     fn stiffness(&self, mode: &MembraneMode, tension: f64) -> f64 {
         let k2 = (mode.zero / self.spec.radius).powi(2);
@@ -197,9 +214,7 @@ impl Membrane {
 
     /// Modal mass at an angular frequency, kg: the film and the air on both faces.
     fn mass(&self, mode: &MembraneMode, omega: f64) -> f64 {
-        let film = self.spec.area_density() * self.spec.area();
-        let u = omega * self.spec.radius / air::SPEED_OF_SOUND;
-        film + 2.0 * air::DENSITY * self.spec.radius.powi(3) * mode.load.at(u).mass
+        self.spec.area_density() * self.spec.area() + 2.0 * self.face_mass(mode, omega)
     }
 
     /// Where a mode rings at a tension (N/m).
@@ -225,12 +240,6 @@ impl Membrane {
             Surroundings::Air => resistance / (2.0 * mass),
         };
         Ringing { omega, sigma: self.spec.loss.sigma(omega) + radiated, mass }
-    }
-
-    /// Area of the monopole in a baffle that would radiate a mode's power at its acceleration, m2.
-    pub fn monopole_area(&self, mode: &MembraneMode, omega: f64) -> f64 {
-        let u = omega * self.spec.radius / air::SPEED_OF_SOUND;
-        air::monopole_area(self.spec.radius, mode.load.at(u).resistance, omega)
     }
 
     /// The tension (N/m) that puts mode `(m, n)` at a frequency (Hz); `None` if there is no such mode.

@@ -20,6 +20,7 @@
 //!
 //! Modes at or above half the sample rate are silent: they neither move nor yield.
 
+pub mod front;
 pub mod simd;
 
 use aligned_vec::{AVec, ConstAlign};
@@ -301,19 +302,20 @@ impl ModalBody {
     }
 
     /// Advances without force and listens after each sample: [`step`](Self::step) and
-    /// [`listen`](Self::listen) at once. The motion is bit-equal to theirs, what is heard equal
+    /// [`listen`](Self::listen) at once, for all modes from `first` on (a multiple of
+    /// [`simd::LANES`]; the others stay as they are). The motion is bit-equal to theirs, what is heard equal
     /// but for the order of a sum.
     ///
     /// # Real-time
     /// Linear in modes times samples; the fastest way. At most [`simd::MAX_RUN`] samples.
-    pub fn ring(&mut self, pickup: &Pickup, out: &mut [f32]) {
+    pub fn ring(&mut self, first: usize, pickup: &Pickup, out: &mut [f32]) {
         self.kernels.ring(&mut simd::Ring {
-            re: &mut self.state.re,
-            im: &mut self.state.im,
-            turn_re: &self.coefs.turn_re,
-            turn_im: &self.coefs.turn_im,
-            weight_re: &pickup.weight_re,
-            weight_im: &pickup.weight_im,
+            re: &mut self.state.re[first..],
+            im: &mut self.state.im[first..],
+            turn_re: &self.coefs.turn_re[first..],
+            turn_im: &self.coefs.turn_im[first..],
+            weight_re: &pickup.weight_re[first..],
+            weight_im: &pickup.weight_im[first..],
             out,
         });
     }

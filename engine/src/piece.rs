@@ -271,7 +271,10 @@ impl Piece {
     /// # Real-time
     /// No allocation, no lock; cost is linear in the number of modes.
     pub fn strike(&mut self, strike: &Strike) {
-        self.voice.surface_mut().strike(strike);
+        match &mut self.voice {
+            Voice::Drum(drum) => drum.strike(strike),
+            Voice::Cymbal(cymbal) => cymbal.surface_mut().strike(strike),
+        }
     }
 
     /// Renders sound pressure at the piece's listening point, Pa, overwriting `out`. Any length;
@@ -326,7 +329,7 @@ impl Piece {
 
     /// Vibration energy of the piece itself, J.
     pub fn energy(&self) -> f64 {
-        self.voice.surface().body().energy()
+        self.voice.surface().energy()
     }
 
     /// Kinetic energy of the strikers about and energy held in their contacts, J.
@@ -355,7 +358,7 @@ impl Piece {
     /// Tension of each stretched body, N/m: `("batter", 2729.0)`. Empty for cymbals. Allocates.
     pub fn tensions(&self) -> Vec<(&'static str, f64)> {
         match &self.voice {
-            Voice::Drum(drum) => vec![("batter", drum.tension())],
+            Voice::Drum(drum) => drum.tensions(),
             Voice::Cymbal(_) => Vec::new(),
         }
     }

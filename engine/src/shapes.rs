@@ -9,11 +9,13 @@ use crate::piece::Member;
 /// of the radius) is met within 1e-4.
 const INTERVALS: usize = 256;
 
-/// Which radial function a mode has, and how it goes around.
+/// Which radial functions a mode has, and how it goes around.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ShapeIndex {
-    /// Row of the table of radial functions.
+    /// First row of the table of radial functions.
     pub radial: usize,
+    /// How many rows from there the mode is a mixture of.
+    pub rows: usize,
     /// Nodal diameters.
     pub m: u32,
     /// Member of the pair.
@@ -28,9 +30,13 @@ pub struct ShapeTable {
     radial: Vec<f32>,
     /// `[mode]`.
     index: Vec<ShapeIndex>,
+    /// `[mode]`: where its weights begin.
+    starts: Vec<usize>,
+    /// Share of each row of each mode.
+    weights: Vec<f32>,
     /// `[mode]`: `cos, sin` of `m * axis`.
     axes: Vec<[f32; 2]>,
-    /// Highest order.
+    /// Number of orders.
     orders: usize,
 }
 
@@ -43,7 +49,8 @@ impl ShapeTable {
         (0..=INTERVALS).map(|i| i as f64 / INTERVALS as f64).collect()
     }
 
-    /// From the radial functions, `[radial][r]` flat, at [`radii`](Self::radii). Allocates.
+    /// From the radial functions, `[radial][r]` flat, at [`radii`](Self::radii); every weight is 1.
+    /// Allocates.
     ///
     /// # Panics
     /// If a mode has more nodal diameters than the engine is made for (159).
@@ -58,7 +65,13 @@ impl ShapeTable {
             .collect();
         let orders = index.iter().map(|mode| mode.m as usize + 1).max().unwrap_or(1);
         assert!(orders <= MAX_ORDERS, "{orders} orders");
-        ShapeTable { radial, index, axes, orders }
+        let mut starts = Vec::with_capacity(index.len());
+        let mut total = 0;
+        for mode in &index {
+            starts.push(total);
+            total += mode.rows;
+        }
+        ShapeTable { radial, index, starts, weights: vec![1.0; total], axes, orders }
     }
 
     /// How each mode goes around, `[mode]`.
@@ -66,10 +79,15 @@ impl ShapeTable {
         &self.index
     }
 
+    /// Shares of the rows that mode `k` is a mixture of.
+    pub fn weights_mut(&mut self, k: usize) -> &mut [f32] {
+        &mut self.weights[self.starts[k]..][..self.index[k].rows]
+    }
+
     /// Writes every mode's shape at a place, `[mode]`.
     ///
     /// # Real-time
-    /// No allocation; linear in the number of modes.
+    /// No allocation; linear in the number of modes and the rows they mix.
     pub fn fill(&self, radius: f64, angle: f64, out: &mut [f32]) {
         // cos and sin of every multiple of the angle, by one rotation each.
         let mut around = [[1.0_f64, 0.0]; MAX_ORDERS];
@@ -79,15 +97,18 @@ impl ShapeTable {
             around[m] = [c * cos - s * sin, s * cos + c * sin];
         }
         let stencil = Stencil::at(radius);
-        for ((out, mode), axis) in out.iter_mut().zip(&self.index).zip(&self.axes) {
-            let row = &self.radial[mode.radial * (INTERVALS + 1)..][..=INTERVALS];
+        for (k, (out, mode)) in out.iter_mut().zip(&self.index).enumerate() {
             let [c, s] = around[mode.m as usize];
-            let [c0, s0] = [f64::from(axis[0]), f64::from(axis[1])];
+            let [c0, s0] = self.axes[k].map(f64::from);
             let turn = match mode.member {
                 Member::Cosine => c * c0 + s * s0,
                 Member::Sine => s * c0 - c * s0,
             };
-            *out = (stencil.apply(row) * turn) as f32;
+            let weights = &self.weights[self.starts[k]..][..mode.rows];
+            let rows = self.radial[mode.radial * (INTERVALS + 1)..].chunks_exact(INTERVALS + 1);
+            let radial: f64 =
+                weights.iter().zip(rows).map(|(&w, row)| f64::from(w) * stencil.apply(row)).sum();
+            *out = (radial * turn) as f32;
         }
     }
 }
@@ -124,8 +145,13 @@ mod tests {
 
     #[test]
     fn the_table_meets_a_fine_shape_anywhere() {
-        let modes =
-            [Member::Cosine, Member::Sine].map(|member| ShapeIndex { radial: 0, m: 9, member, axis: 0.3 });
+        let modes = [Member::Cosine, Member::Sine].map(|member| ShapeIndex {
+            radial: 0,
+            rows: 1,
+            m: 9,
+            member,
+            axis: 0.3,
+        });
         let radial = |r: f64| libm::jn(9, 60.0 * r);
         let rows: Vec<f64> = ShapeTable::radii().into_iter().map(radial).collect();
         let table = ShapeTable::new(&rows, modes.to_vec());

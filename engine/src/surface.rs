@@ -8,6 +8,7 @@
 
 use crate::contact::{ContactLaw, ContactStep, Material};
 use crate::modal::{ModalBody, Mode, Pickup, Port};
+use crate::potential::{NonlinearForce, Potential};
 use crate::shapes::ShapeTable;
 use crate::snapshot::StrikeSnapshot;
 use crate::strike::{Strike, StrikerSpec};
@@ -76,8 +77,14 @@ pub struct Surface {
     material: Material,
     lossless: bool,
     strikers: [StrikerState; MAX_STRIKERS],
-    /// Between present strikers: one-sample compliance of the body, m/N.
+    /// What the body does beyond its modes.
+    beyond: Option<NonlinearForce>,
+    /// Between present strikers: one-sample compliance of the body's modes, m/N.
     compliance: [[f64; MAX_STRIKERS]; MAX_STRIKERS],
+    /// Each present striker's coupling with the force beyond the modes.
+    coupling: [f64; MAX_STRIKERS],
+    /// The compliance the strikers meet: the modes', stiffened by the force beyond them, m/N.
+    yielding: [[f64; MAX_STRIKERS]; MAX_STRIKERS],
     any_present: bool,
     /// Kinetic energy that strikers have taken with them, J.
     departed_energy: f64,
@@ -99,12 +106,42 @@ impl Surface {
             material: parts.material,
             lossless: parts.lossless,
             strikers: std::array::from_fn(|_| StrikerState::absent(count)),
+            beyond: None,
             compliance: [[0.0; MAX_STRIKERS]; MAX_STRIKERS],
+            coupling: [0.0; MAX_STRIKERS],
+            yielding: [[0.0; MAX_STRIKERS]; MAX_STRIKERS],
             any_present: false,
             departed_energy: 0.0,
             last: StrikeSnapshot::default(),
             dt: 1.0 / parts.sample_rate,
         }
+    }
+
+    /// Lets a potential act on the first `modes`, evaluated once in `stride` samples. Allocates.
+    pub fn set_potential(&mut self, potential: Box<dyn Potential>, modes: usize, stride: u32) {
+        let force = NonlinearForce::new(potential, modes, stride, &self.body, 1.0 / self.dt);
+        self.beyond = Some(force);
+    }
+
+    /// What the body does beyond its modes, if it does.
+    pub fn beyond(&self) -> Option<&NonlinearForce> {
+        self.beyond.as_ref()
+    }
+
+    /// What the body does beyond its modes, to be set.
+    pub fn beyond_mut(&mut self) -> Option<&mut NonlinearForce> {
+        self.beyond.as_mut()
+    }
+
+    /// Energy of the body, J: of its modes and what it holds beyond them.
+    pub fn energy(&self) -> f64 {
+        self.body.energy() + self.beyond.as_ref().map_or(0.0, NonlinearForce::energy)
+    }
+
+    /// True energy of the body beyond its modes, J, and the relative error of the variable that
+    /// stands for it; slow, for tests.
+    pub fn true_potential(&mut self) -> (f64, f64) {
+        self.beyond.as_mut().map_or((0.0, 0.0), |force| force.true_energy(&self.body))
     }
 
     /// The modes and their motion.
@@ -122,6 +159,11 @@ impl Surface {
         &self.shapes
     }
 
+    /// Shapes of the modes, to be changed with them.
+    pub fn shapes_mut(&mut self) -> &mut ShapeTable {
+        &mut self.shapes
+    }
+
     /// What the latest stroke's contact measured.
     pub fn last_strike(&self) -> StrikeSnapshot {
         self.last
@@ -137,6 +179,9 @@ impl Surface {
             self.body.set_mode(k, new);
         }
         self.body.tune(&mut self.pickup);
+        if let Some(force) = &mut self.beyond {
+            force.follow(&self.body);
+        }
         for i in 0..MAX_STRIKERS {
             if self.strikers[i].present {
                 self.connect(i);
@@ -178,6 +223,9 @@ impl Surface {
         let striker = &mut self.strikers[i];
         striker.position = self.body.displacement_at(&striker.port);
         striker.compression = 0.0;
+        if let Some(force) = &mut self.beyond {
+            force.wake();
+        }
     }
 
     /// An empty place, or that of the striker which has been about longest without touching, or,
@@ -191,6 +239,8 @@ impl Surface {
     /// Works out what the body tells striker `i` and the others of each other.
     fn connect(&mut self, i: usize) {
         self.body.connect(&mut self.strikers[i].port);
+        let port = &self.strikers[i].port;
+        self.coupling[i] = self.beyond.as_ref().map_or(0.0, |force| force.coupling(&self.body, port));
         self.strikers[i].direct = self.pickup.direct_at(&self.body, &self.strikers[i].port);
         for j in 0..MAX_STRIKERS {
             if self.strikers[j].present {
@@ -205,23 +255,37 @@ impl Surface {
     /// [`MAX_RUN`](crate::modal::simd::MAX_RUN) samples.
     ///
     /// # Real-time
-    /// Linear in modes times samples; a few times dearer while a striker is about.
+    /// Linear in modes times samples; a few times dearer while a striker is about, and by the cost
+    /// of the potential while that acts.
     pub fn render(&mut self, out: &mut [f32]) {
         let mut done = 0;
         while self.any_present && done < out.len() {
             out[done] = self.step();
             done += 1;
         }
-        self.body.ring(&self.pickup, &mut out[done..]);
+        let rest = &mut out[done..];
+        let Surface { body, pickup, beyond, .. } = self;
+        match beyond {
+            Some(force) if force.is_active() => {
+                body.ring(force.front().length(), pickup, rest);
+                for sample in rest {
+                    force.begin(body, pickup);
+                    body.step_front(force.front());
+                    force.free(body);
+                    *sample += force.finish(body, 0.0) + body.listen_front(force.front(), pickup);
+                }
+            }
+            _ => body.ring(0, pickup, rest),
+        }
     }
 
     /// One sample with strikers about.
     fn step(&mut self) -> f32 {
-        self.body.step();
+        let mean = self.step_free();
         let dt = self.dt;
         for (i, striker) in self.strikers.iter_mut().enumerate().filter(|(_, striker)| striker.present) {
-            let surface = self.body.displacement_at(&striker.port);
-            striker.free_flight(surface, self.compliance[i][i], dt);
+            let surface = self.body.displacement_at(&striker.port) - self.coupling[i] * mean;
+            striker.free_flight(surface, self.yielding[i][i], dt);
         }
         self.solve();
         let mut direct = 0.0;
@@ -233,10 +297,14 @@ impl Surface {
                 direct += striker.force as f32 * striker.direct;
             }
         }
+        if let Some(beyond) = self.beyond.as_mut().filter(|beyond| beyond.is_active()) {
+            let pressed = forces.iter().zip(&self.coupling).map(|(force, p)| force * p).sum();
+            direct += beyond.finish(&mut self.body, pressed);
+        }
         self.any_present = false;
         for (i, striker) in self.strikers.iter_mut().enumerate().filter(|(_, striker)| striker.present) {
             // Where the others' forces and its own have taken the surface.
-            let yielded: f64 = forces.iter().zip(&self.compliance[i]).map(|(force, c)| force * c).sum();
+            let yielded: f64 = forces.iter().zip(&self.yielding[i]).map(|(force, c)| force * c).sum();
             striker.advance(yielded, dt);
             if striker.stroke == self.last.count {
                 striker.report(&mut self.last, dt);
@@ -247,6 +315,28 @@ impl Surface {
             }
         }
         self.body.listen(&self.pickup) + direct
+    }
+
+    /// Lets the body step without strikers; works out how it meets them. Returns what multiplies their
+    /// coupling to give how far the force beyond the modes has moved the surface by itself.
+    fn step_free(&mut self) -> f64 {
+        self.yielding = self.compliance;
+        let Some(force) = self.beyond.as_mut().filter(|force| force.is_active()) else {
+            self.body.step();
+            return 0.0;
+        };
+        if force.begin(&mut self.body, &self.pickup) {
+            for (coupling, striker) in self.coupling.iter_mut().zip(&self.strikers) {
+                *coupling = if striker.present { force.coupling(&self.body, &striker.port) } else { 0.0 };
+            }
+        }
+        self.body.step();
+        for (row, a) in self.yielding.iter_mut().zip(self.coupling) {
+            for (c, b) in row.iter_mut().zip(self.coupling) {
+                *c -= a * b / force.divisor();
+            }
+        }
+        force.free(&self.body)
     }
 
     /// Forces of all contacts for this sample: sweeps until none changes any more. A striker alone
@@ -262,7 +352,7 @@ impl Surface {
                 // A force of zero, as of those not present, pushes nothing.
                 let others: f64 = (0..MAX_STRIKERS)
                     .filter(|&j| j != i && self.strikers[j].present)
-                    .map(|j| self.compliance[i][j] * self.strikers[j].force)
+                    .map(|j| self.yielding[i][j] * self.strikers[j].force)
                     .sum();
                 let striker = &mut self.strikers[i];
                 let step = ContactStep { free: striker.step.free - others, ..striker.step };
@@ -292,6 +382,7 @@ impl Surface {
     /// Linear in the number of modes; meant for once a block.
     pub fn settle(&mut self) -> bool {
         self.body.flush_quiet();
+        self.beyond.iter_mut().for_each(NonlinearForce::settle);
         let finite = self.body.is_finite()
             && self.strikers.iter().all(|striker| !striker.present || striker.position.is_finite());
         if !finite {
@@ -308,6 +399,7 @@ impl Surface {
     /// Puts everything to rest; strikers are gone.
     pub fn reset(&mut self) {
         self.body.reset();
+        self.beyond.iter_mut().for_each(NonlinearForce::reset);
         self.strikers.iter_mut().for_each(|striker| striker.present = false);
         self.any_present = false;
         self.departed_energy = 0.0;

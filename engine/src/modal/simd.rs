@@ -79,9 +79,30 @@ impl Kernels {
         self.run(Multiply { out, a, b });
     }
 
-    /// `sum a * b`.
+    /// `sum a * b`, over as many as the shorter row has.
     pub fn dot(&self, a: &[f32], b: &[f32]) -> f32 {
-        self.run(Dot { a, b })
+        let length = a.len().min(b.len());
+        self.run(Dot { a: &a[..length], b: &b[..length] })
+    }
+
+    /// `sum a * (x - y)`, each difference taken before it is weighted.
+    pub fn dot_difference(&self, a: &[f32], x: &[f32], y: &[f32]) -> f32 {
+        self.run(DotDifference { a, x, y })
+    }
+
+    /// `sum a * x^2`.
+    pub fn dot_square(&self, a: &[f32], x: &[f32]) -> f32 {
+        self.run(DotSquare { a, x })
+    }
+
+    /// `out <- a * x + b * y`.
+    pub fn combine(&self, out: &mut [f32], (a, x): (&[f32], &[f32]), (b, y): (&[f32], &[f32])) {
+        self.run(Combine { out, a, x, b, y });
+    }
+
+    /// `y <- y * factor`.
+    pub fn scale(&self, y: &mut [f32], factor: f32) {
+        self.run(Scale { y, factor });
     }
 
     /// Many samples of [`rotate`](Self::rotate), listening after each.
@@ -234,6 +255,78 @@ impl Kernel for Dot<'_> {
             sums[i] = fma(a, b, sums[i]);
         }
         simd.reduce_sum_f32s(simd.add_f32s(simd.add_f32s(sums[0], sums[1]), simd.add_f32s(sums[2], sums[3])))
+    }
+}
+
+struct DotDifference<'a> {
+    a: &'a [f32],
+    x: &'a [f32],
+    y: &'a [f32],
+}
+
+impl Kernel for DotDifference<'_> {
+    type Output = f32;
+    #[inline(always)]
+    fn with<S: Simd>(self, simd: S, fma: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s + Copy) -> f32 {
+        let mut sum = simd.splat_f32s(0.0);
+        let [a, x, y] = [self.a, self.x, self.y].map(|row| S::as_simd_f32s(row).0);
+        for ((&a, &x), &y) in a.iter().zip(x).zip(y) {
+            sum = fma(a, simd.sub_f32s(x, y), sum);
+        }
+        simd.reduce_sum_f32s(sum)
+    }
+}
+
+struct DotSquare<'a> {
+    a: &'a [f32],
+    x: &'a [f32],
+}
+
+impl Kernel for DotSquare<'_> {
+    type Output = f32;
+    #[inline(always)]
+    fn with<S: Simd>(self, simd: S, fma: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s + Copy) -> f32 {
+        let mut sum = simd.splat_f32s(0.0);
+        for (&a, &x) in S::as_simd_f32s(self.a).0.iter().zip(S::as_simd_f32s(self.x).0) {
+            sum = fma(simd.mul_f32s(a, x), x, sum);
+        }
+        simd.reduce_sum_f32s(sum)
+    }
+}
+
+struct Combine<'a> {
+    out: &'a mut [f32],
+    a: &'a [f32],
+    x: &'a [f32],
+    b: &'a [f32],
+    y: &'a [f32],
+}
+
+impl Kernel for Combine<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn with<S: Simd>(self, simd: S, fma: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s + Copy) {
+        let [a, x, b, y] = [self.a, self.x, self.b, self.y].map(|row| S::as_simd_f32s(row).0);
+        let terms = a.iter().zip(x).zip(b.iter().zip(y));
+        for (out, ((&a, &x), (&b, &y))) in S::as_mut_simd_f32s(self.out).0.iter_mut().zip(terms) {
+            *out = fma(a, x, simd.mul_f32s(b, y));
+        }
+    }
+}
+
+struct Scale<'a> {
+    y: &'a mut [f32],
+    factor: f32,
+}
+
+impl Kernel for Scale<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn with<S: Simd>(self, simd: S, _: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s + Copy) {
+        let factor = simd.splat_f32s(self.factor);
+        for y in S::as_mut_simd_f32s(self.y).0 {
+            *y = simd.mul_f32s(*y, factor);
+        }
     }
 }
 

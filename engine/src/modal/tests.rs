@@ -185,7 +185,7 @@ fn every_kernel_follows_the_closed_form() {
     for kernels in [Kernels::baseline(), Kernels::detect()] {
         let (mut body, pickup) = choir(kernels);
         let mut out = vec![0.0; exact.len()];
-        out.chunks_mut(32).for_each(|block| body.ring(&pickup, block));
+        out.chunks_mut(32).for_each(|block| body.ring(0, &pickup, block));
         for (got, want) in out.iter().zip(&exact) {
             assert!((f64::from(*got) - want).abs() < 2e-5 * peak, "{}: {got} {want}", kernels.name());
         }
@@ -198,8 +198,8 @@ fn ringing_does_not_depend_on_how_time_is_cut() {
     let (mut cut, _) = choir(Kernels::detect());
     let (mut stepped, _) = choir(Kernels::detect());
     let (mut a, mut b) = (vec![0.0; 96], vec![0.0; 96]);
-    a.chunks_mut(32).for_each(|block| whole.ring(&pickup, block));
-    b.chunks_mut(7).for_each(|block| cut.ring(&pickup, block));
+    a.chunks_mut(32).for_each(|block| whole.ring(0, &pickup, block));
+    b.chunks_mut(7).for_each(|block| cut.ring(0, &pickup, block));
     (0..96).for_each(|_| stepped.step());
     assert_eq!(a, b);
     assert_eq!(whole.state.im.as_slice(), cut.state.im.as_slice());

@@ -1,0 +1,242 @@
+//! From a drum's description to its modes: heads stretched, orders solved at every pitch, all laid
+//! out as one modal body.
+
+use std::f64::consts::TAU;
+
+use crate::air::SPEED_OF_SOUND;
+use crate::cavity::{CavityOrder, HeadShape};
+use crate::drum::coupled::{CoupledMode, OrderProblem, Outside, Stretched};
+use crate::drum::shadow;
+use crate::drum::spec::{DrumSpec, HeadSpec};
+use crate::drum::tuned::{self, PITCHES, PitchScale, TunedMode};
+use crate::error::SpecError;
+use crate::listening::{Radiator, Rayleigh};
+use crate::math::bessel::{self, JTable};
+use crate::membrane::{self, Membrane, ModeRange, Surroundings};
+use crate::shapes::{ShapeIndex, ShapeTable};
+use crate::split::Splitting;
+
+/// Modes of the enclosed air up to this are kept as modes, Hz; above, air only rides along.
+const CAVITY_LIMIT_HZ: f64 = 2500.0;
+
+/// A mode with less of its energy than this in the heads is never heard.
+const HEARD_SHARE: f64 = 1e-3;
+
+/// A head with its modes, and its tension at every pitch of the scale.
+pub struct TunedHead {
+    /// The head.
+    pub membrane: Membrane,
+    /// N/m.
+    pub tensions: [f64; PITCHES],
+}
+
+/// Everything a drum is made from.
+pub struct Blueprint {
+    /// The pitches worked out.
+    pub scale: PitchScale,
+    /// The struck head; its modes in ascending order of diameters, then circles.
+    pub batter: TunedHead,
+    /// The other head.
+    pub resonant: Option<TunedHead>,
+    /// The drum's modes, pairs once, lowest first at the default pitch.
+    pub modes: Vec<TunedMode>,
+}
+
+impl TunedHead {
+    /// Stretches a head so that its mode `(m, n)` runs through the pitches.
+    fn new(
+        spec: &HeadSpec,
+        (m, n): (u32, u32),
+        pitches: &[f64; PITCHES],
+        default_hz: f64,
+    ) -> Result<TunedHead, SpecError> {
+        let (low, high) = (pitches[0], pitches[PITCHES - 1]);
+        // A first look with few modes finds the tensions; the air weighs less than thirty films.
+        let zero = bessel::zero(m, n);
+        let guess = |hz| membrane::vacuum_tension(&spec.membrane, zero, hz);
+        let wide = [guess(low), 30.0 * guess(high)];
+        let few = ModeRange { tension: wide, reference_tension: wide[1], limit_hz: 6.0 * high };
+        let look = Membrane::new(spec.membrane, Surroundings::Air, &few)?;
+        let tension = |hz| look.tension_for(m, n, hz).unwrap_or(wide[1]);
+        let range = ModeRange {
+            tension: [tension(low), tension(high)],
+            reference_tension: tension(default_hz),
+            limit_hz: spec.limit_hz,
+        };
+        let membrane = Membrane::new(spec.membrane, Surroundings::Air, &range)?.by_order();
+        let tensions = pitches.map(|hz| membrane.tension_for(m, n, hz).unwrap_or_else(|| tension(hz)));
+        Ok(TunedHead { membrane, tensions })
+    }
+
+    fn stretched(&self, pitch: usize) -> Stretched<'_> {
+        Stretched { membrane: &self.membrane, tension: self.tensions[pitch] }
+    }
+
+    /// First mode of order `m`, and how many there are.
+    pub fn order(&self, m: u32) -> (usize, usize) {
+        let first = self.membrane.modes().iter().position(|mode| mode.m == m).unwrap_or(0);
+        (first, self.membrane.modes().iter().filter(|mode| mode.m == m).count())
+    }
+}
+
+impl Blueprint {
+    /// Works a drum out. Tenths of a second.
+    ///
+    /// # Errors
+    /// [`SpecError`] if the spec is out of range.
+    pub fn new(spec: &DrumSpec) -> Result<Blueprint, SpecError> {
+        let (low, default, high) = spec.pitch_hz;
+        let scale = PitchScale::new(low, high);
+        let pitches = scale.pitches();
+        let batter = TunedHead::new(&spec.batter, spec.named_mode, &pitches, default)?;
+        let resonant = spec
+            .resonant
+            .map(|resonant| {
+                let ratio = resonant.pitch_ratio;
+                TunedHead::new(
+                    &resonant.head,
+                    spec.named_mode,
+                    &pitches.map(|hz| ratio * hz),
+                    ratio * default,
+                )
+            })
+            .transpose()?;
+        let reference = nearest(&pitches, default);
+        let mut blueprint = Blueprint { scale, batter, resonant, modes: Vec::new() };
+        let orders = blueprint.batter.membrane.modes().iter().map(|mode| mode.m).max().unwrap_or(0);
+        let reach = [Some(&blueprint.batter), blueprint.resonant.as_ref()]
+            .into_iter()
+            .flatten()
+            .flat_map(|head| head.membrane.modes().iter().map(|mode| mode.zero))
+            .fold(0.0, f64::max);
+        let tables = JTable::orders(orders, reach + 1.0);
+        for (m, table) in (0..=orders).zip(&tables) {
+            let modes = blueprint.order(spec, m, table, reference);
+            blueprint.modes.extend(modes);
+        }
+        let place = blueprint.scale.place(default);
+        blueprint.modes.sort_by(|a, b| a.at(&place).omega.total_cmp(&b.at(&place).omega));
+        Ok(blueprint)
+    }
+
+    /// The heads' modes of one order as the cavity sees them, batter first.
+    fn head_shapes(&self, m: u32) -> Vec<HeadShape> {
+        let of = |head: &TunedHead, far| {
+            let modes = head.membrane.modes().iter().filter(|mode| mode.m == m);
+            modes.map(move |mode| HeadShape { zero: mode.zero, norm: mode.norm, far }).collect::<Vec<_>>()
+        };
+        let mut shapes = of(&self.batter, false);
+        shapes.extend(self.resonant.iter().flat_map(|head| of(head, true)));
+        shapes
+    }
+
+    /// The drum's modes of one order, followed through the pitches.
+    fn order(&self, spec: &DrumSpec, m: u32, bessel: &JTable, reference: usize) -> Vec<TunedMode> {
+        let shapes = self.head_shapes(m);
+        let cavity: Option<CavityOrder> =
+            spec.cavity.map(|cavity| cavity.order(m, &shapes, TAU * CAVITY_LIMIT_HZ));
+        let solved: Vec<Vec<CoupledMode>> = (0..PITCHES)
+            .map(|pitch| {
+                let problem = OrderProblem {
+                    m,
+                    batter: self.batter.stretched(pitch),
+                    resonant: self.resonant.as_ref().map(|head| head.stretched(pitch)),
+                    cavity: cavity.as_ref(),
+                    cavity_q: spec.cavity.map_or(1.0, |cavity| cavity.q),
+                    outside: spec.outside,
+                    bessel,
+                };
+                problem.solve()
+            })
+            .collect();
+        let limit = TAU * spec.batter.limit_hz;
+        let keep = |mode: &CoupledMode| mode.omega <= limit && mode.share[0] + mode.share[1] > HEARD_SHARE;
+        tuned::follow(m, &solved, shapes.len(), reference, keep)
+    }
+
+    /// Shapes on the batter of every mode of the body, `[mode]`, pairs as two.
+    pub fn batter_shapes(&self, splitting: Splitting) -> ShapeTable {
+        self.shapes(&self.batter, splitting)
+    }
+
+    /// Shapes on the resonant head, if there is one.
+    pub fn resonant_shapes(&self, splitting: Splitting) -> Option<ShapeTable> {
+        self.resonant.as_ref().map(|head| self.shapes(head, splitting))
+    }
+
+    fn shapes(&self, head: &TunedHead, splitting: Splitting) -> ShapeTable {
+        let mut index = Vec::new();
+        for mode in &self.modes {
+            let (radial, rows) = head.order(mode.m);
+            let axis = splitting.axis(mode.m, 0);
+            let members = Splitting::ROUND.members(mode.m, 0);
+            index.extend(members.map(|(member, _)| ShapeIndex { radial, rows, m: mode.m, member, axis }));
+        }
+        ShapeTable::new(&head.membrane.radial_shapes(&ShapeTable::radii()), index)
+    }
+
+    /// How each mode of the body is heard at the listening point at a pitch (Hz), `[mode]`, pairs as two.
+    ///
+    /// The struck head is heard as in a baffle from near, as from a body in free air from far; the
+    /// other head from behind the body, in free air.
+    pub fn transfer(&self, spec: &DrumSpec, pitch_hz: f64) -> Vec<[f64; 2]> {
+        let radius = spec.batter.membrane.radius;
+        let place = self.scale.place(pitch_hz);
+        let finest = self.batter.membrane.modes().iter().map(|mode| mode.zero).fold(0.0, f64::max);
+        let highest = TAU * spec.batter.limit_hz * radius / SPEED_OF_SOUND;
+        let nodes = 12 + (0.7 * (finest + highest)) as usize;
+        let point = spec.listening_point;
+        let near = Rayleigh::new(radius, point, nodes);
+        let behind = spec.cavity.map_or(0.0, |cavity| cavity.depth);
+        let far = Rayleigh::new(radius, point.from_behind(behind), nodes);
+        let near_shapes = self.batter.membrane.radial_shapes(near.radii());
+        let far_shapes = self.resonant.as_ref().map(|head| head.membrane.radial_shapes(far.radii()));
+        let mut out = Vec::new();
+        for mode in &self.modes {
+            let omega = mode.at(&place).omega;
+            let (first, count) = self.batter.order(mode.m);
+            let mix = |shapes: &[f64], first: usize, count: usize, skip: usize| -> Vec<f64> {
+                (0..nodes)
+                    .map(|r| {
+                        let share = |i| mode.share(skip + i, &place) * shapes[(first + i) * nodes + r];
+                        (0..count).map(share).sum()
+                    })
+                    .collect()
+            };
+            let radial = mix(&near_shapes, first, count, 0);
+            let [mut re, mut im] = near.transfer(&Radiator { m: mode.m, radial: &radial, omega });
+            if let Outside::Free { .. } = spec.outside {
+                let space = 0.5 * shadow::baffling(omega * radius / SPEED_OF_SOUND);
+                // How much of the half-space the head fills, seen from the point.
+                let fills = 1.0 - point.distance / point.distance.hypot(radius);
+                let gain = space + (1.0 - space) * fills;
+                (re, im) = (re * gain, im * gain);
+                if let (Some(head), Some(shapes)) = (&self.resonant, &far_shapes) {
+                    let (far_first, far_count) = head.order(mode.m);
+                    let radial = mix(shapes, far_first, far_count, count);
+                    let [far_re, far_im] = far.transfer(&Radiator { m: mode.m, radial: &radial, omega });
+                    // Outward is toward the point for the one head and away for the other; the body
+                    // hides the far one as it becomes a baffle.
+                    let gain = -(1.0 - space);
+                    let (sin, cos) = (omega / SPEED_OF_SOUND
+                        * (point.from_behind(behind).distance - point.distance))
+                        .sin_cos();
+                    re += gain * (far_re * cos + far_im * sin);
+                    im += gain * (far_im * cos - far_re * sin);
+                }
+            }
+            let axis = spec.splitting.axis(mode.m, 0);
+            for (member, _) in Splitting::ROUND.members(mode.m, 0) {
+                let share = near.toward(mode.m, member, axis);
+                out.push([share * re, share * im]);
+            }
+        }
+        out
+    }
+}
+
+/// Index of the pitch nearest to `hz`.
+fn nearest(pitches: &[f64; PITCHES], hz: f64) -> usize {
+    let away = |i: usize| (pitches[i] / hz).ln().abs();
+    (0..PITCHES).min_by(|&a, &b| away(a).total_cmp(&away(b))).unwrap_or(0)
+}

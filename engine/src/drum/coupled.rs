@@ -1,0 +1,283 @@
+//! The modes of a whole drum: two heads, the air between them, the air around them.
+//!
+//! Model: for each number of nodal diameters the heads' own modes `q` and the enclosed air's `y`
+//! (see [`cavity`](crate::cavity)) are one linear system,
+//!
+//! ```text
+//! K = diag(T k^2 + D k^4) A + sum_j kappa_j [c_j; -1] [c_j; -1]^T      M = diag(film + outer air) + inner air
+//! ```
+//!
+//! whose eigenvectors say how much of each head is in each mode of the drum. The heads' outer faces carry
+//! the air of a baffled disc, less what flows around the rim of a drum that stands free; the inner
+//! faces only the cavity's. Losses are small and added mode by mode: film, cavity, and what the two heads
+//! together send out. With `F_b`, `F_r` the Hankel transforms of their shares,
+//!
+//! ```text
+//! R = rho omega a^3 C_m  B / 2  int_0^u  F_b^2 + F_r^2 - 2 F_b F_r cos(k_z l)  ds
+//! ```
+//!
+//! the heads radiate into all of space (`B` = 1, see [`shadow`](super::shadow)) as two layers the length `l` apart: a
+//! motion of both the same way moves no net air and rings on, one against the other is a monopole
+//! and dies. `l` is the shell's length and what the air around a disc of no length adds, `8 a / (3 pi)`.
+//!
+//! Limits: the heads' outer air does not couple their modes; losses do not couple modes.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::air::{self, DENSITY, HankelShape, SPEED_OF_SOUND};
+use crate::cavity::CavityOrder;
+use crate::drum::shadow;
+use crate::math::bessel::JTable;
+use crate::math::eigen;
+use crate::math::quadrature::GaussLegendre;
+use crate::membrane::{Membrane, MembraneMode};
+
+/// What surrounds the drum.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Outside {
+    /// The struck head lies in a baffle: a kettle, or a head on its own.
+    Baffle,
+    /// The drum stands free.
+    Free {
+        /// Length of the shell, m.
+        length: f64,
+    },
+}
+
+/// A head stretched to a tension (N/m).
+#[derive(Clone, Copy)]
+pub struct Stretched<'a> {
+    /// The head.
+    pub membrane: &'a Membrane,
+    /// N/m.
+    pub tension: f64,
+}
+
+/// The modes of one order are sought among these.
+pub struct OrderProblem<'a> {
+    /// Nodal diameters.
+    pub m: u32,
+    /// The struck head.
+    pub batter: Stretched<'a>,
+    /// The other head.
+    pub resonant: Option<Stretched<'a>>,
+    /// The enclosed air, against the batter's modes of this order, then the resonant head's.
+    pub cavity: Option<&'a CavityOrder>,
+    /// Quality factor of the cavity's modes.
+    pub cavity_q: f64,
+    /// What surrounds the drum.
+    pub outside: Outside,
+    /// `J_m`, far enough for the heads' zeros.
+    pub bessel: &'a JTable,
+}
+
+/// A mode of the drum.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CoupledMode {
+    /// Undamped angular frequency, rad/s.
+    pub omega: f64,
+    /// Decay rate, 1/s.
+    pub sigma: f64,
+    /// Share of each head mode and then each cavity mode, of unit modal mass.
+    pub vector: Vec<f64>,
+    /// The same in coordinates where modes are at right angles; a unit vector.
+    pub direction: Vec<f64>,
+    /// Share of the kinetic energy that is the batter's, and the resonant head's; the rest is the air's.
+    pub share: [f64; 2],
+    /// Area of the monopole in a baffle that would radiate its power at unit modal acceleration, m2.
+    pub monopole_area: f64,
+}
+
+/// One head mode with what it brings.
+struct Part<'a> {
+    mode: &'a MembraneMode,
+    head: Stretched<'a>,
+    far: bool,
+}
+
+/// End correction of a pipe in free air over that of one in a baffle, less one (Levine & Schwinger 1948).
+const RIM_RELIEF: f64 = 0.613_3 / 0.848_8 - 1.0;
+
+/// `j_01`, the shape the relief is known for.
+const J01: f64 = 2.404_825_557_695_773;
+
+impl<'a> OrderProblem<'a> {
+    fn parts(&self) -> Vec<Part<'a>> {
+        let of = |head: Stretched<'a>, far| {
+            let modes = head.membrane.modes().iter().filter(|mode| mode.m == self.m);
+            modes.map(move |mode| Part { mode, head, far }).collect::<Vec<_>>()
+        };
+        let mut parts = of(self.batter, false);
+        parts.extend(self.resonant.into_iter().flat_map(|head| of(head, true)));
+        parts
+    }
+
+    /// Every mode of this order, lowest first.
+    pub fn solve(&self) -> Vec<CoupledMode> {
+        let parts = self.parts();
+        if parts.is_empty() {
+            return Vec::new();
+        }
+        // The outer air's mass depends on the frequency: taken first where each head mode would ring
+        // by itself, then where the mode it is most in does.
+        let mut omegas: Vec<f64> =
+            parts.iter().map(|part| part.head.membrane.ringing(part.mode, part.head.tension).omega).collect();
+        let mut solved = self.eigenmodes(&parts, &omegas);
+        for _ in 0..2 {
+            for (i, omega) in omegas.iter_mut().enumerate() {
+                let most = solved.iter().max_by(|a, b| a.vector[i].abs().total_cmp(&b.vector[i].abs()));
+                *omega = most.map_or(*omega, |mode| mode.omega);
+            }
+            solved = self.eigenmodes(&parts, &omegas);
+        }
+        let masses = self.head_masses(&parts, &omegas);
+        solved.into_iter().map(|mode| self.finish(&parts, &masses, mode)).collect()
+    }
+
+    /// Mass of each head mode with the air on its outer face, kg.
+    fn head_masses(&self, parts: &[Part], omegas: &[f64]) -> Vec<f64> {
+        let mass = |(part, &omega): (&Part, &f64)| {
+            let spec = part.head.membrane.spec();
+            let relief = match self.outside {
+                Outside::Baffle => 1.0,
+                Outside::Free { .. } => 1.0 + RIM_RELIEF * J01 / part.mode.zero,
+            };
+            let inner = if self.cavity.is_some() { 0.0 } else { 1.0 };
+            let face = part.head.membrane.face_mass(part.mode, omega);
+            spec.area_density() * spec.area() + (relief + inner) * face
+        };
+        parts.iter().zip(omegas).map(mass).collect()
+    }
+
+    /// Frequencies and vectors.
+    fn eigenmodes(&self, parts: &[Part], omegas: &[f64]) -> Vec<Solution> {
+        let heads = parts.len();
+        let none = CavityOrder { modes: Vec::new(), mass: vec![0.0; heads * heads] };
+        let cavity = self.cavity.unwrap_or(&none);
+        let springs: Vec<_> = cavity.modes.iter().filter(|mode| mode.omega > 0.0).collect();
+        let size = heads + springs.len();
+        let mut stiffness = DMatrix::zeros(size, size);
+        let mut mass = DMatrix::zeros(size, size);
+        for (i, (part, own)) in parts.iter().zip(self.head_masses(parts, omegas)).enumerate() {
+            stiffness[(i, i)] = part.head.membrane.restoring(part.mode, part.head.tension);
+            mass[(i, i)] = own;
+        }
+        for i in 0..heads {
+            for k in 0..heads {
+                mass[(i, k)] += cavity.mass[i * heads + k];
+            }
+        }
+        for mode in &cavity.modes {
+            for i in 0..heads {
+                for k in 0..heads {
+                    stiffness[(i, k)] += mode.spring * mode.volume[i] * mode.volume[k];
+                }
+            }
+        }
+        for (j, mode) in springs.iter().enumerate() {
+            let y = heads + j;
+            stiffness[(y, y)] = mode.spring;
+            mass[(y, y)] = mode.spring / (mode.omega * mode.omega);
+            for i in 0..heads {
+                stiffness[(i, y)] = -mode.spring * mode.volume[i];
+                stiffness[(y, i)] = stiffness[(i, y)];
+            }
+        }
+        generalized(stiffness, mass)
+    }
+
+    /// Adds up a mode's losses.
+    fn finish(&self, parts: &[Part], masses: &[f64], solution: Solution) -> CoupledMode {
+        let Solution { omega, vector, direction } = solution;
+        let heads = parts.len();
+        let mut share = [0.0; 2];
+        let mut sigma = 0.0;
+        for ((part, mass), x) in parts.iter().zip(masses).zip(&vector) {
+            let kinetic = mass * x * x;
+            share[usize::from(part.far)] += kinetic;
+            sigma += kinetic * part.head.membrane.spec().loss.sigma(omega);
+        }
+        if let Some(cavity) = self.cavity {
+            let springs = cavity.modes.iter().filter(|mode| mode.omega > 0.0);
+            for (mode, y) in springs.zip(&vector[heads..]) {
+                let kinetic = mode.spring / (mode.omega * mode.omega) * y * y;
+                // A loss factor, not a dashpot: air that only rides along loses as slowly as it moves.
+                sigma += kinetic * omega / (2.0 * self.cavity_q);
+            }
+        }
+        let resistance = self.resistance(parts, omega, &vector);
+        let radius = self.batter.membrane.spec().radius;
+        sigma += 0.5 * DENSITY * omega * radius.powi(3) * resistance;
+        let monopole_area = air::monopole_area(radius, resistance, omega);
+        CoupledMode { omega, sigma, vector, direction, share, monopole_area }
+    }
+
+    /// Radiation resistance over `rho omega a^3` at unit modal displacement.
+    fn resistance(&self, parts: &[Part], omega: f64, vector: &[f64]) -> f64 {
+        let radius = self.batter.membrane.spec().radius;
+        let u = omega * radius / SPEED_OF_SOUND;
+        let shapes: Vec<HankelShape> =
+            parts.iter().map(|part| HankelShape::new(self.m, part.mode.zero, self.bessel)).collect();
+        let panels = (u / 1.5).ceil().max(1.0);
+        let rule = GaussLegendre::unit(8);
+        let mut sum = 0.0;
+        for panel in 0..panels as usize {
+            for (node, weight) in rule.nodes.iter().zip(&rule.weights) {
+                let s = u / panels * (panel as f64 + node);
+                let x = (u * u - s * s).max(0.0).sqrt();
+                let mut face = [0.0; 2];
+                for ((part, shape), q) in parts.iter().zip(&shapes).zip(vector) {
+                    face[usize::from(part.far)] += q * shape.at(x);
+                }
+                let [near, far] = face;
+                let power = match self.outside {
+                    Outside::Baffle => near * near,
+                    Outside::Free { length } => {
+                        let apart = (length / radius + 8.0 / (3.0 * std::f64::consts::PI)) * s;
+                        near * near + far * far - 2.0 * near * far * apart.cos()
+                    }
+                };
+                sum += u / panels * weight * power;
+            }
+        }
+        let space = match self.outside {
+            Outside::Baffle => 1.0,
+            Outside::Free { .. } => 0.5 * shadow::baffling(u),
+        };
+        air::circle(self.m) * space * sum
+    }
+}
+
+/// An eigenvector of the coupled problem.
+struct Solution {
+    omega: f64,
+    vector: Vec<f64>,
+    direction: Vec<f64>,
+}
+
+/// Solves `K x = omega^2 M x` for symmetric `K` and positive `M`: frequencies and vectors of unit
+/// modal mass, ascending. Motions without stiffness are left out.
+fn generalized(stiffness: DMatrix<f64>, mass: DMatrix<f64>) -> Vec<Solution> {
+    /// Slower than this nothing is a mode, rad/s.
+    const SLOWEST: f64 = 30.0;
+    let Some(root) = mass.cholesky() else {
+        return Vec::new();
+    };
+    let l = root.l();
+    let half = l.solve_lower_triangular(&stiffness).unwrap_or_else(|| stiffness.clone());
+    let reduced = l.solve_lower_triangular(&half.transpose()).unwrap_or_else(|| half.transpose());
+    let solved = eigen::symmetric(0.5 * (&reduced + reduced.transpose()));
+    let transposed = l.transpose();
+    (0..solved.values.len())
+        .filter(|&k| solved.values[k] > SLOWEST * SLOWEST)
+        .map(|k| {
+            let direction: DVector<f64> = solved.vectors.column(k).into();
+            let x = transposed.solve_upper_triangular(&direction).unwrap_or_else(|| direction.clone());
+            Solution {
+                omega: solved.values[k].sqrt(),
+                vector: x.iter().copied().collect(),
+                direction: direction.iter().copied().collect(),
+            }
+        })
+        .collect()
+}

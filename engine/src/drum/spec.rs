@@ -1,0 +1,179 @@
+//! The drums: sizes, heads, pitches.
+
+use crate::cavity::CavitySpec;
+use crate::contact::Material;
+use crate::damping::{LossLaw, Muffler};
+use crate::drum::coupled::Outside;
+use crate::error::SpecError;
+use crate::listening::ListeningPoint;
+use crate::membrane::MembraneSpec;
+use crate::split::Splitting;
+
+/// A head of a drum.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HeadSpec {
+    /// The film.
+    pub membrane: MembraneSpec,
+    /// Its own modes up to this enter the drum's, at the default pitch, Hz.
+    pub limit_hz: f64,
+}
+
+/// The head that is not struck.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ResonantSpec {
+    /// The head.
+    pub head: HeadSpec,
+    /// Its pitch over the batter's, each by itself in air.
+    pub pitch_ratio: f64,
+}
+
+/// A drum's description.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DrumSpec {
+    /// The head that is struck.
+    pub batter: HeadSpec,
+    /// The other one.
+    pub resonant: Option<ResonantSpec>,
+    /// The air inside; `None` for a head on its own, with air on both faces.
+    pub cavity: Option<CavitySpec>,
+    /// What surrounds the drum.
+    pub outside: Outside,
+    /// The batter's mode whose frequency, in air and before the shell couples it, is the drum's
+    /// pitch: nodal diameters, nodal circles.
+    pub named_mode: (u32, u32),
+    /// Lowest, default and highest pitch, Hz.
+    pub pitch_hz: (f64, f64, f64),
+    /// What muffles it.
+    pub muffler: Muffler,
+    /// How uneven the heads are.
+    pub splitting: Splitting,
+    /// Where it is heard from.
+    pub listening_point: ListeningPoint,
+}
+
+const INCH: f64 = 0.0254;
+
+/// Two-ply film of tom and kick heads, m.
+const TWO_PLY: f64 = 0.36e-3;
+/// Single-ply film, m.
+const SINGLE_PLY: f64 = 0.19e-3;
+
+/// Modes of a struck head reach this far; above, single modes can no longer be told apart. Hz.
+const BATTER_LIMIT: f64 = 3000.0;
+
+/// A gel pad as drummers place it, near the rim. *By ear*.
+const fn gel(sigma: f64) -> Muffler {
+    Muffler::Gel { sigma, radius: 0.8, angle: 2.3 }
+}
+
+/// A head of that radius (m), thickness (m) and loss.
+fn head(radius: f64, thickness: f64, loss: LossLaw, limit_hz: f64) -> HeadSpec {
+    HeadSpec { membrane: MembraneSpec { radius, thickness, material: Material::FILM, loss }, limit_hz }
+}
+
+impl DrumSpec {
+    /// A shell of that size with a head on either end.
+    fn two_headed(
+        diameter_in: f64,
+        depth_in: f64,
+        batter: (f64, LossLaw),
+        resonant: ResonantSpec,
+    ) -> DrumSpec {
+        let (radius, depth) = (0.5 * diameter_in * INCH, depth_in * INCH);
+        DrumSpec {
+            batter: head(radius, batter.0, batter.1, BATTER_LIMIT),
+            resonant: Some(resonant),
+            cavity: Some(CavitySpec::cylinder(radius, depth)),
+            outside: Outside::Free { length: depth },
+            named_mode: (0, 1),
+            pitch_hz: (55.0, 82.0, 160.0),
+            muffler: gel(30.0),
+            splitting: Splitting::DRUM,
+            listening_point: ListeningPoint { distance: 0.5, inclination: 0.6, azimuth: 0.4 },
+        }
+    }
+
+    /// A clear single-ply head, modes to `limit_hz`.
+    fn single_ply(diameter_in: f64, pitch_ratio: f64, limit_hz: f64) -> ResonantSpec {
+        let head = head(0.5 * diameter_in * INCH, SINGLE_PLY, LossLaw::SINGLE_PLY, limit_hz);
+        ResonantSpec { head, pitch_ratio }
+    }
+
+    /// 22 x 18 in bass drum with a pillow.
+    pub fn kick() -> DrumSpec {
+        let batter = (TWO_PLY, LossLaw { constant: 4.0, per_khz: 12.0 });
+        DrumSpec {
+            pitch_hz: (35.0, 55.0, 90.0),
+            muffler: Muffler::Pillow { sigma: 21.0 },
+            ..DrumSpec::two_headed(22.0, 18.0, batter, DrumSpec::single_ply(22.0, 1.10, 700.0))
+        }
+    }
+
+    /// 14 x 5.5 in snare drum; its wires are elsewhere.
+    pub fn snare() -> DrumSpec {
+        let batter = (0.25e-3, LossLaw { constant: 4.0, per_khz: 6.0 });
+        let loss = LossLaw { constant: 3.0, per_khz: 3.0 };
+        let side = ResonantSpec { head: head(7.0 * INCH, 0.076e-3, loss, BATTER_LIMIT), pitch_ratio: 1.50 };
+        DrumSpec { pitch_hz: (140.0, 220.0, 360.0), ..DrumSpec::two_headed(14.0, 5.5, batter, side) }
+    }
+
+    /// Toms: two-ply batter, single-ply resonant head.
+    fn tom(diameter_in: f64, depth_in: f64) -> DrumSpec {
+        let batter = (TWO_PLY, LossLaw { constant: 3.0, per_khz: 5.0 });
+        DrumSpec::two_headed(diameter_in, depth_in, batter, DrumSpec::single_ply(diameter_in, 1.15, 1200.0))
+    }
+
+    /// 12 x 9 in rack tom.
+    pub fn rack_tom() -> DrumSpec {
+        DrumSpec { pitch_hz: (90.0, 140.0, 260.0), ..DrumSpec::tom(12.0, 9.0) }
+    }
+
+    /// 16 x 16 in floor tom.
+    pub fn floor_tom() -> DrumSpec {
+        DrumSpec::tom(16.0, 16.0)
+    }
+
+    /// 26 in timpani on a kettle of 0.14 m3.
+    pub fn timpani() -> DrumSpec {
+        let (radius, volume) = (13.0 * INCH, 0.14);
+        let depth = volume / (std::f64::consts::PI * radius * radius);
+        let batter = (SINGLE_PLY, LossLaw { constant: 0.6, per_khz: 1.5 });
+        let unused = DrumSpec::single_ply(26.0, 1.0, 100.0);
+        DrumSpec {
+            resonant: None,
+            cavity: Some(CavitySpec { volume, ..CavitySpec::cylinder(radius, depth) }),
+            outside: Outside::Baffle,
+            named_mode: (1, 1),
+            pitch_hz: (87.3, 130.8, 196.0),
+            splitting: Splitting::CLEARED,
+            ..DrumSpec::two_headed(26.0, depth / INCH, batter, unused)
+        }
+    }
+
+    /// The drum's batter on its own, with air on both faces: no shell, no other head.
+    pub fn head_alone(self) -> DrumSpec {
+        DrumSpec { resonant: None, cavity: None, outside: Outside::Baffle, ..self }
+    }
+
+    /// Checks every number.
+    ///
+    /// # Errors
+    /// [`SpecError`] naming the field.
+    pub fn validated(self) -> Result<DrumSpec, SpecError> {
+        let (low, pitch, high) = self.pitch_hz;
+        SpecError::check("lowest pitch (Hz)", low, 15.0, 2000.0)?;
+        SpecError::check("highest pitch (Hz)", high, 1.01 * low, 8.0 * low)?;
+        SpecError::check("pitch (Hz)", pitch, low, high)?;
+        self.batter.membrane.validated()?;
+        if let Some(resonant) = self.resonant {
+            resonant.head.membrane.validated()?;
+            SpecError::check("resonant pitch ratio", resonant.pitch_ratio, 0.5, 2.5)?;
+        }
+        if let Some(cavity) = self.cavity {
+            SpecError::check("volume inside (m3)", cavity.volume, 1e-4, 1.0)?;
+            SpecError::check("depth inside (m)", cavity.depth, 0.01, 2.0)?;
+            SpecError::check("quality of the air inside", cavity.q, 1.0, 1e6)?;
+        }
+        Ok(self)
+    }
+}

@@ -1,0 +1,363 @@
+//! Forces of a bent body beyond its own modes' stiffness, from a potential: energy exact, no
+//! iteration, solved together with the strikers.
+//!
+//! Model: a potential `U(q)` of the displacements of the first modes of a body, such as the stretching of
+//! a cymbal or of a head. It acts through one number, the scalar auxiliary variable
+//! `psi = sqrt(2 (U + C))`, with `C` some energy that keeps `U + C` above zero:
+//!
+//! ```text
+//! F_k = -psi g_k,   g = grad U / sqrt(2 (U + C)),   psi' = g . q'
+//! ```
+//!
+//! Scheme: over a sample the force is held at `-g psibar`, `psibar = (psi0 + psi1) / 2`, with `g`
+//! known beforehand and `psi1 - psi0 = g . (q1 - q0)`. The modes integrate a held force exactly
+//! (see [`modal`](crate::modal)), so its work on them is `-psibar g . (q1 - q0) =
+//! -(psi1^2 - psi0^2) / 2` exactly: modes and `psi^2 / 2` together keep their energy, whatever `g` is.
+//! The state after the sample is linear in the forces, `q1 = q_free - B g psibar + sum B phi_i F_i`, with
+//! `B` the hold of each mode and `phi_i` the shapes where striker `i` presses with `F_i`. With
+//! `G = g . B g` and `p_i = g . B phi_i`,
+//!
+//! ```text
+//! psibar = psibar0 + sum p_i F_i / (2 + G),   psibar0 = (psi0 + g . (q_free - q0) / 2) / (1 + G / 2)
+//! w_j    = w_free_j - p_j psibar0 + sum (C_ji - p_j p_i / (2 + G)) F_i
+//! ```
+//!
+//! The strikers thus meet the same surface, displaced by `-p_j psibar0` and stiffened by a matrix
+//! of rank one; the contact solver needs to know nothing else.
+//!
+//! `g` is evaluated once in `stride` samples, at the displacements that the modes would reach by
+//! themselves in the middle of the stretch: second order, and no phase lag.
+//!
+//! Drift: `psi` follows the path, not the true energy, and errors add up. At each evaluation `U` is
+//! known, hence where `psi` ought to be; a share of the difference is made up, and the energy that
+//! takes is exchanged with the kinetic energy of the same modes by scaling their velocities. The
+//! sum of both stays what it was to rounding: nothing is added, and it is the *true* energy that is kept.
+//!
+//! `C` follows the motion: raising it by `D` turns `psi` into `sqrt(psi^2 + 2 D)` and changes no
+//! energy.
+//!
+//! Rest: where the potential's share of the energy has become negligible it is no longer evaluated,
+//! until the next stroke; judged on the peaks over a window, for `U` crosses zero all the time.
+//!
+//! Source: Bilbao, Ducceschi, Zama, Explicit exactly energy-conserving methods for Hamiltonian
+//! systems, J. Comput. Phys. 472, 2023. The exact hold, the contacts and the exchange are ours.
+
+use crate::modal::front::Front;
+use crate::modal::{ModalBody, Pickup, Port, Row, zero_row};
+
+/// A potential's energy at one place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Evaluation {
+    /// `U`, J; may be negative.
+    pub energy: f64,
+    /// How far below zero `U` could be with modes bent as much as now, J: 0 if it never is.
+    pub depth: f64,
+}
+
+/// An energy of the displacements of a body's first modes, beyond their own.
+pub trait Potential: Send {
+    /// The energy at `displacement` (m, `[mode]`, padded with more modes than the potential may
+    /// know); writes its exact gradient (N), zero for modes it does not depend on.
+    ///
+    /// # Real-time
+    /// Must not allocate, lock or fail.
+    fn evaluate(&mut self, displacement: &[f32], gradient: &mut [f32]) -> Evaluation;
+}
+
+/// Share of what `psi` is off that is made up at each evaluation. *Measured*: fast enough that a
+/// roll of hard strokes leaves no drift, slow enough that single errors are not passed on as noise.
+const PULL: f64 = 1.0 / 16.0;
+
+/// Largest share of the kinetic energy exchanged at once: where the modes turn they have none to give.
+const LARGEST_EXCHANGE: f64 = 0.01;
+
+/// `C` over the largest depth met.
+const HEADROOM: f64 = 1.5;
+
+/// Smallest `C`, J: under the energy of anything that can be heard.
+const LEAST_SHIFT: f64 = 1e-14;
+
+/// Time in which an unneeded `C` falls by `e`, s.
+const SHIFT_TIME: f64 = 0.05;
+
+/// Window of the peaks the rest is judged on, s: some periods of the slowest mode that stretches.
+const WINDOW: f64 = 0.05;
+
+/// Share of the energy under which a potential rests. *Measured*; see the tests of cymbals.
+const NEGLIGIBLE: f64 = 2e-5;
+
+/// Peaks over this window and the one before.
+#[derive(Debug, Clone, Copy, Default)]
+struct Peaks {
+    potential: [f64; 2],
+    kinetic: [f64; 2],
+}
+
+/// A potential acting on the first modes of a body.
+pub struct NonlinearForce {
+    potential: Box<dyn Potential>,
+    front: Front,
+    /// Samples between evaluations, at least 1.
+    stride: u32,
+    /// Factor on the potential.
+    stiffness: f64,
+    dt: f64,
+    /// Never rests; for comparisons.
+    restless: bool,
+    active: bool,
+    /// No evaluation since it woke.
+    fresh: bool,
+    /// Has found itself negligible; rests from the next [`settle`](Self::settle) on.
+    done: bool,
+    /// Samples until the next evaluation, and evaluations until the window ends.
+    countdown: u32,
+    window: u32,
+    psi: f64,
+    /// `C`, J.
+    shift: f64,
+    /// `g` as a port, and `1 + G / 2`.
+    port: Port,
+    stiffening: f64,
+    /// Pressure at the pickup at once per unit of `psibar`, Pa.
+    direct: f32,
+    /// The present sample's `psibar` without strikers.
+    mean: f64,
+    predicted: Row,
+    gradient: Row,
+    peaks: Peaks,
+    /// All that was exchanged between `psi` and the modes since it was built, J, without sign.
+    exchanged: f64,
+}
+
+impl NonlinearForce {
+    /// Acts on the first `modes` of `body`, evaluated once in `stride` samples. Allocates.
+    pub fn new(
+        potential: Box<dyn Potential>,
+        modes: usize,
+        stride: u32,
+        body: &ModalBody,
+        sample_rate: f64,
+    ) -> NonlinearForce {
+        let mut force = NonlinearForce {
+            potential,
+            front: Front::new(modes),
+            stride: stride.max(1),
+            stiffness: 1.0,
+            dt: 1.0 / sample_rate,
+            restless: false,
+            active: false,
+            fresh: true,
+            done: false,
+            countdown: 0,
+            window: 0,
+            psi: 0.0,
+            shift: LEAST_SHIFT,
+            port: Port::new(modes),
+            stiffening: 1.0,
+            direct: 0.0,
+            mean: 0.0,
+            predicted: zero_row(modes),
+            gradient: zero_row(modes),
+            peaks: Peaks::default(),
+            exchanged: 0.0,
+        };
+        force.follow(body);
+        force
+    }
+
+    /// Forbids or allows resting.
+    pub fn set_restless(&mut self, restless: bool) {
+        self.restless = restless;
+    }
+
+    /// Scales the potential, as a stiffer material would; from the next evaluation on.
+    pub fn set_stiffness(&mut self, stiffness: f64) {
+        self.stiffness = stiffness;
+    }
+
+    /// Whether it acts; otherwise it rests.
+    pub fn is_active(&self) -> bool {
+        self.active
+    }
+
+    /// The modes it acts on.
+    pub fn front(&self) -> &Front {
+        &self.front
+    }
+
+    /// Energy it holds as the scheme has it, `psi^2 / 2 - C`, J; zero at rest.
+    pub fn energy(&self) -> f64 {
+        if self.active && !self.fresh { 0.5 * self.psi * self.psi - self.shift } else { 0.0 }
+    }
+
+    /// True energy it holds, J, and how far `psi` is off, relative.
+    pub fn true_energy(&mut self, body: &ModalBody) -> (f64, f64) {
+        let n = self.front.length();
+        let truth = self.potential.evaluate(&body.displacements()[..n], &mut self.gradient);
+        let energy = self.stiffness * truth.energy;
+        let psi = (2.0 * (energy + self.shift).max(0.0)).sqrt();
+        (energy, self.psi / psi - 1.0)
+    }
+
+    /// All that was exchanged between `psi` and the modes to hold the drift, J, without sign.
+    pub fn exchanged(&self) -> f64 {
+        self.exchanged
+    }
+
+    /// Follows a change of the modes.
+    ///
+    /// # Real-time
+    /// Linear in the modes it acts on.
+    pub fn follow(&mut self, body: &ModalBody) {
+        body.face(&mut self.front, 0.5 * f64::from(self.stride));
+        body.connect(&mut self.port);
+        self.stiffening = 1.0 + 0.5 * body.compliance(&self.port, &self.port);
+    }
+
+    /// Acts from now on, until it no longer matters.
+    pub fn wake(&mut self) {
+        if !self.active || self.done {
+            self.active = true;
+            self.done = false;
+            self.fresh = true;
+            self.countdown = 0;
+            self.peaks = Peaks::default();
+            self.window = 0;
+        }
+    }
+
+    /// Lets it rest if it has found itself negligible; on the clock that blocks are cut by, so that
+    /// no sample depends on how time is cut.
+    pub fn settle(&mut self) {
+        if std::mem::take(&mut self.done) {
+            self.reset();
+        }
+    }
+
+    /// Rests.
+    pub fn reset(&mut self) {
+        self.active = false;
+        self.done = false;
+        self.psi = 0.0;
+        self.shift = LEAST_SHIFT;
+    }
+
+    /// Before the body steps: evaluates if it is time. True if `g` is another one now.
+    pub fn begin(&mut self, body: &mut ModalBody, pickup: &Pickup) -> bool {
+        body.keep(&mut self.front);
+        let due = self.countdown == 0 && !self.done;
+        if due {
+            self.countdown = self.stride;
+            self.evaluate(body);
+            body.connect(&mut self.port);
+            self.stiffening = 1.0 + 0.5 * body.compliance(&self.port, &self.port);
+            self.direct = pickup.direct_at(body, &self.port);
+            // The exchange scales velocities only: what was kept still holds.
+        }
+        self.countdown = self.countdown.saturating_sub(1);
+        due
+    }
+
+    /// After the body's free step: `psibar` if no striker pressed.
+    pub fn free(&mut self, body: &ModalBody) -> f64 {
+        self.mean = (self.psi + 0.5 * body.moved(&self.front, &self.port)) / self.stiffening;
+        self.mean
+    }
+
+    /// `p` of a port: how far `psi` is moved by a unit force there, and a point there by `psi`.
+    pub fn coupling(&self, body: &ModalBody, port: &Port) -> f64 {
+        body.compliance(&self.port, port)
+    }
+
+    /// `2 + G`.
+    pub fn divisor(&self) -> f64 {
+        2.0 * self.stiffening
+    }
+
+    /// Applies the force, given `sum p_i F_i` of the strikers; the pressure that follows at once.
+    pub fn finish(&mut self, body: &mut ModalBody, strikers: f64) -> f32 {
+        let mean = self.mean + strikers / self.divisor();
+        self.psi = 2.0 * mean - self.psi;
+        let force = -mean as f32;
+        body.push(&self.port, force);
+        force * self.direct
+    }
+
+    fn evaluate(&mut self, body: &mut ModalBody) {
+        body.look_ahead(&self.front, &mut self.predicted);
+        let found = self.potential.evaluate(&self.predicted, &mut self.gradient);
+        let (energy, depth) = (self.stiffness * found.energy, self.stiffness * found.depth);
+        self.shift_to(depth);
+        // Beyond the depth foretold only by rounding.
+        let psi = (2.0 * (energy + self.shift)).max(LEAST_SHIFT).sqrt();
+        let scale = (self.stiffness / psi) as f32;
+        for (g, &gradient) in self.port.shape_mut().iter_mut().zip(self.gradient.iter()) {
+            *g = scale * gradient;
+        }
+        let ahead: f64 = {
+            let rows = self.port.shape().iter().zip(self.predicted.iter()).zip(self.front.kept());
+            rows.map(|((&g, &to), &from)| f64::from(g * (to - from))).sum()
+        };
+        let kinetic = body.kinetic_energy(&self.front);
+        if std::mem::take(&mut self.fresh) {
+            self.psi = psi - ahead;
+        } else {
+            self.exchange(body, psi - ahead, kinetic);
+        }
+        self.judge(energy.abs(), kinetic);
+    }
+
+    /// Keeps `C` above the depth, lets it sink where it need not be so high.
+    fn shift_to(&mut self, depth: f64) {
+        let stretch = f64::from(self.stride) * self.dt;
+        let sunk = self.shift * (1.0 - stretch / SHIFT_TIME).max(0.0);
+        // Not so far that psi would vanish.
+        let least = self.shift - 0.25 * self.psi * self.psi;
+        let shift = sunk.max(least).max(HEADROOM * depth).max(LEAST_SHIFT);
+        self.psi = self.psi.signum() * (self.psi * self.psi + 2.0 * (shift - self.shift)).max(0.0).sqrt();
+        self.shift = shift;
+    }
+
+    /// Moves `psi` toward where it ought to be, at the expense or to the gain of the velocities.
+    fn exchange(&mut self, body: &mut ModalBody, target: f64, kinetic: f64) {
+        if kinetic <= 0.0 || !target.is_finite() {
+            return;
+        }
+        let aim = self.psi + PULL * (target - self.psi);
+        let limit = LARGEST_EXCHANGE * kinetic;
+        let cost = (0.5 * (aim * aim - self.psi * self.psi)).clamp(-limit, limit);
+        let factor = (1.0 - cost / kinetic).sqrt() as f32;
+        // What the rounded factor really gives is what psi gets.
+        let given = kinetic * (1.0 - f64::from(factor) * f64::from(factor));
+        let square = self.psi * self.psi + 2.0 * given;
+        if factor != 1.0 && square > 0.0 {
+            body.scale_velocity(&self.front, factor);
+            self.psi = square.sqrt();
+            self.exchanged += given.abs();
+        }
+    }
+
+    /// Rests where the peaks over a window say that nothing is left to do.
+    fn judge(&mut self, potential: f64, kinetic: f64) {
+        let Peaks { potential: p, kinetic: t } = &mut self.peaks;
+        p[1] = p[1].max(potential);
+        t[1] = t[1].max(kinetic);
+        self.window += 1;
+        if f64::from(self.window * self.stride) * self.dt < WINDOW {
+            return;
+        }
+        let share = p[0].max(p[1]) / t[0].max(t[1]).max(f64::MIN_POSITIVE);
+        let known = t[0] > 0.0;
+        (p[0], t[0]) = (p[1], t[1]);
+        (p[1], t[1]) = (0.0, 0.0);
+        self.window = 0;
+        if known && share < NEGLIGIBLE && !self.restless {
+            self.done = true;
+            self.psi = 0.0;
+            self.port.shape_mut().fill(0.0);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;
