@@ -9,6 +9,6 @@ pub mod level;
 pub mod spectrum;
 
 pub use decay::{OCTAVES, octave_decays};
-pub use glide::glide_cents;
+pub use glide::{Motion, glide_cents};
 pub use level::{mean, peak, rms, to_dbfs};
 pub use spectrum::Spectrum;

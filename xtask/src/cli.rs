@@ -6,6 +6,7 @@
 mod arguments;
 
 use std::ffi::OsString;
+use std::io::Write;
 use std::process::ExitCode;
 
 use anyhow::Result;
@@ -69,13 +70,13 @@ fn dispatch(task: Task) -> Result<()> {
         Task::Test => suite::run(),
         Task::Bundle => {
             for (_, path) in bundle::run()? {
-                println!("{}", path.display());
+                say(&format!("{}\n", path.display()))?;
             }
             Ok(())
         }
         Task::Install => {
             for path in bundle::install()? {
-                println!("installed {}", path.display());
+                say(&format!("installed {}\n", path.display()))?;
             }
             Ok(())
         }
@@ -83,6 +84,14 @@ fn dispatch(task: Task) -> Result<()> {
         Task::Hear(arguments) => hear(arguments),
         Task::Modes(arguments) => modes(arguments),
         Task::Groove { output } => output::write(&output, &groove::file()),
+    }
+}
+
+/// Prints a result. A reader who has seen enough and closed the pipe is no error.
+fn say(text: &str) -> Result<()> {
+    match std::io::stdout().write_all(text.as_bytes()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(error.into()),
+        _ => Ok(()),
     }
 }
 
@@ -94,12 +103,7 @@ fn render(arguments: RenderArguments) -> Result<()> {
 fn hear(arguments: HearArguments) -> Result<()> {
     let (json, request) = (arguments.json, arguments.into_request()?);
     let measurement = hear::run(&request)?;
-    if json {
-        println!("{}", serde_json::to_string(&measurement)?);
-    } else {
-        print!("{measurement}");
-    }
-    Ok(())
+    say(&if json { serde_json::to_string(&measurement)? + "\n" } else { measurement.to_string() })
 }
 
 fn modes(arguments: ModesArguments) -> Result<()> {
@@ -107,12 +111,7 @@ fn modes(arguments: ModesArguments) -> Result<()> {
     let settings = settings::parse_for_piece(piece, &arguments.set)?;
     let options = BuildOptions::new(f64::from(arguments.rate));
     let modes = modes::run(piece, &options, &settings)?;
-    if arguments.json {
-        println!("{}", serde_json::to_string(&modes)?);
-    } else {
-        print!("{modes}");
-    }
-    Ok(())
+    say(&if arguments.json { serde_json::to_string(&modes)? + "\n" } else { modes.to_string() })
 }
 
 #[cfg(test)]

@@ -12,9 +12,10 @@ use anyhow::Result;
 use overhear::midi_map;
 use overhear_engine::kit::BLOCK;
 use overhear_engine::piece::{BuildOptions, Piece, PieceId};
-use overhear_engine::snapshot::StrikeSnapshot;
+use overhear_engine::snapshot::{FIELD_MODES, PieceSnapshot, StrikeSnapshot};
 use overhear_engine::strike::{Strike, Striker};
 
+use crate::analysis::Motion;
 use crate::bad_input;
 use crate::settings::PieceSetting;
 use crate::wav::{Bits, WavFile};
@@ -45,21 +46,30 @@ pub struct Request {
 }
 
 /// The stroke a piece gets unless told otherwise: the place and the striker that the MIDI map has
-/// for it, at [`DEFAULT_SPEED`].
+/// for its ordinary note, at [`DEFAULT_SPEED`].
 pub fn default_strike(piece: PieceId) -> Strike {
-    let mut mapped = (midi_map::FIRST_NOTE..=midi_map::LAST_NOTE)
-        .filter_map(midi_map::stroke)
-        .filter(|stroke| stroke.piece == piece);
-    match mapped.next() {
-        Some(stroke) => Strike {
-            speed: DEFAULT_SPEED,
-            radius: stroke.radius,
-            angle: stroke.angle,
-            striker: stroke.striker,
-        },
-        // The timpani is in no map: three quarters out, where timpanists play.
-        None => Strike { speed: DEFAULT_SPEED, radius: 0.75, angle: 0.0, striker: Striker::TimpaniMallet },
-    }
+    let note = match piece {
+        PieceId::Kick => 36,
+        PieceId::Snare => 38,
+        PieceId::RackTom => 48,
+        PieceId::FloorTom => 43,
+        PieceId::Crash => 49,
+        PieceId::Ride => 51,
+        PieceId::Splash => 55,
+        // In no map: three quarters out, where timpanists play.
+        PieceId::Timpani => {
+            return Strike {
+                speed: DEFAULT_SPEED,
+                radius: 0.75,
+                angle: 0.0,
+                striker: Striker::TimpaniMallet,
+            };
+        }
+    };
+    let mapped = midi_map::stroke(note).filter(|stroke| stroke.piece == piece);
+    let (radius, angle, striker) =
+        mapped.map_or((0.3, 0.0, Striker::Stick), |stroke| (stroke.radius, stroke.angle, stroke.striker));
+    Strike { speed: DEFAULT_SPEED, radius, angle, striker }
 }
 
 /// The striker of that name.
@@ -78,6 +88,8 @@ pub fn striker(name: &str) -> Result<Striker> {
 pub struct Sound {
     /// Samples, full scale 1.
     pub samples: Vec<f32>,
+    /// Motion of the lowest modes.
+    pub motion: Motion,
     /// Energy of the striker as it arrives, J.
     pub striker_energy: f64,
     /// Greatest energy of the piece, J.
@@ -105,15 +117,22 @@ pub fn render(request: &Request) -> Result<Sound> {
     let length = (request.seconds * request.options.sample_rate).round() as usize;
     let mut samples = vec![0.0; length];
     let mut energy_peak = piece.energy();
+    let rate = request.options.sample_rate / BLOCK as f64;
+    let mut motion = Motion { modes: vec![Vec::new(); FIELD_MODES], rate };
+    let mut seen = PieceSnapshot::default();
     for block in samples.chunks_mut(BLOCK) {
         piece.render(block);
         energy_peak = energy_peak.max(piece.energy());
+        piece.snapshot(&mut seen);
+        for (mode, &displacement) in motion.modes.iter_mut().zip(&seen.displacement) {
+            mode.push(displacement);
+        }
     }
     for sample in &mut samples {
         *sample /= FULL_SCALE_PA;
     }
     let (energy_end, contact) = (piece.energy(), piece.last_strike());
-    Ok(Sound { samples, striker_energy, energy_peak, energy_end, contact })
+    Ok(Sound { samples, motion, striker_energy, energy_peak, energy_end, contact })
 }
 
 /// Lets the tuning and the muffling glide to where they were set, at rest.
@@ -154,6 +173,7 @@ mod tests {
             assert!((0.0..=1.0).contains(&strike.radius));
         }
         assert_eq!(default_strike(PieceId::Kick).striker, Striker::FeltBeater);
+        assert_eq!(default_strike(PieceId::Crash).striker, Striker::Shoulder);
         assert_eq!(default_strike(PieceId::Timpani).striker, Striker::TimpaniMallet);
     }
 

@@ -53,11 +53,11 @@ pub const PYTHON: Need = Need {
     packages: &["python3", "python3-venv"],
 };
 
-/// What the VST3 host of the tests is linked with.
+/// What the VST3 host of the tests is linked with, beyond the editor's libraries.
 pub const HOST_LIBRARIES: Need = Need {
     what: "the libraries of the VST3 test host (DawDreamer)",
-    present: || ["libfreetype.so.6", "libasound.so.2"].iter().all(|name| library(name)),
-    packages: &["libfreetype6", "libasound2"],
+    present: || ["libglib-2.0.so.0", "libstdc++.so.6"].iter().all(|name| library(name)),
+    packages: &["libglib2.0-0", "libstdc++6"],
 };
 
 /// Makes sure of everything, installing what is missing if that is possible.

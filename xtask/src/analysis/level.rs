@@ -28,7 +28,8 @@ mod tests {
 
     #[test]
     fn a_sine_of_full_scale_has_rms_3_db_below_its_peak() {
-        let sine: Vec<f32> = (0..48_000).map(|n| (n as f32 * std::f32::consts::TAU / 48.0).sin()).collect();
+        let sine: Vec<f32> =
+            (0..48_000).map(|n| (f64::from(n) * std::f64::consts::TAU / 48.0).sin() as f32).collect();
         assert!((peak(&sine) - 1.0).abs() < 1e-6);
         assert!((to_dbfs(rms(&sine).unwrap()).unwrap() + 3.0103).abs() < 1e-3);
         assert!(mean(&sine).unwrap().abs() < 1e-7);

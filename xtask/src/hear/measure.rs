@@ -85,7 +85,7 @@ impl Measurement {
             impulse_n_s: measured(|contact| contact.impulse),
             leaving_speed_m_s: measured(|contact| contact.leaving_speed),
             touches: touched.map(|contact| contact.touches),
-            glide_cents: strongest.and_then(|near| analysis::glide_cents(samples, rate, near)),
+            glide_cents: strongest.zip(touched).and_then(|(near, contact)| glide(sound, near, &contact)),
             strongest_hz: strongest,
             centroid_hz: spectrum.centroid(),
             peak_dbfs: analysis::to_dbfs(analysis::peak(samples)),
@@ -99,6 +99,14 @@ impl Measurement {
             energy_end_j: sound.energy_end,
         }
     }
+}
+
+/// Glide of the partial near a frequency (Hz), if it is one of a drum's lowest modes.
+fn glide(sound: &Sound, near: f64, contact: &StrikeSnapshot) -> Option<f64> {
+    // Where the motion's samples are too far apart, higher partials are mistaken for lower ones.
+    let seen = near < sound.motion.rate / 3.0;
+    let free_from = f64::from(contact.contact_time);
+    seen.then(|| analysis::glide_cents(&sound.motion, near, free_from)).flatten()
 }
 
 /// The decimal number a single-precision figure stands for.

@@ -5,6 +5,9 @@
 
 use midly::Timing;
 
+/// First byte of a SMPTE time base: 24, 25, 29 (for 29.97) and 30 frames a second, negated.
+const FRAME_RATES: [u8; 4] = [0xE8, 0xE7, 0xE3, 0xE2];
+
 /// What a file's chunks say.
 pub struct Chunks<'a> {
     /// The time base.
@@ -24,6 +27,12 @@ impl<'a> Chunks<'a> {
         }
         if !bytes.starts_with(b"MThd") {
             return Err("it does not begin with `MThd`".to_owned());
+        }
+        // The parser negates this byte without looking.
+        if let Some(&frames) = bytes.get(12).filter(|&&byte| byte >= 0x80)
+            && !FRAME_RATES.contains(&frames)
+        {
+            return Err(format!("its time base is {} frames a second", 256 - u16::from(frames)));
         }
         let header = midly::parse(bytes).map_err(|error| error.to_string())?.0;
         let announced = bytes.get(10..12).map_or(0, |count| u16::from_be_bytes([count[0], count[1]]));
