@@ -266,12 +266,15 @@ impl Piece {
         }
     }
 
-    /// Strikes at the next sample.
+    /// Strikes at the next sample. Speed and radius are clamped; a stroke with a number that is not
+    /// finite is not played.
     ///
     /// # Real-time
     /// No allocation, no lock; cost is linear in the number of modes.
     pub fn strike(&mut self, strike: &Strike) {
-        self.voice.surface_mut().strike(strike);
+        if strike.is_finite() {
+            self.voice.surface_mut().strike(strike);
+        }
     }
 
     /// Renders sound pressure at the piece's listening point, Pa, overwriting `out`. Any length;
