@@ -154,11 +154,9 @@ impl Membrane {
             let load = match surroundings {
                 Surroundings::Vacuum => LoadCurve::VACUUM,
                 Surroundings::Air => {
-                    // The unloaded frequency is the highest; air lowers it to no less than a fifth.
-                    let u =
-                        |tension| membrane.ringing(&bare, tension).omega * spec.radius / air::SPEED_OF_SOUND;
-                    let table = &tables[m as usize];
-                    MembraneAir::new(m, table).curve(zero, 0.2 * u(range.tension[0]), u(range.tension[1]))
+                    let air = MembraneAir::new(m, &tables[m as usize]);
+                    let [low, high] = range.tension.map(|tension| membrane.rough_u(&bare, tension, &air));
+                    air.curve(zero, 0.95 * low, 1.05 * high)
                 }
             };
             let mode = MembraneMode { load, ..bare };
@@ -168,6 +166,17 @@ impl Membrane {
             }
         }
         Ok(membrane)
+    }
+
+    /// About where a mode not yet given its load rings at a tension, `omega a / c`. A curve is laid over
+    /// no wider a range than it has to be: the resistance of high modes ripples.
+    fn rough_u(&self, mode: &MembraneMode, tension: f64, air: &MembraneAir) -> f64 {
+        let force = self.stiffness(mode, tension) * self.spec.area();
+        let film = self.spec.area_density() * self.spec.area();
+        let u = |mass: f64| (force / mass).sqrt() * self.spec.radius / air::SPEED_OF_SOUND;
+        let mass = |u| film + 2.0 * air::DENSITY * self.spec.radius.powi(3) * air.load(mode.zero, u).mass;
+        // Each round gains a digit or more.
+        (0..3).fold(u(film), |rough, _| u(mass(rough)))
     }
 
     /// The head.
