@@ -15,6 +15,9 @@ mod score;
 mod state;
 #[path = "hosts/vst3.rs"]
 mod vst3;
+#[cfg(target_os = "linux")]
+#[path = "hosts/window.rs"]
+mod window;
 
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
