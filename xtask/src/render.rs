@@ -151,6 +151,12 @@ fn jobs(request: &Request, songs: &[PathBuf], many: bool) -> Result<Vec<Job>> {
                 output.display(),
             ));
         }
+        if output.canonicalize().is_ok_and(|output| Some(output) == song.canonicalize().ok()) {
+            return Err(bad_input!(
+                "`{}` is the song itself, accepted: another name for the sound",
+                output.display(),
+            ));
+        }
         let stems = request.stems.as_ref().map(|stems| if many { stems.join(name) } else { stems.clone() });
         jobs.push(Job { song: song.clone(), output, stems });
     }
