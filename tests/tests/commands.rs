@@ -84,6 +84,8 @@ fn bad_input_is_one_line_with_the_value_exit_code_2_and_no_output() {
         (&["render", "empty", "-o", "outs"], &["empty", ".mid"]),
         (&["render", "song.mid", "-o", "no/such/out.wav"], &["no/such/out.wav"]),
         (&["render", "song.mid", "-o", "/dev/null"], &["/dev/null"]),
+        (&["render", "song.mid", "-o", "song.mid"], &["song.mid", "another name"]),
+        (&["render", "cut.mid", "text.mid", "-o", "outs"], &["2 of 2 files failed"]),
         (&["render", "song.mid"], &["--output"]),
         (&["render", "song.mid", "-o", "out.wav", "--preset", "jazz"], &["jazz", "default"]),
         (&["render", "song.mid", "-o", "out.wav", "--set", "gong_tune=1"], &["gong_tune", "kick_tune"]),

@@ -15,8 +15,12 @@ mod score;
 mod state;
 #[path = "hosts/vst3.rs"]
 mod vst3;
+#[cfg(target_os = "linux")]
+#[path = "hosts/window.rs"]
+mod window;
 
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use xtask::host::{Bundle, Instance};
 use xtask::workspace::{Format, bundle_in};
@@ -35,6 +39,13 @@ fn bundle_path(format: Format) -> PathBuf {
 fn instance() -> Instance {
     let bundle = Bundle::load(&bundle_path(Format::Clap)).expect("a CLAP bundle");
     bundle.instantiate().expect("an instance")
+}
+
+/// One test at a time: each builds kits, and a plugin that waits too long for its kit starts
+/// without it, as it should on a machine that cannot keep up.
+fn alone() -> MutexGuard<'static, ()> {
+    static TURN: Mutex<()> = Mutex::new(());
+    TURN.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// A file of this package.

@@ -1,6 +1,6 @@
 //! The demonstration groove: 20 bars for the seven pieces, written as code.
 //!
-//! `assets/groove.mid` is what [`file`] makes; a test holds the two together, and
+//! `assets/groove.mid` is what [`file()`] makes; a test holds the two together, and
 //! `cargo xtask groove` writes it anew. A format 1 file: a tempo track, a track for the feet and
 //! one for the hands, General MIDI notes on channel 10.
 //!

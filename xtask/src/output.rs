@@ -73,13 +73,34 @@ impl Drop for Draft {
     }
 }
 
-/// Makes a folder, with those above it, unless it is there.
-///
-/// # Errors
-/// [`BadInput`](crate::error::BadInput) if it cannot be made.
-pub fn folder(path: &Path) -> Result<()> {
-    fs::create_dir_all(path)
-        .map_err(|error| bad_input!("cannot make the folder `{}`: {error}", path.display()))
+/// A folder to write into. If it was made for that and is still empty when dropped, it goes again.
+#[derive(Debug)]
+pub struct Folder {
+    /// Folders that were not there before, the deepest first.
+    made: Vec<PathBuf>,
+}
+
+impl Folder {
+    /// Makes a folder, with those above it, unless it is there.
+    ///
+    /// # Errors
+    /// [`BadInput`](crate::error::BadInput) if it cannot be made.
+    pub fn new(path: &Path) -> Result<Folder> {
+        let missing = |folder: &&Path| !folder.as_os_str().is_empty() && !folder.exists();
+        let made = path.ancestors().take_while(missing).map(Path::to_path_buf).collect();
+        fs::create_dir_all(path)
+            .map_err(|error| bad_input!("cannot make the folder `{}`: {error}", path.display()))?;
+        Ok(Folder { made })
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        for folder in &self.made {
+            // Refused for a folder that holds something, which is what is wanted.
+            let _ = fs::remove_dir(folder);
+        }
+    }
 }
 
 /// Writes a whole file at once.
@@ -117,6 +138,19 @@ mod tests {
         write(&target, b"more").unwrap();
         assert_eq!((fs::read(&target).unwrap(), count(&folder)), (b"more".to_vec(), 1));
         fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn a_folder_made_for_nothing_goes_again() {
+        let outer = empty_folder("folder");
+        drop(Folder::new(&outer.join("a/b")).unwrap());
+        assert_eq!(count(&outer), 0);
+        let folder = Folder::new(&outer.join("a/b")).unwrap();
+        write(&outer.join("a/b/c.wav"), b"sound").unwrap();
+        drop(folder);
+        drop(Folder::new(&outer).unwrap());
+        assert!(outer.join("a/b/c.wav").exists());
+        fs::remove_dir_all(outer).unwrap();
     }
 
     #[test]

@@ -8,10 +8,11 @@ use std::thread;
 
 use anyhow::{Context, Result};
 
+use crate::bad_input;
+use crate::output::Folder;
 use crate::player::{Blocks, Source};
 use crate::settings::Setting;
 use crate::wav::Bits;
-use crate::{bad_input, output};
 
 pub use job::{Job, Report, takes};
 
@@ -58,6 +59,7 @@ pub fn run(request: &Request) -> Result<()> {
     let songs = songs(&request.inputs)?;
     let many = songs.len() > 1 || request.inputs.iter().any(|input| input.is_dir());
     let jobs = jobs(request, &songs, many)?;
+    let _folder = if many { Some(Folder::new(&request.output)?) } else { None };
     // Before any work: a bundle that cannot be loaded fails all jobs alike.
     if let Source::Clap(path) = &request.style.source {
         crate::host::Bundle::load(path)?;
@@ -132,7 +134,6 @@ fn jobs(request: &Request, songs: &[PathBuf], many: bool) -> Result<Vec<Job>> {
                 request.output.display(),
             ));
         }
-        output::folder(&request.output)?;
     }
     let mut jobs: Vec<Job> = Vec::new();
     for song in songs {
@@ -147,6 +148,12 @@ fn jobs(request: &Request, songs: &[PathBuf], many: bool) -> Result<Vec<Job>> {
         if jobs.iter().any(|job| job.output == output) {
             return Err(bad_input!(
                 "two songs would become `{}`, accepted: songs of different names",
+                output.display(),
+            ));
+        }
+        if output.canonicalize().is_ok_and(|output| Some(output) == song.canonicalize().ok()) {
+            return Err(bad_input!(
+                "`{}` is the song itself, accepted: another name for the sound",
                 output.display(),
             ));
         }

@@ -4,10 +4,11 @@ use overhear::parameters::PARAMETERS;
 use xtask::host::{Bundle, parameter_id};
 use xtask::workspace::Format;
 
-use crate::{bundle_path, instance};
+use crate::{alone, bundle_path, instance};
 
 #[test]
 fn it_is_a_drum_instrument_with_one_stereo_output() {
+    let _turn = alone();
     let bundle = Bundle::load(&bundle_path(Format::Clap)).unwrap();
     let plugin = &bundle.plugins()[0];
     assert_eq!((plugin.name.as_str(), plugin.id.to_str()), (overhear::NAME, Ok(overhear::CLAP_ID)));
@@ -23,6 +24,7 @@ fn it_is_a_drum_instrument_with_one_stereo_output() {
 
 #[test]
 fn its_parameters_are_the_table_in_its_order() {
+    let _turn = alone();
     let found = instance().parameters().unwrap();
     assert_eq!(found.len(), PARAMETERS.len());
     for (found, parameter) in found.iter().zip(&PARAMETERS) {
@@ -35,6 +37,7 @@ fn its_parameters_are_the_table_in_its_order() {
 
 #[test]
 fn values_are_shown_in_units_and_read_back() {
+    let _turn = alone();
     let mut instance = instance();
     for parameter in &PARAMETERS {
         let id = parameter_id(parameter.id);

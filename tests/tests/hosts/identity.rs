@@ -2,8 +2,8 @@
 
 use xtask::player::Blocks;
 
-use crate::instance;
 use crate::score::{Happening, assert_same, automated, notes, peak, through_engine, through_plugin};
+use crate::{alone, instance};
 
 const RATES: [f64; 3] = [44_100.0, 48_000.0, 96_000.0];
 
@@ -18,6 +18,7 @@ const BLOCKS: [Blocks; 6] = [
 
 #[test]
 fn notes_give_the_engine_s_samples_at_every_rate_and_buffer_size() {
+    let _turn = alone();
     let mut instance = instance();
     for rate in RATES {
         let score = notes(rate);
@@ -32,6 +33,7 @@ fn notes_give_the_engine_s_samples_at_every_rate_and_buffer_size() {
 
 #[test]
 fn automation_acts_at_its_sample_at_every_buffer_size() {
+    let _turn = alone();
     let rate = 48_000.0;
     let score = automated(rate);
     let expected = through_engine(&score, rate);
@@ -45,9 +47,11 @@ fn automation_acts_at_its_sample_at_every_buffer_size() {
 
 #[test]
 fn every_piece_is_heard_and_nothing_is_clipped() {
+    let _turn = alone();
+    let mut instance = instance();
     for key in [36, 38, 48, 43, 49, 51, 55] {
         let score = vec![(100, Happening::Note(key, 127))];
-        let sound = through_plugin(&mut instance(), &score, 48_000.0, Blocks::Fixed(256));
+        let sound = through_plugin(&mut instance, &score, 48_000.0, Blocks::Fixed(256));
         let peak = peak(&sound);
         assert!(sound.iter().flatten().all(|sample| sample.is_finite()));
         assert!((0.001..1.0).contains(&peak), "note {key} peaks at {peak}");

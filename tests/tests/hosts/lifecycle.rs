@@ -5,13 +5,14 @@ use std::thread;
 use xtask::host::{Event, What};
 use xtask::player::Blocks;
 
-use crate::instance;
 use crate::score::{assert_same, notes, peak, through_engine, through_plugin};
+use crate::{alone, instance};
 
 const RATE: f64 = 48_000.0;
 
 #[test]
 fn activated_anew_it_plays_as_if_it_were_new() {
+    let _turn = alone();
     let mut instance = instance();
     for rate in [44_100.0, 96_000.0, 44_100.0, 22_050.0, 192_000.0, 48_000.0] {
         let score = notes(rate);
@@ -23,6 +24,7 @@ fn activated_anew_it_plays_as_if_it_were_new() {
 
 #[test]
 fn a_rate_beyond_the_engine_is_survived_in_silence() {
+    let _turn = alone();
     let mut instance = instance();
     let sound = through_plugin(&mut instance, &notes(8000.0), 8000.0, Blocks::Fixed(64));
     assert_eq!(peak(&sound), 0.0);
@@ -32,6 +34,7 @@ fn a_rate_beyond_the_engine_is_survived_in_silence() {
 
 #[test]
 fn instances_do_not_hear_each_other() {
+    let _turn = alone();
     let score = notes(RATE);
     let expected = through_engine(&score, RATE);
     let threads: Vec<_> = [Blocks::Fixed(64), Blocks::Random, Blocks::Fixed(333)]
@@ -54,14 +57,15 @@ fn instances_do_not_hear_each_other() {
 
 #[test]
 fn instances_go_at_any_time() {
+    let _turn = alone();
     for _ in 0..20 {
         drop(instance());
     }
     // Activated and gone at once, several at a time, while others still build.
-    let threads: Vec<_> = (0..4)
+    let threads: Vec<_> = (0..3)
         .map(|number| {
             thread::spawn(move || {
-                for round in 0..3 {
+                for round in 0..2 {
                     let mut instance = instance();
                     let rate = [44_100.0, 48_000.0, 88_200.0, 96_000.0][(number + round) % 4];
                     instance.run(rate, 1..=64, |_| Ok(())).unwrap();
@@ -79,6 +83,7 @@ fn instances_go_at_any_time() {
 
 #[test]
 fn a_reset_silences_what_rings() {
+    let _turn = alone();
     let struck =
         [49, 36].map(|key| Event { offset: 0, what: What::NoteOn { channel: 9, key, velocity: 1.0 } });
     let (rang, silent) = instance()
@@ -96,8 +101,10 @@ fn a_reset_silences_what_rings() {
 
 #[test]
 fn midi_bytes_play_as_notes_do() {
-    let play = |what: What| {
-        instance()
+    let _turn = alone();
+    let mut instance = instance();
+    let mut play = |what: What| {
+        instance
             .run(RATE, 1..=4096, |processor| {
                 let (mut left, mut right) = (vec![0.0; 4096], vec![0.0; 4096]);
                 processor.process(&[Event { offset: 7, what }], &mut left, &mut right)?;
@@ -124,6 +131,7 @@ fn midi_bytes_play_as_notes_do() {
 
 #[test]
 fn more_events_than_any_song_has_are_survived() {
+    let _turn = alone();
     let events: Vec<_> = (0..6000)
         .map(|number| Event {
             offset: number / 4,

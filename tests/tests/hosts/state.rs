@@ -4,8 +4,8 @@ use overhear::parameters::{PARAMETERS, find};
 use xtask::host::{Instance, parameter_id};
 use xtask::player::Blocks;
 
-use crate::instance;
 use crate::score::{Sound, assert_same, notes, through_plugin};
+use crate::{alone, instance};
 
 const RATE: f64 = 48_000.0;
 
@@ -33,6 +33,7 @@ fn changed() -> Instance {
 
 #[test]
 fn a_saved_state_brings_back_every_value_and_sample() {
+    let _turn = alone();
     let mut saved = changed();
     let state = saved.save_state().unwrap();
     let mut restored = instance();
@@ -46,6 +47,7 @@ fn a_saved_state_brings_back_every_value_and_sample() {
 
 #[test]
 fn a_state_loaded_between_two_takes_acts_in_the_second() {
+    let _turn = alone();
     let state = changed().save_state().unwrap();
     let expected = play(&mut changed());
     let mut instance = instance();
@@ -56,6 +58,7 @@ fn a_state_loaded_between_two_takes_acts_in_the_second() {
 
 #[test]
 fn a_broken_state_is_refused_and_nothing_is_lost() {
+    let _turn = alone();
     let mut instance = changed();
     let state = instance.save_state().unwrap();
     let expected = play(&mut instance);

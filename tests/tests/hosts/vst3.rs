@@ -11,7 +11,7 @@ use xtask::player::Blocks;
 use xtask::workspace::Format;
 
 use crate::score::{Happening, Score, Sound, assert_same, frames, notes, through_plugin};
-use crate::{bundle_path, here, instance};
+use crate::{alone, bundle_path, here, instance};
 
 /// The Python that has DawDreamer.
 fn python() -> PathBuf {
@@ -74,6 +74,7 @@ fn through_vst3(name: &str, score: &Score, parameters: &[(usize, f32)], rate: f6
 
 #[test]
 fn vst3_gives_the_samples_of_clap() {
+    let _turn = alone();
     for (rate, block) in [(44_100.0, 512), (48_000.0, 64), (96_000.0, 1000)] {
         let score = notes(rate);
         let clap = through_plugin(&mut instance(), &score, rate, Blocks::Fixed(block));
@@ -84,6 +85,7 @@ fn vst3_gives_the_samples_of_clap() {
 
 #[test]
 fn vst3_parameters_are_those_of_clap() {
+    let _turn = alone();
     let rate = 48_000.0;
     let score = notes(rate);
     let values: Vec<_> = [("kick_tune", 61.5), ("crash_level", -12.0), ("snare_muffle", 0.5)]

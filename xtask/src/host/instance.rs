@@ -3,8 +3,9 @@
 use std::ffi::{CStr, CString};
 use std::thread;
 
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context, Result, anyhow, ensure};
 use clack_extensions::audio_ports::{AudioPortInfoBuffer, PluginAudioPorts};
+use clack_extensions::gui::{GuiApiType, GuiConfiguration, GuiSize, PluginGui, Window};
 use clack_extensions::latency::PluginLatency;
 use clack_extensions::note_ports::{NotePortInfoBuffer, PluginNotePorts};
 use clack_extensions::params::{ParamInfoBuffer, PluginParams};
@@ -229,6 +230,36 @@ impl Instance {
         }
     }
 
+    /// Opens the editor inside an X11 window made by `parent` for the size it is given, and tells
+    /// what that made.
+    ///
+    /// # Errors
+    /// If the plugin has no editor for X11 or cannot open it; what `parent` returns.
+    pub fn open_editor<T>(&mut self, parent: impl FnOnce(u32, u32) -> Result<(u32, T)>) -> Result<T> {
+        let gui: PluginGui = self.extension()?;
+        let handle = self.plugin.plugin_handle();
+        let configuration = GuiConfiguration { api_type: GuiApiType::X11, is_floating: false };
+        ensure!(gui.is_api_supported(&handle, configuration), "the editor cannot be embedded in X11");
+        gui.create(&handle, configuration)?;
+        let GuiSize { width, height } = gui.get_size(&handle).context("the editor has no size")?;
+        let (window, made) = parent(width, height)?;
+        // SAFETY: the window lives until the editor has been closed, or its server is gone.
+        unsafe { gui.set_parent(&handle, Window::from_x11_handle(window.into())) }?;
+        // Embedded windows show by themselves; few plugins implement the call.
+        let _ = gui.show(&handle);
+        Ok(made)
+    }
+
+    /// Closes the editor.
+    ///
+    /// # Errors
+    /// If the plugin has none.
+    pub fn close_editor(&mut self) -> Result<()> {
+        let gui: PluginGui = self.extension()?;
+        gui.destroy(&self.plugin.plugin_handle());
+        Ok(())
+    }
+
     /// What the plugin asked for so far.
     pub fn requests(&self) -> Requests {
         self.plugin.access_handler(MainThread::requests)
@@ -287,7 +318,7 @@ impl Instance {
     }
 
     /// Makes the calls on the main thread that the plugin asked for.
-    fn answer(&mut self) {
+    pub fn answer(&mut self) {
         if self.plugin.access_shared_handler(Shared::take_callback) {
             self.plugin.call_on_main_thread_callback();
         }

@@ -9,11 +9,12 @@ use overhear::midi_map;
 use overhear_engine::piece::PieceId;
 
 use super::Style;
+use crate::bad_input;
+use crate::output::Folder;
 use crate::player::{Hit, Played, Setup, Take};
 use crate::progress::Progress;
 use crate::song::Song;
 use crate::wav::WavFile;
-use crate::{bad_input, output};
 
 /// One song and where it goes.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -72,6 +73,7 @@ impl Job {
         let song = Song::read(&self.song)?;
         let (take, silent) = takes(&song, style)?;
         let mut file = WavFile::create(&self.output, style.bits, style.rate, 2, take.frames)?;
+        let _folder = self.stems.as_deref().map(Folder::new).transpose()?;
         let stems = self.stem_files(style, take.frames)?;
         let name = self.output.display().to_string();
         let progress = |label: String| {
@@ -104,7 +106,6 @@ impl Job {
         let Some(folder) = &self.stems else {
             return Ok(Vec::new());
         };
-        output::folder(folder)?;
         PieceId::KIT
             .into_iter()
             .map(|piece| {
