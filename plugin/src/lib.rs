@@ -1,1 +1,42 @@
 //! Overhear as a plugin.
+//!
+//! In reading order: a host's note goes through the [`midi_map`] to the [`performer`], which owns
+//! the engine's kit; [`parameters`] is the table of everything a host may automate. These three
+//! know no framework, and the commands share them with the plugin.
+//!
+//! With the feature `framework`, around them: [`plugin`] is the instance a host holds,
+//! [`builder`] the thread that makes its pieces, [`host_parameters`] and [`state`] what a project
+//! stores, [`monitor`] what the [`editor`] may know.
+#![deny(unsafe_code)]
+
+#[cfg(feature = "framework")]
+pub mod builder;
+#[cfg(feature = "framework")]
+pub mod editor;
+#[cfg(feature = "framework")]
+pub mod host_parameters;
+pub mod midi_map;
+#[cfg(feature = "framework")]
+pub mod monitor;
+pub mod parameters;
+pub mod performer;
+#[cfg(feature = "framework")]
+pub mod plugin;
+#[cfg(feature = "framework")]
+pub mod state;
+
+/// The instrument's name in hosts.
+pub const NAME: &str = "Overhear";
+
+/// The plugin's id in CLAP hosts. Frozen: projects find it by this.
+pub const CLAP_ID: &str = "org.overhear.overhear";
+
+/// The entry points that hosts look for in the library.
+#[cfg(feature = "framework")]
+#[allow(unsafe_code, missing_docs)]
+mod entry {
+    use crate::plugin::Overhear;
+
+    nice_plug::nice_export_clap!(Overhear);
+    nice_plug::nice_export_vst3!(Overhear);
+}

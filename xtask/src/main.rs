@@ -1,3 +1,7 @@
-//! Developer and user commands of Overhear.
+//! `cargo xtask`: see [`xtask::cli`].
 
-fn main() {}
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    xtask::cli::run(std::env::args_os())
+}

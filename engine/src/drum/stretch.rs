@@ -35,6 +35,9 @@ const YIELD_STRAIN: f64 = 0.03;
 /// Samples between evaluations. *Measured*: every sample changes a 6 m/s stroke's glide by less than 0.1 cent.
 pub const STRIDE: u32 = 2;
 
+/// A mode of the body, and its shares times the wavenumbers.
+type BentMode = (u32, Vec<f64>);
+
 /// The stretching energy of one head. `S` is a quadratic form in the drum's modes; only modes of one order
 /// and member meet in it, so its matrix is made of blocks.
 pub struct Stretch {
@@ -60,7 +63,7 @@ impl Stretch {
         let place = blueprint.scale.place(pitch_hz);
         let limit = std::f64::consts::TAU * LIMIT_HZ;
         // Modes of the body, with their shares times the wavenumbers, by order and member.
-        let mut sorted: BTreeMap<(u32, bool), Vec<(u32, Vec<f64>)>> = BTreeMap::new();
+        let mut sorted: BTreeMap<(u32, bool), Vec<BentMode>> = BTreeMap::new();
         let mut count = 0;
         for mode in blueprint.modes.iter().take_while(|mode| mode.at(&place).omega < limit) {
             let (first, heads) = blueprint.batter.order(mode.m);

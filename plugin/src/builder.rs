@@ -1,0 +1,297 @@
+//! Pieces built on a thread of the instance's own.
+//!
+//! A piece takes up to a second to compute; the audio thread never waits for one. Threads and
+//! what passes between them:
+//!
+//! ```text
+//! main thread ── order(rate) ──▶ builder thread ── built, a bounded queue ──▶ audio thread
+//!                                      ▲                                           │
+//!                                      └── returned, a bounded queue ◀── replaced ─┘
+//! ```
+//!
+//! Replaced pieces go back to be dropped here, as dropping frees memory. Every order has a
+//! number; pieces of an older one are returned unplayed. The thread starts with the first order,
+//! never when an instance is merely created, and looks between pieces whether it is still wanted,
+//! so that dropping the builder waits for one piece at most. One thread per instance, because the
+//! framework's shared one does not survive instances that come and go while it works.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::thread::{self, JoinHandle};
+use std::time::{Duration, Instant};
+
+use crossbeam::queue::ArrayQueue;
+use overhear_engine::error::SpecError;
+use overhear_engine::piece::{BuildOptions, Piece, PieceId};
+use overhear_engine::snapshot::FieldShapes;
+
+/// Pieces of a kit.
+const PIECES: usize = PieceId::KIT.len();
+
+/// How often the thread looks for returned pieces while some are still out.
+const COLLECT_INTERVAL: Duration = Duration::from_millis(250);
+
+/// Order that stands for none.
+const NO_ORDER: u32 = 0;
+
+/// Computes one piece for a sample rate in Hz.
+type Make = fn(PieceId, f64) -> Result<Piece, SpecError>;
+
+/// How an order stands after waiting for it.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Outcome {
+    /// Every piece is in the queue or already taken from it.
+    Finished,
+    /// The wait ran out; pieces still to come will arrive through the queue.
+    Late,
+    /// A piece could not be built, for the reason given; none will follow.
+    Failed(String),
+}
+
+/// The builder: the main thread's end.
+pub struct Builder {
+    shared: Arc<Shared>,
+    make: Make,
+    thread: Option<JoinHandle<()>>,
+}
+
+/// The audio thread's end: pieces in, pieces back.
+pub struct Delivery {
+    shared: Arc<Shared>,
+    /// The order whose pieces are wanted.
+    order: u32,
+}
+
+/// Shapes of the pieces' displacement fields, for the editor's end.
+#[derive(Clone)]
+pub struct Shapes {
+    shared: Arc<Shared>,
+}
+
+struct Shared {
+    desk: Mutex<Desk>,
+    /// Signals that the desk has changed, to either side.
+    changed: Condvar,
+    /// The latest order, read between pieces.
+    latest: AtomicU32,
+    built: ArrayQueue<Built>,
+    returned: ArrayQueue<Box<Piece>>,
+    shapes: Mutex<[Option<Arc<FieldShapes>>; PIECES]>,
+}
+
+/// What the main thread and the builder thread tell each other.
+#[derive(Default)]
+struct Desk {
+    sample_rate: f64,
+    order: u32,
+    /// The latest order that came to an end.
+    ended: u32,
+    failure: Option<String>,
+    stop: bool,
+}
+
+struct Built {
+    order: u32,
+    piece: Box<Piece>,
+}
+
+impl Default for Builder {
+    fn default() -> Self {
+        Builder::with(|id, sample_rate| Piece::new(id, &BuildOptions::new(sample_rate)))
+    }
+}
+
+impl Builder {
+    fn with(make: Make) -> Builder {
+        let shared = Shared {
+            desk: Mutex::default(),
+            changed: Condvar::new(),
+            latest: AtomicU32::new(NO_ORDER),
+            built: ArrayQueue::new(PIECES),
+            // The audio thread returns at most one piece for each it takes, and the thread
+            // empties this queue before it adds to the other: this can never be full.
+            returned: ArrayQueue::new(2 * PIECES + 1),
+            shapes: Mutex::default(),
+        };
+        Builder { shared: Arc::new(shared), make, thread: None }
+    }
+
+    /// Orders every piece of the kit for a sample rate (Hz); gives up any earlier order.
+    ///
+    /// Returns the end through which the pieces arrive; earlier ends get none any more.
+    pub fn order(&mut self, sample_rate: f64) -> Delivery {
+        let order = {
+            let mut desk = lock(&self.shared.desk);
+            desk.order = desk.order.wrapping_add(1).max(NO_ORDER + 1);
+            desk.sample_rate = sample_rate;
+            desk.failure = None;
+            self.shared.latest.store(desk.order, Ordering::Release);
+            desk.order
+        };
+        self.shared.changed.notify_all();
+        if self.thread.is_none() {
+            let (shared, make) = (self.shared.clone(), self.make);
+            let name = "overhear-builder".to_owned();
+            match thread::Builder::new().name(name).spawn(move || shared.work(make)) {
+                Ok(thread) => self.thread = Some(thread),
+                Err(error) => self.shared.end(order, Some(format!("no thread: {error}"))),
+            }
+        }
+        Delivery { shared: self.shared.clone(), order }
+    }
+
+    /// Waits until the latest order has come to an end, or for as long as given.
+    pub fn wait(&self, timeout: Duration) -> Outcome {
+        let deadline = Instant::now() + timeout;
+        let mut desk = lock(&self.shared.desk);
+        while desk.ended != desk.order {
+            let left = deadline.saturating_duration_since(Instant::now());
+            if left.is_zero() {
+                return Outcome::Late;
+            }
+            desk = wait(&self.shared.changed, desk, Some(left));
+        }
+        match &desk.failure {
+            Some(reason) => Outcome::Failed(reason.clone()),
+            None => Outcome::Finished,
+        }
+    }
+
+    /// The shapes of what has been built, for whoever draws.
+    pub fn shapes(&self) -> Shapes {
+        Shapes { shared: self.shared.clone() }
+    }
+}
+
+impl Drop for Builder {
+    fn drop(&mut self) {
+        lock(&self.shared.desk).stop = true;
+        self.shared.latest.store(NO_ORDER, Ordering::Release);
+        self.shared.changed.notify_all();
+        if let Some(thread) = self.thread.take() {
+            // The thread catches panics; were it to end in one, there is nobody left to tell.
+            let _ = thread.join();
+        }
+    }
+}
+
+impl Delivery {
+    /// Hands every piece that has arrived to `install` and sends back what that returns.
+    ///
+    /// # Real-time
+    /// No allocation, no lock, nothing dropped; at most the pieces of one kit.
+    pub fn take(&self, mut install: impl FnMut(Box<Piece>) -> Option<Box<Piece>>) {
+        for _ in 0..PIECES {
+            let Some(Built { order, piece }) = self.shared.built.pop() else { return };
+            let replaced = if order == self.order { install(piece) } else { Some(piece) };
+            if let Some(replaced) = replaced
+                && let Err(homeless) = self.shared.returned.push(replaced)
+            {
+                // Cannot happen, see the queue's size; leaking is the one thing left that is
+                // allowed on the audio thread.
+                std::mem::forget(homeless);
+            }
+        }
+    }
+}
+
+impl Shapes {
+    /// The shapes of a piece of the kit, by its slot, once it has been built.
+    pub fn of(&self, slot: usize) -> Option<Arc<FieldShapes>> {
+        lock(&self.shared.shapes).get(slot)?.clone()
+    }
+}
+
+impl Shared {
+    /// The builder thread.
+    fn work(&self, make: Make) {
+        let mut done = NO_ORDER;
+        loop {
+            let (order, sample_rate) = {
+                let mut desk = lock(&self.desk);
+                while !desk.stop && desk.order == done {
+                    // Pieces still queued may send others back when they are taken.
+                    let out = !self.built.is_empty() || !self.returned.is_empty();
+                    desk = wait(&self.changed, desk, out.then_some(COLLECT_INTERVAL));
+                    self.collect();
+                }
+                if desk.stop {
+                    return;
+                }
+                (desk.order, desk.sample_rate)
+            };
+            let failure = self.build(order, sample_rate, make).err();
+            self.end(order, failure);
+            done = order;
+        }
+    }
+
+    /// Builds the kit until done or until the order is no longer the latest.
+    fn build(&self, order: u32, sample_rate: f64, make: Make) -> Result<(), String> {
+        for (slot, id) in PieceId::KIT.into_iter().enumerate() {
+            let made = catch_unwind(AssertUnwindSafe(|| {
+                let piece = make(id, sample_rate)?;
+                let shapes = Arc::new(piece.field_shapes());
+                Ok::<_, SpecError>((Box::new(piece), shapes))
+            }));
+            let (piece, shapes) = match made {
+                Ok(Ok(made)) => made,
+                Ok(Err(error)) => return Err(format!("{}: {error}", id.name())),
+                Err(_) => return Err(format!("{}: building it panicked", id.name())),
+            };
+            if self.latest.load(Ordering::Acquire) != order {
+                return Ok(());
+            }
+            lock(&self.shapes)[slot] = Some(shapes);
+            self.deliver(Built { order, piece });
+        }
+        Ok(())
+    }
+
+    /// Puts a piece into the queue once there is room, unless it is no longer wanted.
+    fn deliver(&self, mut built: Built) {
+        let order = built.order;
+        while self.latest.load(Ordering::Acquire) == order {
+            self.collect();
+            match self.built.push(built) {
+                Ok(()) => return,
+                // Full of an earlier order's pieces, which the audio thread returns when it
+                // runs next. If it does not run, nobody is listening: there is no hurry.
+                Err(refused) => built = refused,
+            }
+            thread::sleep(Duration::from_millis(10));
+        }
+    }
+
+    /// Drops what has come back.
+    fn collect(&self) {
+        while self.returned.pop().is_some() {}
+    }
+
+    fn end(&self, order: u32, failure: Option<String>) {
+        let mut desk = lock(&self.desk);
+        // An order given up counts as ended by the one that replaced it.
+        if desk.order == order {
+            desk.ended = order;
+            desk.failure = failure;
+        }
+        drop(desk);
+        self.changed.notify_all();
+    }
+}
+
+/// Locks even after a panic elsewhere: every value behind these locks is valid at all times.
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn wait<'a, T>(changed: &Condvar, guard: MutexGuard<'a, T>, timeout: Option<Duration>) -> MutexGuard<'a, T> {
+    match timeout {
+        Some(timeout) => changed.wait_timeout(guard, timeout).unwrap_or_else(PoisonError::into_inner).0,
+        None => changed.wait(guard).unwrap_or_else(PoisonError::into_inner),
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,105 @@
+use super::*;
+
+const RATE: f64 = 48_000.0;
+const LONG: Duration = Duration::from_secs(30);
+
+fn quick(id: PieceId, sample_rate: f64) -> Result<Piece, SpecError> {
+    Piece::new(id, &BuildOptions::new(sample_rate))
+}
+
+fn slow(id: PieceId, sample_rate: f64) -> Result<Piece, SpecError> {
+    thread::sleep(Duration::from_millis(50));
+    quick(id, sample_rate)
+}
+
+fn taken(delivery: &Delivery) -> Vec<PieceId> {
+    let mut ids = Vec::new();
+    delivery.take(|piece| {
+        ids.push(piece.id());
+        None
+    });
+    ids
+}
+
+#[test]
+fn an_order_brings_every_piece_and_its_shapes() {
+    let mut builder = Builder::with(quick);
+    let delivery = builder.order(RATE);
+    assert_eq!(builder.wait(LONG), Outcome::Finished);
+    assert_eq!(taken(&delivery), PieceId::KIT);
+    assert!((0..PIECES).all(|slot| builder.shapes().of(slot).is_some()));
+    assert!(builder.shapes().of(PIECES).is_none());
+}
+
+#[test]
+fn a_builder_without_an_order_has_no_thread() {
+    assert!(Builder::default().thread.is_none());
+}
+
+#[test]
+fn pieces_of_an_earlier_order_are_sent_back() {
+    let mut builder = Builder::with(quick);
+    let _ = builder.order(RATE);
+    assert_eq!(builder.wait(LONG), Outcome::Finished);
+    let delivery = builder.order(2.0 * RATE);
+    // The queue is full of the first order's pieces until somebody takes them.
+    assert_eq!(taken(&delivery), []);
+    assert_eq!(builder.wait(LONG), Outcome::Finished);
+    assert_eq!(taken(&delivery), PieceId::KIT);
+}
+
+#[test]
+fn replaced_pieces_are_dropped_by_the_builder() {
+    let mut builder = Builder::with(quick);
+    let delivery = builder.order(RATE);
+    assert_eq!(builder.wait(LONG), Outcome::Finished);
+    let mut replaced = 0;
+    delivery.take(|piece| {
+        replaced += 1;
+        Some(piece)
+    });
+    assert_eq!(replaced, PIECES);
+    let deadline = Instant::now() + LONG;
+    while !builder.shared.returned.is_empty() {
+        assert!(Instant::now() < deadline, "nobody collected the returned pieces");
+        thread::sleep(Duration::from_millis(10));
+    }
+}
+
+#[test]
+fn a_wait_that_runs_out_says_so() {
+    let mut builder = Builder::with(slow);
+    let _ = builder.order(RATE);
+    assert_eq!(builder.wait(Duration::from_millis(1)), Outcome::Late);
+}
+
+#[test]
+fn a_failure_names_the_piece_and_the_reason() {
+    let mut builder = Builder::default();
+    let _ = builder.order(1_000.0);
+    let Outcome::Failed(reason) = builder.wait(LONG) else { panic!("1 kHz was accepted") };
+    assert!(reason.starts_with("kick: sample rate (Hz) is 1000"), "{reason}");
+    // The next order starts afresh.
+    let delivery = builder.order(RATE);
+    assert_eq!(builder.wait(LONG), Outcome::Finished);
+    assert_eq!(taken(&delivery), PieceId::KIT);
+}
+
+#[test]
+fn a_panic_while_building_is_a_failure() {
+    let mut builder = Builder::with(|_, _| panic!("on purpose"));
+    let _ = builder.order(RATE);
+    assert_eq!(builder.wait(LONG), Outcome::Failed("kick: building it panicked".to_owned()));
+}
+
+#[test]
+fn builders_dropped_at_any_time_stop_after_the_piece_at_hand() {
+    for delay in [0, 1, 20, 60, 120] {
+        let mut builder = Builder::with(slow);
+        let delivery = builder.order(RATE);
+        thread::sleep(Duration::from_millis(delay));
+        drop(builder);
+        // The whole kit was not waited for.
+        assert!(taken(&delivery).len() < PIECES);
+    }
+}

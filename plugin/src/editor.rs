@@ -1,0 +1,167 @@
+//! The editor: the kit's levels, one piece's motion, its parameters.
+//!
+//! It reads snapshots, mode shapes and parameters and never touches the engine. Drawing is split
+//! into the [surface], the [panels] around it, the [knob] and the [theme]; what stays here is the
+//! window: opening it at the size the project stored, and storing the size it is given.
+
+use std::error::Error;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use nice_plug::context::gui::GuiContext;
+use nice_plug::editor::dpi::{LogicalSize, NativeSize};
+use nice_plug::editor::{HostMethods, SpawnedEditor};
+use nice_plug::prelude::*;
+use nice_plug_egui::baseview::{HandlerError, WindowSize};
+use nice_plug_egui::{
+    EguiEditor, EguiEditorHandle, EguiEditorState, EguiNiceSettings, Frame, NiceEguiApp, RepaintNotifier,
+    create_egui_editor,
+};
+
+use crate::NAME;
+use crate::builder::Shapes;
+use crate::host_parameters::{HostParameters, SMALLEST_WINDOW};
+use crate::monitor::Viewer;
+
+mod knob;
+mod panels;
+mod surface;
+mod theme;
+
+use panels::Panels;
+
+/// What every window of an instance looks at.
+#[derive(Clone)]
+struct Sources {
+    parameters: Arc<HostParameters>,
+    viewer: Viewer,
+    shapes: Shapes,
+}
+
+/// The editor as the framework holds it: opens a window when the host asks.
+pub struct OverhearEditor {
+    sources: Sources,
+    repaint: RepaintNotifier,
+    /// The latest window, or the one to open next.
+    window: Mutex<Arc<EguiEditorState>>,
+}
+
+impl OverhearEditor {
+    /// An editor without a window.
+    pub fn new(
+        parameters: Arc<HostParameters>,
+        viewer: Viewer,
+        shapes: Shapes,
+        repaint: RepaintNotifier,
+    ) -> OverhearEditor {
+        let window = Mutex::new(window_of(&parameters));
+        OverhearEditor { sources: Sources { parameters, viewer, shapes }, repaint, window }
+    }
+
+    /// The open window, or one of the stored size: the framework's own state keeps the size it
+    /// was made with, and a project may have been loaded since.
+    fn window(&self) -> Arc<EguiEditorState> {
+        let mut window = self.window.lock().unwrap_or_else(PoisonError::into_inner);
+        if !window.is_open() {
+            *window = window_of(&self.sources.parameters);
+        }
+        window.clone()
+    }
+
+    fn egui_editor(&self, window: Arc<EguiEditorState>) -> Option<EguiEditor<App>> {
+        let settings = EguiNiceSettings::new().with_tile(NAME).with_resize_hint(resize_hint());
+        create_egui_editor(window, self.repaint.clone(), settings, App::new(self.sources.clone()))
+    }
+}
+
+fn window_of(parameters: &HostParameters) -> Arc<EguiEditorState> {
+    let (width, height) = parameters.window();
+    EguiEditorState::from_size(LogicalSize::new(f64::from(width), f64::from(height)), 1.0)
+}
+
+fn resize_hint() -> ResizeHint {
+    let (width, height) = SMALLEST_WINDOW;
+    ResizeHint::RESIZABLE.with_min_logical_size(LogicalSize::new(width as f32, height as f32))
+}
+
+impl Editor for OverhearEditor {
+    type Handle = EguiEditorHandle;
+
+    fn spawn(
+        &self,
+        parent: Option<ParentWindowHandle>,
+        wait_for_parent: bool,
+        fallback_scale_factor: Option<f64>,
+        gui_context: GuiContext,
+        host: Option<HostMethods>,
+    ) -> Result<SpawnedEditor<EguiEditorHandle>, Box<dyn Error>> {
+        let editor = self.egui_editor(self.window()).ok_or("no editor")?;
+        editor
+            .spawn(parent, wait_for_parent, fallback_scale_factor, gui_context, host)
+            .inspect_err(|error| nice_error!("The window cannot open, the kit plays on: {error}"))
+    }
+
+    fn size(&self) -> NativeSize<u32> {
+        let window = self.window();
+        NativeSize::from_size(window.physical_size().into(), 1.0)
+    }
+
+    fn resize_hint(&self) -> ResizeHint {
+        resize_hint()
+    }
+}
+
+/// One window's content.
+struct App {
+    sources: Sources,
+    gui: Option<GuiContext>,
+    panels: Panels,
+}
+
+impl App {
+    fn new(sources: Sources) -> App {
+        App { sources, gui: None, panels: Panels::default() }
+    }
+}
+
+impl NiceEguiApp for App {
+    fn build(
+        &mut self,
+        context: egui::Context,
+        gui: GuiContext,
+        frame: &mut Frame,
+    ) -> Result<(), HandlerError> {
+        theme::apply(&context);
+        frame.set_clear_color(theme::BACKGROUND.into());
+        self.gui = Some(gui);
+        // Peaks collected while no window was open are old news.
+        self.sources.viewer.latest();
+        Ok(())
+    }
+
+    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut Frame) {
+        let Some(gui) = &self.gui else { return };
+        let snapshot = self.sources.viewer.latest();
+        let shapes = |slot| self.sources.shapes.of(slot);
+        let mut set = |index: usize, gesture| {
+            let Some(parameter) = self.sources.parameters.values().get(index) else { return };
+            gesture_to_host(&gui.param_setter(), parameter, gesture);
+        };
+        self.panels.show(ui, &snapshot, &shapes, self.sources.parameters.values(), &mut set);
+    }
+
+    fn resized(&mut self, size: WindowSize) {
+        let size = size.logical;
+        self.sources.parameters.set_window((size.width.round() as u32, size.height.round() as u32));
+    }
+}
+
+fn gesture_to_host(setter: &ParamSetter, parameter: &FloatParam, gesture: knob::Gesture) {
+    match gesture {
+        knob::Gesture::Begin => setter.begin_set_parameter(parameter),
+        knob::Gesture::Set(value) => setter.set_parameter(parameter, value),
+        knob::Gesture::End => setter.end_set_parameter(parameter),
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,147 @@
+//! The table of parameters as the framework wants it, and what else a project stores.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use crossbeam::atomic::AtomicCell;
+use nice_plug::params::persist::{deserialize_field, serialize_field};
+use nice_plug::prelude::*;
+
+use crate::parameters::{PARAMETERS, Parameter};
+use crate::state;
+
+/// Logical size of the editor's window, pixels: width, height.
+pub type WindowSize = (u32, u32);
+
+/// Window of a fresh instance.
+pub const DEFAULT_WINDOW: WindowSize = (980, 640);
+
+/// Smallest window in which everything is legible.
+pub const SMALLEST_WINDOW: WindowSize = (760, 500);
+
+/// Largest window a state is believed: a broken one must not open a window nobody can close.
+const LARGEST_WINDOW: WindowSize = (7680, 4320);
+
+/// Every parameter of the table, and the window's size.
+pub struct HostParameters {
+    /// `[parameter]`, in the order of [`PARAMETERS`]. Boxed, as the framework keeps pointers.
+    values: Box<[FloatParam]>,
+    window: AtomicCell<WindowSize>,
+}
+
+impl Default for HostParameters {
+    fn default() -> Self {
+        HostParameters {
+            values: PARAMETERS.iter().map(host_parameter).collect(),
+            window: AtomicCell::new(DEFAULT_WINDOW),
+        }
+    }
+}
+
+impl HostParameters {
+    /// The parameters, in the order of [`PARAMETERS`].
+    pub fn values(&self) -> &[FloatParam] {
+        &self.values
+    }
+
+    /// Logical size of the editor's window.
+    pub fn window(&self) -> WindowSize {
+        self.window.load()
+    }
+
+    /// Stores the logical size of the editor's window, within what is legible and sane.
+    pub fn set_window(&self, (width, height): WindowSize) {
+        self.window.store((
+            width.clamp(SMALLEST_WINDOW.0, LARGEST_WINDOW.0),
+            height.clamp(SMALLEST_WINDOW.1, LARGEST_WINDOW.1),
+        ));
+    }
+}
+
+fn host_parameter(parameter: &'static Parameter) -> FloatParam {
+    let Parameter { group, label, min, max, .. } = *parameter;
+    let range = FloatRange::Skewed { min, max, factor: parameter.skew() };
+    // Hosts list names without their groups.
+    FloatParam::new(format!("{group} {label}"), parameter.default, range)
+        .with_unit(parameter.unit)
+        .with_step_size(parameter.step)
+        .with_value_to_string(Arc::new(|value| parameter.text(value)))
+        .with_string_to_value(Arc::new(|text| parameter.from_text(text)))
+}
+
+// SAFETY: the pointers lead into a boxed slice that lives as long as `self` and never moves.
+#[allow(unsafe_code)]
+unsafe impl Params for HostParameters {
+    fn param_map(&self) -> Vec<(String, ParamPtr, String)> {
+        std::iter::zip(&PARAMETERS, &self.values)
+            .map(|(parameter, value)| (parameter.id.to_owned(), value.as_ptr(), parameter.group.to_owned()))
+            .collect()
+    }
+
+    fn serialize_fields(&self) -> BTreeMap<String, String> {
+        let mut fields = BTreeMap::new();
+        fields.insert(state::SCHEMA_FIELD.to_owned(), state::SCHEMA.to_string());
+        if let Ok(window) = serialize_field(&self.window()) {
+            fields.insert(state::WINDOW_FIELD.to_owned(), window);
+        }
+        fields
+    }
+
+    fn deserialize_fields(&self, fields: &BTreeMap<String, String>) {
+        let Some(window) = fields.get(state::WINDOW_FIELD) else { return };
+        match deserialize_field(window) {
+            Ok(window) => self.set_window(window),
+            Err(error) => nice_warn!("The window's size in the state is unreadable: {error}"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_host_sees_the_table_in_its_order() {
+        let parameters = HostParameters::default();
+        let map = parameters.param_map();
+        assert_eq!(map.len(), PARAMETERS.len());
+        for ((id, _, group), parameter) in map.iter().zip(&PARAMETERS) {
+            assert_eq!((id.as_str(), group.as_str()), (parameter.id, parameter.group));
+        }
+    }
+
+    #[test]
+    fn what_a_host_sends_is_what_the_table_says() {
+        let parameters = HostParameters::default();
+        for (parameter, value) in PARAMETERS.iter().zip(parameters.values()) {
+            assert_eq!(value.default_plain_value(), parameter.default);
+            for plain in [parameter.min, parameter.default, parameter.centre, parameter.max] {
+                let normalized = value.preview_normalized(plain);
+                assert_eq!(normalized, parameter.normalized(plain), "{}", parameter.name);
+                assert_eq!(value.preview_plain(normalized), plain, "{}", parameter.name);
+                let text = value.normalized_value_to_string(normalized, true);
+                assert_eq!(value.string_to_normalized_value(&text), Some(normalized), "{text}");
+            }
+            let middle = value.preview_plain(0.5);
+            assert!((middle - parameter.centre).abs() <= parameter.step, "{}", parameter.name);
+        }
+    }
+
+    #[test]
+    fn the_window_is_stored_and_restored_within_reason() {
+        let parameters = HostParameters::default();
+        parameters.set_window((1200, 800));
+        let fields = parameters.serialize_fields();
+        let restored = HostParameters::default();
+        restored.deserialize_fields(&fields);
+        assert_eq!(restored.window(), (1200, 800));
+
+        for (broken, kept) in
+            [("[1,1]", SMALLEST_WINDOW), ("\"large\"", SMALLEST_WINDOW), ("[9e9,1]", SMALLEST_WINDOW)]
+        {
+            let fields = [(state::WINDOW_FIELD.to_owned(), broken.to_owned())].into();
+            restored.deserialize_fields(&fields);
+            assert_eq!(restored.window(), kept, "{broken}");
+        }
+    }
+}

@@ -1,0 +1,120 @@
+//! What the editor may know: snapshots of the kit through a triple buffer.
+//!
+//! The audio thread copies a snapshot about 85 times a second and never waits; the editor takes
+//! the latest and never holds it up.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use nice_plug_egui::RepaintNotifier;
+use overhear_engine::snapshot::KitSnapshot;
+use triple_buffer::{Input, Output, TripleBuffer};
+
+use crate::performer::Performer;
+
+/// Snapshots a second: a little above what screens show, so that no frame lacks a new one.
+const SNAPSHOT_RATE: f64 = 85.0;
+
+/// The audio thread's end.
+pub struct Publisher {
+    snapshots: Input<KitSnapshot>,
+    latest: KitSnapshot,
+    repaint: RepaintNotifier,
+    /// Samples from one snapshot to the next.
+    interval: usize,
+    /// Samples since the latest.
+    elapsed: usize,
+}
+
+/// The editor's end; windows that come and go share it.
+#[derive(Clone)]
+pub struct Viewer {
+    snapshots: Arc<Mutex<Output<KitSnapshot>>>,
+}
+
+/// Both ends. Every published snapshot asks for a repaint through `repaint`.
+pub fn monitor(repaint: RepaintNotifier) -> (Publisher, Viewer) {
+    let (input, output) = TripleBuffer::default().split();
+    let latest = KitSnapshot::default();
+    let publisher = Publisher { snapshots: input, latest, repaint, interval: 1, elapsed: 0 };
+    (publisher, Viewer { snapshots: Arc::new(Mutex::new(output)) })
+}
+
+impl Publisher {
+    /// Adopts a sample rate (Hz).
+    pub fn set_sample_rate(&mut self, sample_rate: f64) {
+        self.interval = ((sample_rate / SNAPSHOT_RATE) as usize).max(1);
+    }
+
+    /// Notes that samples were rendered, and publishes a snapshot when one is due.
+    ///
+    /// Peaks of a snapshot that nobody looked at carry over into the next, so that a slow screen
+    /// misses no hit.
+    ///
+    /// # Real-time
+    /// A copy; no allocation, no lock.
+    pub fn rendered(&mut self, samples: usize, performer: &mut Performer) {
+        self.elapsed = self.elapsed.saturating_add(samples);
+        if self.elapsed < self.interval {
+            return;
+        }
+        self.elapsed = 0;
+        let former = self.latest;
+        self.latest = KitSnapshot::default();
+        performer.snapshot(&mut self.latest);
+        if !self.snapshots.consumed() {
+            carry_peaks(&former, &mut self.latest);
+        }
+        self.snapshots.write(self.latest);
+        self.repaint.request_repaint();
+    }
+}
+
+impl Viewer {
+    /// The latest snapshot.
+    pub fn latest(&self) -> KitSnapshot {
+        *self.snapshots.lock().unwrap_or_else(PoisonError::into_inner).read()
+    }
+}
+
+/// Raises the peaks of a snapshot to those of the one before.
+fn carry_peaks(from: &KitSnapshot, into: &mut KitSnapshot) {
+    for (peak, former) in into.peak.iter_mut().zip(from.peak) {
+        *peak = peak.max(former);
+    }
+    for (piece, former) in into.pieces.iter_mut().zip(&from.pieces) {
+        piece.peak = piece.peak.max(former.peak);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn snapshots_appear_at_their_rate_whatever_the_buffers() {
+        let mut performer = Performer::new(48_000.0);
+        let (mut publisher, viewer) = monitor(RepaintNotifier::new());
+        publisher.set_sample_rate(48_000.0);
+        let mut sound = [[0.0; 64]; 2];
+        let mut seen = 0;
+        let mut clock = 0;
+        for _ in 0..750 {
+            let [left, right] = &mut sound;
+            performer.render(left, right);
+            publisher.rendered(64, &mut performer);
+            let now = viewer.latest().clock;
+            seen += usize::from(now != clock);
+            clock = now;
+        }
+        assert!((80..=90).contains(&seen), "{seen} in a second");
+    }
+
+    #[test]
+    fn peaks_nobody_saw_carry_over() {
+        let mut former = KitSnapshot { peak: [0.5, 0.1], ..KitSnapshot::default() };
+        former.pieces[2].peak = 0.7;
+        let mut next = KitSnapshot { peak: [0.2, 0.3], ..KitSnapshot::default() };
+        carry_peaks(&former, &mut next);
+        assert_eq!((next.peak, next.pieces[2].peak), ([0.5, 0.3], 0.7));
+    }
+}

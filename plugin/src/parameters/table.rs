@@ -1,0 +1,136 @@
+//! The table of parameters.
+
+use overhear_engine::kit::{Control, SILENT_DB};
+use overhear_engine::piece::PieceId;
+
+use super::{Drives, Parameter};
+
+/// Every parameter, in the order hosts see. Frozen: append only.
+pub static PARAMETERS: [Parameter; 23] = {
+    use PieceId::*;
+    [
+        drum_tune(Kick, "Kick", "kktune", "kick_tune", [35.0, 55.0, 90.0]),
+        muffle(Kick, "Kick", "kkmuff", "kick_muffle"),
+        level(Kick, "Kick", "kklevl", "kick_level"),
+        drum_tune(Snare, "Snare", "sntune", "snare_tune", [140.0, 220.0, 360.0]),
+        muffle(Snare, "Snare", "snmuff", "snare_muffle"),
+        level(Snare, "Snare", "snlevl", "snare_level"),
+        drum_tune(RackTom, "Rack tom", "rttune", "rack_tom_tune", [90.0, 140.0, 260.0]),
+        muffle(RackTom, "Rack tom", "rtmuff", "rack_tom_muffle"),
+        level(RackTom, "Rack tom", "rtlevl", "rack_tom_level"),
+        drum_tune(FloorTom, "Floor tom", "fttune", "floor_tom_tune", [55.0, 82.0, 160.0]),
+        muffle(FloorTom, "Floor tom", "ftmuff", "floor_tom_muffle"),
+        level(FloorTom, "Floor tom", "ftlevl", "floor_tom_level"),
+        cymbal_tune(Crash, "Crash", "crtune", "crash_tune"),
+        muffle(Crash, "Crash", "crmuff", "crash_muffle"),
+        level(Crash, "Crash", "crlevl", "crash_level"),
+        cymbal_tune(Ride, "Ride", "rdtune", "ride_tune"),
+        muffle(Ride, "Ride", "rdmuff", "ride_muffle"),
+        level(Ride, "Ride", "rdlevl", "ride_level"),
+        cymbal_tune(Splash, "Splash", "sptune", "splash_tune"),
+        muffle(Splash, "Splash", "spmuff", "splash_muffle"),
+        level(Splash, "Splash", "splevl", "splash_level"),
+        Parameter {
+            id: "master",
+            name: "master_level",
+            label: "Level",
+            group: "Kit",
+            ..decibels(Control::Master)
+        },
+        Parameter {
+            id: "dynam",
+            name: "dynamics",
+            label: "Dynamics",
+            group: "Kit",
+            unit: " m/s",
+            min: 1.0,
+            max: 10.0,
+            default: 6.0,
+            centre: 5.5,
+            step: 0.01,
+            decimals: 2,
+            drives: Drives::Dynamics,
+        },
+    ]
+};
+
+const fn drum_tune(
+    piece: PieceId,
+    group: &'static str,
+    id: &'static str,
+    name: &'static str,
+    [min, default, max]: [f32; 3],
+) -> Parameter {
+    Parameter {
+        id,
+        name,
+        label: "Tune",
+        group,
+        unit: " Hz",
+        min,
+        max,
+        default,
+        // The drum's own pitch in the middle leaves about as much knob below it as above.
+        centre: default,
+        // Half a cent at the lowest kick.
+        step: 0.01,
+        decimals: 2,
+        drives: Drives::Control(Control::Tuning(piece)),
+    }
+}
+
+const fn cymbal_tune(piece: PieceId, group: &'static str, id: &'static str, name: &'static str) -> Parameter {
+    Parameter {
+        id,
+        name,
+        label: "Tune",
+        group,
+        unit: " st",
+        min: -12.0,
+        max: 12.0,
+        default: 0.0,
+        centre: 0.0,
+        step: 0.01,
+        decimals: 2,
+        drives: Drives::Semitones(piece),
+    }
+}
+
+const fn muffle(piece: PieceId, group: &'static str, id: &'static str, name: &'static str) -> Parameter {
+    Parameter {
+        id,
+        name,
+        label: "Muffle",
+        group,
+        unit: "",
+        min: 0.0,
+        max: 1.0,
+        default: 0.0,
+        centre: 0.5,
+        step: 0.001,
+        decimals: 3,
+        drives: Drives::Control(Control::Muffling(piece)),
+    }
+}
+
+const fn level(piece: PieceId, group: &'static str, id: &'static str, name: &'static str) -> Parameter {
+    Parameter { id, name, label: "Level", group, ..decibels(Control::Level(piece)) }
+}
+
+const fn decibels(control: Control) -> Parameter {
+    Parameter {
+        id: "",
+        name: "",
+        label: "",
+        group: "",
+        unit: " dB",
+        min: SILENT_DB as f32,
+        max: 12.0,
+        default: 0.0,
+        // As on a mixing desk's fader: half its travel for the last 12 dB and the reserve.
+        centre: -12.0,
+        step: 0.01,
+        decimals: 2,
+        drives: Drives::Control(control),
+    }
+}

@@ -1,0 +1,110 @@
+use overhear_engine::snapshot::KitSnapshot;
+
+use super::*;
+
+const RATE: f64 = 48_000.0;
+
+fn note(timing: u32) -> NoteEvent<()> {
+    NoteEvent::NoteOn {
+        timing,
+        voice_id: nice_plug::midi::VoiceID::Wildcard,
+        channel: nice_plug::midi::Channel::Number(9),
+        key: nice_plug::midi::Key::Number(38),
+        velocity: 0.8,
+    }
+}
+
+fn other(timing: u32) -> NoteEvent<()> {
+    NoteEvent::NoteOff {
+        timing,
+        voice_id: nice_plug::midi::VoiceID::Wildcard,
+        channel: nice_plug::midi::Channel::Wildcard,
+        key: nice_plug::midi::Key::Wildcard,
+        velocity: 0.0,
+    }
+}
+
+/// Plays events through an instance's own glue: a stretch for each slice length.
+fn played(slices: &[(usize, Vec<NoteEvent<()>>)]) -> Vec<f32> {
+    let mut performer = Performer::new(RATE);
+    performer.install_kit(RATE).unwrap();
+    let mut sound = Vec::new();
+    for (samples, events) in slices {
+        let (mut left, mut right) = (vec![f32::NAN; *samples], vec![f32::NAN; *samples]);
+        let mut events = events.iter().copied();
+        play(&mut performer, &mut left, &mut right, || events.next());
+        sound.extend(left);
+    }
+    sound
+}
+
+#[test]
+fn a_note_right_behind_a_slice_is_the_first_of_the_next() {
+    let behind = played(&[(100, vec![note(100)]), (1_000, vec![])]);
+    let next = played(&[(100, vec![]), (1_000, vec![note(0)])]);
+    assert!(behind == next);
+}
+
+#[test]
+fn notes_are_met_at_their_sample_among_other_events() {
+    let whole = played(&[(1_000, vec![other(10), note(333), other(500), note(700)])]);
+    let cut = played(&[(333, vec![]), (367, vec![note(0)]), (300, vec![note(0)])]);
+    assert!(whole == cut);
+    assert!(whole.iter().all(|sample| sample.is_finite()));
+}
+
+#[test]
+fn notes_out_of_order_and_beyond_the_slice_are_not_lost() {
+    let mut performer = Performer::new(RATE);
+    let (mut left, mut right) = ([0.0; 64], [0.0; 64]);
+    let mut events = [note(60), note(10), note(u32::MAX)].into_iter();
+    play(&mut performer, &mut left, &mut right, || events.next());
+    let mut snapshot = KitSnapshot::default();
+    performer.snapshot(&mut snapshot);
+    assert_eq!((snapshot.dropped_strikes, snapshot.clock), (3, 64));
+}
+
+#[test]
+fn an_instance_is_made_without_a_kit_and_prepared_with_one() {
+    let mut instance = Overhear::default();
+    assert!(instance.stage.is_none());
+    instance.prepare(48_000.0);
+    assert!(instance.stage.as_ref().is_some_and(|stage| stage.performer.is_complete()));
+}
+
+#[test]
+fn the_same_rate_keeps_the_kit_and_another_rebuilds_it() {
+    let clock = |instance: &mut Overhear| {
+        let mut snapshot = KitSnapshot::default();
+        instance.stage.as_mut().unwrap().performer.snapshot(&mut snapshot);
+        snapshot.clock
+    };
+    let mut instance = Overhear::default();
+    instance.prepare(44_100.0);
+    instance.stage.as_mut().unwrap().performer.render(&mut [0.0; 50], &mut [0.0; 50]);
+    instance.prepare(44_100.0);
+    assert_eq!(clock(&mut instance), 50);
+    instance.prepare(96_000.0);
+    assert_eq!(clock(&mut instance), 0);
+    assert!(instance.stage.as_ref().is_some_and(|stage| stage.performer.is_complete()));
+}
+
+#[test]
+fn a_rate_the_engine_refuses_is_silent_and_the_next_good_one_plays() {
+    let mut instance = Overhear::default();
+    instance.prepare(1_000.0);
+    assert!(instance.stage.is_none());
+    instance.prepare(48_000.0);
+    assert!(instance.stage.is_some());
+}
+
+#[test]
+fn a_panic_in_the_engine_silences_the_stage_until_it_is_prepared_again() {
+    let mut instance = Overhear::default();
+    instance.prepare(48_000.0);
+    let stage = instance.stage.as_mut().unwrap();
+    assert!(!stage.guarded(|_| panic!("on purpose")));
+    assert!(!stage.guarded(|_| {}), "it stays silent");
+    instance.prepare(48_000.0);
+    assert!(instance.stage.as_mut().unwrap().guarded(|_| {}));
+}

@@ -1,0 +1,109 @@
+//! What a project stores, and how states of other versions and broken ones are read.
+//!
+//! The framework writes `{version, params, fields}` as JSON. What it cannot parse it refuses and
+//! the instance plays on as it was. What parses is put in order here before it is loaded: every
+//! parameter gets a value, so that a state always sounds the same, whatever was set before.
+
+use nice_plug::plugin::{ParamValue, PluginState};
+use nice_plug::prelude::*;
+
+use crate::parameters::{PARAMETERS, Parameter};
+
+/// Version of the meaning of what is stored; counts up when a migration is needed.
+pub const SCHEMA: u32 = 1;
+
+/// Field that holds [`SCHEMA`].
+pub const SCHEMA_FIELD: &str = "schema";
+
+/// Field that holds the window's logical size.
+pub const WINDOW_FIELD: &str = "window";
+
+/// Completes and corrects a state before it is loaded.
+///
+/// Parameters that are missing, as in a state older than them, or that are not numbers get their
+/// default; others are brought into range; unknown ones are dropped. A state newer than this
+/// build is read as far as it is understood. Everything but plain absence is logged.
+pub fn put_in_order(state: &mut PluginState) {
+    match state.fields.get(SCHEMA_FIELD).map(|text| text.parse::<u32>()) {
+        Some(Ok(schema)) if schema <= SCHEMA => {}
+        Some(Ok(schema)) => nice_warn!(
+            "The state has schema {schema}, this build knows up to {SCHEMA}: \
+             what is new in it is ignored"
+        ),
+        Some(Err(_)) | None => nice_warn!("The state has no schema: read as {SCHEMA}"),
+    }
+    let stored = std::mem::take(&mut state.params);
+    for id in stored.keys() {
+        if !PARAMETERS.iter().any(|parameter| parameter.id == id) {
+            nice_warn!("The state has a parameter {id:?}, which is not known: ignored");
+        }
+    }
+    state.params = PARAMETERS
+        .iter()
+        .map(|parameter| {
+            let value = value_of(parameter, stored.get(parameter.id));
+            (parameter.id.to_owned(), ParamValue::F32(value))
+        })
+        .collect();
+}
+
+fn value_of(parameter: &Parameter, stored: Option<&ParamValue>) -> f32 {
+    let Parameter { name, min, max, default, unit, .. } = *parameter;
+    match stored {
+        None => default,
+        Some(ParamValue::F32(value)) if (min..=max).contains(value) => parameter.snap(*value),
+        Some(ParamValue::F32(value)) => {
+            nice_warn!("The state has {name} at {value}, accepted: {min} to {max}{unit}");
+            parameter.snap(*value)
+        }
+        Some(other) => {
+            nice_warn!("The state has {name} as {other:?}, not a number: set to {default}{unit}");
+            default
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeMap;
+
+    fn ordered(json_params: &[(&str, ParamValue)]) -> BTreeMap<String, f32> {
+        let params = json_params.iter().map(|(id, value)| (id.to_string(), value.clone()));
+        let mut state =
+            PluginState { version: String::new(), params: params.collect(), fields: BTreeMap::new() };
+        put_in_order(&mut state);
+        let plain = |(id, value)| match value {
+            ParamValue::F32(value) => (id, value),
+            other => panic!("{id} is {other:?}"),
+        };
+        state.params.into_iter().map(plain).collect()
+    }
+
+    #[test]
+    fn a_state_without_parameters_is_all_defaults() {
+        let values = ordered(&[]);
+        assert_eq!(values.len(), PARAMETERS.len());
+        assert!(PARAMETERS.iter().all(|parameter| values[parameter.id] == parameter.default));
+    }
+
+    #[test]
+    fn stored_values_are_kept_and_missing_ones_reset() {
+        let values = ordered(&[("kktune", ParamValue::F32(61.5))]);
+        assert_eq!((values["kktune"], values["kkmuff"]), (61.5, 0.0));
+    }
+
+    #[test]
+    fn broken_values_are_put_right_and_unknown_ones_dropped() {
+        let values = ordered(&[
+            ("kktune", ParamValue::F32(1e9)),
+            ("kkmuff", ParamValue::F32(f32::NAN)),
+            ("kklevl", ParamValue::String("loud".into())),
+            ("sntune", ParamValue::F32(f32::NEG_INFINITY)),
+            ("nobody", ParamValue::F32(1.0)),
+        ]);
+        assert_eq!((values["kktune"], values["kkmuff"]), (90.0, 0.0));
+        assert_eq!((values["kklevl"], values["sntune"]), (0.0, 140.0));
+        assert!(!values.contains_key("nobody"));
+    }
+}

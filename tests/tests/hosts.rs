@@ -1,0 +1,54 @@
+//! The built bundles in real hosts: CLAP in the commands' own host, VST3 in DawDreamer.
+//!
+//! `cargo xtask test` builds the release bundles first and sets the VST3 host up. Run by hand,
+//! the tests take what `cargo xtask bundle` left in the target folder, and fail without it.
+
+#[path = "hosts/description.rs"]
+mod description;
+#[path = "hosts/identity.rs"]
+mod identity;
+#[path = "hosts/lifecycle.rs"]
+mod lifecycle;
+#[path = "hosts/score.rs"]
+mod score;
+#[path = "hosts/state.rs"]
+mod state;
+#[path = "hosts/vst3.rs"]
+mod vst3;
+#[cfg(target_os = "linux")]
+#[path = "hosts/window.rs"]
+mod window;
+
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use xtask::host::{Bundle, Instance};
+use xtask::workspace::{Format, bundle_in};
+
+/// The release bundle of a format.
+fn bundle_path(format: Format) -> PathBuf {
+    let test = std::env::current_exe().expect("the test's own path");
+    // target/debug/deps/hosts-0123
+    let target = test.ancestors().nth(3).expect("a target folder");
+    let path = bundle_in(target, format);
+    assert!(path.exists(), "no bundle at {}: run `cargo xtask bundle` first", path.display());
+    path
+}
+
+/// An instance of the built CLAP plugin, whose main thread is this one.
+fn instance() -> Instance {
+    let bundle = Bundle::load(&bundle_path(Format::Clap)).expect("a CLAP bundle");
+    bundle.instantiate().expect("an instance")
+}
+
+/// One test at a time: each builds kits, and a plugin that waits too long for its kit starts
+/// without it, as it should on a machine that cannot keep up.
+fn alone() -> MutexGuard<'static, ()> {
+    static TURN: Mutex<()> = Mutex::new(());
+    TURN.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// A file of this package.
+fn here(path: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
+}

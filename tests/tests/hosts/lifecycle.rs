@@ -1,0 +1,149 @@
+//! What hosts do around playing: activating, resetting, making and removing instances.
+
+use std::thread;
+
+use xtask::host::{Event, What};
+use xtask::player::Blocks;
+
+use crate::score::{assert_same, notes, peak, through_engine, through_plugin};
+use crate::{alone, instance};
+
+const RATE: f64 = 48_000.0;
+
+#[test]
+fn activated_anew_it_plays_as_if_it_were_new() {
+    let _turn = alone();
+    let mut instance = instance();
+    for rate in [44_100.0, 96_000.0, 44_100.0, 22_050.0, 192_000.0, 48_000.0] {
+        let score = notes(rate);
+        let found = through_plugin(&mut instance, &score, rate, Blocks::Fixed(512));
+        assert_same(&found, &through_engine(&score, rate), &format!("{rate} Hz"));
+    }
+    assert_eq!(instance.restarts(), 0);
+}
+
+#[test]
+fn a_rate_beyond_the_engine_is_survived_in_silence() {
+    let _turn = alone();
+    let mut instance = instance();
+    let sound = through_plugin(&mut instance, &notes(8000.0), 8000.0, Blocks::Fixed(64));
+    assert_eq!(peak(&sound), 0.0);
+    let sound = through_plugin(&mut instance, &notes(RATE), RATE, Blocks::Fixed(64));
+    assert!(peak(&sound) > 0.01);
+}
+
+#[test]
+fn instances_do_not_hear_each_other() {
+    let _turn = alone();
+    let score = notes(RATE);
+    let expected = through_engine(&score, RATE);
+    let threads: Vec<_> = [Blocks::Fixed(64), Blocks::Random, Blocks::Fixed(333)]
+        .into_iter()
+        .map(|blocks| {
+            let score = score.clone();
+            thread::spawn(move || through_plugin(&mut instance(), &score, RATE, blocks))
+        })
+        .collect();
+    for thread in threads {
+        assert_same(&thread.join().unwrap(), &expected, "one of three");
+    }
+    let (mut one, mut other) = (instance(), instance());
+    let silence = through_plugin(&mut other, &Vec::new(), RATE, Blocks::Fixed(64));
+    assert_eq!(peak(&silence), 0.0);
+    assert_same(&through_plugin(&mut one, &score, RATE, Blocks::Fixed(64)), &expected, "one of two");
+    drop(one);
+    assert_same(&through_plugin(&mut other, &score, RATE, Blocks::Fixed(64)), &expected, "the other");
+}
+
+#[test]
+fn instances_go_at_any_time() {
+    let _turn = alone();
+    for _ in 0..20 {
+        drop(instance());
+    }
+    // Activated and gone at once, several at a time, while others still build.
+    let threads: Vec<_> = (0..3)
+        .map(|number| {
+            thread::spawn(move || {
+                for round in 0..2 {
+                    let mut instance = instance();
+                    let rate = [44_100.0, 48_000.0, 88_200.0, 96_000.0][(number + round) % 4];
+                    instance.run(rate, 1..=64, |_| Ok(())).unwrap();
+                    if round == 1 {
+                        instance.run(rate / 2.0, 1..=64, |_| Ok(())).unwrap();
+                    }
+                }
+            })
+        })
+        .collect();
+    for thread in threads {
+        thread.join().unwrap();
+    }
+}
+
+#[test]
+fn a_reset_silences_what_rings() {
+    let _turn = alone();
+    let struck =
+        [49, 36].map(|key| Event { offset: 0, what: What::NoteOn { channel: 9, key, velocity: 1.0 } });
+    let (rang, silent) = instance()
+        .run(RATE, 1..=4096, |processor| {
+            let (mut left, mut right) = (vec![0.0; 4096], vec![0.0; 4096]);
+            processor.process(&struck, &mut left, &mut right)?;
+            let rang = left.iter().any(|sample| *sample != 0.0);
+            processor.reset();
+            processor.process(&[], &mut left, &mut right)?;
+            Ok((rang, left.iter().chain(&right).all(|sample| *sample == 0.0)))
+        })
+        .unwrap();
+    assert!(rang && silent, "rang: {rang}, silent after the reset: {silent}");
+}
+
+#[test]
+fn midi_bytes_play_as_notes_do() {
+    let _turn = alone();
+    let mut instance = instance();
+    let mut play = |what: What| {
+        instance
+            .run(RATE, 1..=4096, |processor| {
+                let (mut left, mut right) = (vec![0.0; 4096], vec![0.0; 4096]);
+                processor.process(&[Event { offset: 7, what }], &mut left, &mut right)?;
+                Ok([left, right])
+            })
+            .unwrap()
+    };
+    let note = play(What::NoteOn { channel: 9, key: 38, velocity: 100.0 / 127.0 });
+    assert!(peak(&note) > 0.0);
+    assert_same(&play(What::Midi([0x99, 38, 100])), &note, "as bytes");
+    for silent in [
+        What::Midi([0x99, 38, 0]),
+        What::Midi([0x89, 38, 100]),
+        What::Midi([0xB9, 38, 100]),
+        What::NoteOff { channel: 9, key: 38 },
+        What::Choke { channel: 9, key: 38 },
+        What::NoteOn { channel: 9, key: 38, velocity: 0.0 },
+        What::NoteOn { channel: 9, key: 42, velocity: 1.0 },
+        What::NoteOn { channel: 9, key: 127, velocity: 1.0 },
+    ] {
+        assert_eq!(peak(&play(silent)), 0.0, "{silent:?}");
+    }
+}
+
+#[test]
+fn more_events_than_any_song_has_are_survived() {
+    let _turn = alone();
+    let events: Vec<_> = (0..6000)
+        .map(|number| Event {
+            offset: number / 4,
+            what: What::NoteOn { channel: 9, key: 35 + (number % 47) as u8, velocity: 0.7 },
+        })
+        .collect();
+    let finite = instance()
+        .run(RATE, 1..=2048, |processor| {
+            let (mut left, mut right) = (vec![0.0; 2048], vec![0.0; 2048]);
+            processor.process(&events, &mut left, &mut right)?;
+            Ok(left.iter().chain(&right).all(|sample| sample.is_finite()))
+        })
+        .unwrap();
+    assert!(finite);
+}

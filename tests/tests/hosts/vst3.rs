@@ -1,0 +1,106 @@
+//! The VST3 bundle in DawDreamer, a host built on JUCE.
+
+use std::fs;
+use std::path::PathBuf;
+use std::process::Command;
+
+use overhear::parameters::{PARAMETERS, find};
+use serde_json::json;
+use xtask::host::parameter_id;
+use xtask::player::Blocks;
+use xtask::workspace::Format;
+
+use crate::score::{Happening, Score, Sound, assert_same, frames, notes, through_plugin};
+use crate::{alone, bundle_path, here, instance};
+
+/// The Python that has DawDreamer.
+fn python() -> PathBuf {
+    let given = std::env::var_os(xtask::suite::PYTHON_VARIABLE).map(PathBuf::from);
+    let test = std::env::current_exe().expect("the test's own path");
+    let prepared = test.ancestors().nth(3).expect("a target folder").join("python-hosts/bin/python");
+    let python = given.unwrap_or(prepared);
+    assert!(python.exists(), "no {}: run `cargo xtask test` once", python.display());
+    python
+}
+
+/// A file for one job, gone when dropped.
+struct Scratch(PathBuf);
+
+impl Scratch {
+    fn new(name: &str) -> Scratch {
+        Scratch(std::env::temp_dir().join(format!("overhear-{}-{name}", std::process::id())))
+    }
+}
+
+impl Drop for Scratch {
+    fn drop(&mut self) {
+        let _ = fs::remove_file(&self.0);
+    }
+}
+
+/// Plays a score through the VST3 bundle, parameters `(index, plain value)` set before.
+fn through_vst3(name: &str, score: &Score, parameters: &[(usize, f32)], rate: f64, block: u32) -> Sound {
+    let (job, out) = (Scratch::new(&format!("{name}.json")), Scratch::new(&format!("{name}.f32")));
+    let notes: Vec<_> = score
+        .iter()
+        .map(|(sample, what)| match what {
+            Happening::Note(key, velocity) => json!([sample, key, velocity]),
+            Happening::Parameter(..) => unreachable!("scores for DawDreamer hold notes only"),
+        })
+        .collect();
+    let parameters: Vec<_> = parameters
+        .iter()
+        .map(|&(index, value)| json!([index, PARAMETERS[index].normalized(value)]))
+        .collect();
+    let description = json!({
+        "plugin": bundle_path(Format::Vst3),
+        "rate": rate,
+        "block": block,
+        "frames": frames(rate),
+        "notes": notes,
+        "parameters": parameters,
+        "out": out.0,
+    });
+    fs::write(&job.0, description.to_string()).unwrap();
+    let output = Command::new(python()).arg(here("hosts/vst3.py")).arg(&job.0).output().expect("Python");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "DawDreamer failed ({}): {said}", output.status);
+    let bytes = fs::read(&out.0).expect("what DawDreamer wrote");
+    let samples: Vec<f32> =
+        bytes.chunks_exact(4).map(|four| f32::from_le_bytes(four.try_into().unwrap())).collect();
+    let (left, right) = samples.split_at(samples.len() / 2);
+    [left.to_vec(), right.to_vec()]
+}
+
+#[test]
+fn vst3_gives_the_samples_of_clap() {
+    let _turn = alone();
+    for (rate, block) in [(44_100.0, 512), (48_000.0, 64), (96_000.0, 1000)] {
+        let score = notes(rate);
+        let clap = through_plugin(&mut instance(), &score, rate, Blocks::Fixed(block));
+        let vst3 = through_vst3(&format!("notes-{rate}"), &score, &[], rate, block);
+        assert_same(&vst3, &clap, &format!("{rate} Hz, {block} samples"));
+    }
+}
+
+#[test]
+fn vst3_parameters_are_those_of_clap() {
+    let _turn = alone();
+    let rate = 48_000.0;
+    let score = notes(rate);
+    let values: Vec<_> = [("kick_tune", 61.5), ("crash_level", -12.0), ("snare_muffle", 0.5)]
+        .map(|(name, value)| (find(name).unwrap().0, value))
+        .to_vec();
+    let mut clap = instance();
+    let set: Vec<_> = values
+        .iter()
+        .map(|&(index, value)| {
+            let parameter = &PARAMETERS[index];
+            (parameter_id(parameter.id), f64::from(parameter.normalized(value)))
+        })
+        .collect();
+    clap.set_parameters(&set).unwrap();
+    let expected = through_plugin(&mut clap, &score, rate, Blocks::Fixed(512));
+    let found = through_vst3("parameters", &score, &values, rate, 512);
+    assert_same(&found, &expected, "with parameters");
+}

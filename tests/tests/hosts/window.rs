@@ -1,0 +1,97 @@
+//! The editor in a window of a host.
+
+use std::collections::HashSet;
+use std::thread;
+use std::time::{Duration, Instant};
+
+use x11rb::connection::Connection;
+use x11rb::protocol::xproto::{ConnectionExt, CreateWindowAux, ImageFormat, WindowClass};
+use x11rb::rust_connection::RustConnection;
+use x11rb::{COPY_DEPTH_FROM_PARENT, COPY_FROM_PARENT};
+
+use crate::score::{assert_same, notes, through_engine, through_plugin};
+use crate::{alone, instance};
+use xtask::player::Blocks;
+
+/// How long an editor may take to appear: a virtual display draws in software.
+const PATIENCE: Duration = Duration::from_secs(20);
+
+/// A window of the host's.
+struct Parent {
+    connection: RustConnection,
+    window: u32,
+    size: (u32, u32),
+}
+
+impl Parent {
+    fn new(width: u32, height: u32) -> Parent {
+        let (connection, screen) =
+            x11rb::connect(None).expect("a display: run `cargo xtask test`, which brings its own");
+        let root = connection.setup().roots[screen].root;
+        let window = connection.generate_id().unwrap();
+        let (w, h) = (width as u16, height as u16);
+        let class = WindowClass::INPUT_OUTPUT;
+        let depth = COPY_DEPTH_FROM_PARENT;
+        let plain = CreateWindowAux::new();
+        connection
+            .create_window(depth, window, root, 0, 0, w, h, 0, class, COPY_FROM_PARENT, &plain)
+            .unwrap();
+        connection.map_window(window).unwrap();
+        // A round trip: the window is there when the editor looks for it.
+        connection.get_input_focus().unwrap().reply().unwrap();
+        Parent { connection, window, size: (width, height) }
+    }
+
+    /// How many colours are seen in the window.
+    fn colours(&self) -> usize {
+        let (width, height) = (self.size.0 as u16, self.size.1 as u16);
+        let image = self
+            .connection
+            .get_image(ImageFormat::Z_PIXMAP, self.window, 0, 0, width, height, !0)
+            .unwrap()
+            .reply()
+            .unwrap();
+        image.data.chunks_exact(4).map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect::<HashSet<_>>().len()
+    }
+
+    fn children(&self) -> usize {
+        self.connection.query_tree(self.window).unwrap().reply().unwrap().children.len()
+    }
+}
+
+#[test]
+fn the_editor_opens_draws_and_closes_while_it_plays() {
+    let _turn = alone();
+    let mut instance = instance();
+    let rate = 48_000.0;
+    let score = notes(rate);
+    for round in 0..2 {
+        let parent = instance
+            .open_editor(|width, height| {
+                let parent = Parent::new(width, height);
+                Ok((parent.window, parent))
+            })
+            .expect("the editor opens");
+        let sound = through_plugin(&mut instance, &score, rate, Blocks::Fixed(512));
+        assert_same(&sound, &through_engine(&score, rate), "with the editor open");
+        let begun = Instant::now();
+        // Text alone gives dozens of shades.
+        while parent.colours() < 20 {
+            assert!(begun.elapsed() < PATIENCE, "round {round}: the editor stays blank");
+            instance.answer();
+            thread::sleep(Duration::from_millis(50));
+        }
+        assert_eq!(parent.children(), 1);
+        instance.close_editor().unwrap();
+    }
+    // Gone while its editor is open.
+    let parent = instance
+        .open_editor(|width, height| {
+            let parent = Parent::new(width, height);
+            Ok((parent.window, parent))
+        })
+        .expect("the editor opens again");
+    thread::sleep(Duration::from_millis(300));
+    drop(instance);
+    drop(parent);
+}

@@ -1,0 +1,126 @@
+//! `bundle` and `install`: release bundles, and a copy of them where hosts look.
+
+use std::env;
+use std::ffi::OsString;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail};
+
+use crate::system::{self, LINKER};
+use crate::workspace::{self, Format, PLUGIN_PACKAGE};
+
+/// Builds the plugin in release and bundles it; tells where each format's bundle lies.
+///
+/// # Errors
+/// If something to build with is missing or the build fails.
+pub fn run() -> Result<Vec<(Format, PathBuf)>> {
+    system::ensure(&[LINKER])?;
+    let target = workspace::target_dir()?;
+    // What an earlier build left must not pass for the result of this one.
+    for format in Format::ALL {
+        remove(&workspace::bundle_in(&target, format))?;
+    }
+    let packages = [PLUGIN_PACKAGE.to_owned()];
+    let arguments = ["--release".to_owned()];
+    // The bundler looks for its files in the working folder.
+    in_folder(&workspace::root(), || {
+        nice_plug_xtask::build(&packages, &arguments)?;
+        nice_plug_xtask::bundle(&target, PLUGIN_PACKAGE, &arguments, false)
+    })
+    .context("bundling")?;
+    Format::ALL
+        .into_iter()
+        .map(|format| {
+            let path = workspace::bundle_in(&target, format);
+            if !path.exists() {
+                bail!("the build made no `{}`", path.display());
+            }
+            Ok((format, path))
+        })
+        .collect()
+}
+
+/// Bundles and copies the bundles to the user's plugin folders; tells where they went.
+///
+/// # Errors
+/// As [`run`], and if a folder cannot be written.
+pub fn install() -> Result<Vec<PathBuf>> {
+    let bundles = run()?;
+    bundles
+        .into_iter()
+        .map(|(format, bundle)| {
+            let folder = user_folder(format)?;
+            fs::create_dir_all(&folder).with_context(|| format!("cannot make `{}`", folder.display()))?;
+            let target = folder.join(format.bundle_file());
+            // Beside the target first: a running host keeps the library it has mapped, and an
+            // interrupted copy leaves the old one.
+            let fresh = folder.join(format!(".{}.part", format.bundle_file()));
+            remove(&fresh)?;
+            copy(&bundle, &fresh)
+                .and_then(|()| remove(&target))
+                .and_then(|()| Ok(fs::rename(&fresh, &target)?))
+                .with_context(|| format!("cannot install to `{}`", target.display()))?;
+            Ok(target)
+        })
+        .collect()
+}
+
+/// Where hosts look for the user's plugins of a format.
+///
+/// # Errors
+/// If the system does not say where the user's files are.
+pub fn user_folder(format: Format) -> Result<PathBuf> {
+    let variable = |name: &str| {
+        let value: Option<OsString> = env::var_os(name).filter(|value| !value.is_empty());
+        value.map(PathBuf::from).with_context(|| format!("{name} is not set"))
+    };
+    if cfg!(target_os = "windows") {
+        let common = variable("COMMONPROGRAMFILES")?;
+        return Ok(common.join(match format {
+            Format::Clap => "CLAP",
+            Format::Vst3 => "VST3",
+        }));
+    }
+    let home = variable("HOME")?;
+    Ok(if cfg!(target_os = "macos") {
+        home.join("Library/Audio/Plug-Ins").join(match format {
+            Format::Clap => "CLAP",
+            Format::Vst3 => "VST3",
+        })
+    } else {
+        home.join(format!(".{}", format.extension()))
+    })
+}
+
+/// Runs something in another working folder and comes back.
+fn in_folder<T>(folder: &Path, work: impl FnOnce() -> Result<T>) -> Result<T> {
+    let back = env::current_dir().context("the working folder is gone")?;
+    env::set_current_dir(folder).with_context(|| format!("cannot enter `{}`", folder.display()))?;
+    let result = work();
+    env::set_current_dir(back).context("the working folder is gone")?;
+    result
+}
+
+fn remove(path: &Path) -> Result<()> {
+    let removed = match fs::symlink_metadata(path) {
+        Err(_) => return Ok(()),
+        Ok(metadata) if metadata.is_dir() => fs::remove_dir_all(path),
+        Ok(_) => fs::remove_file(path),
+    };
+    removed.with_context(|| format!("cannot remove `{}`", path.display()))
+}
+
+/// Copies a file, or a folder with all in it.
+fn copy(from: &Path, to: &Path) -> Result<()> {
+    if !from.is_dir() {
+        fs::copy(from, to)?;
+        return Ok(());
+    }
+    fs::create_dir_all(to)?;
+    for entry in fs::read_dir(from)? {
+        let entry = entry?;
+        copy(&entry.path(), &to.join(entry.file_name()))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,125 @@
+//! The command line: which commands there are, what they take, and how they fail.
+//!
+//! Results go to standard output, progress and errors to standard error. An error is one line.
+//! Exit codes: 0 done, 1 failed on the way, 2 bad input (the line says what would be accepted).
+
+mod arguments;
+
+use std::ffi::OsString;
+use std::io::Write;
+use std::process::ExitCode;
+
+use anyhow::Result;
+use clap::error::ErrorKind;
+use clap::{CommandFactory, Parser};
+use overhear_engine::piece::BuildOptions;
+
+use crate::{bundle, demo, error, groove, hear, modes, output, render, settings, suite};
+use arguments::{HearArguments, ModesArguments, RenderArguments, Task};
+
+/// Developer and user commands of Overhear.
+#[derive(Debug, Parser)]
+#[command(name = "cargo xtask", bin_name = "cargo xtask", version, arg_required_else_help = true)]
+struct CommandLine {
+    #[command(subcommand)]
+    task: Task,
+}
+
+/// Runs a command line, the program's name first, and tells how it ended.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let task = match CommandLine::try_parse_from(arguments) {
+        Ok(line) => line.task,
+        Err(refusal) => return refused(&refusal),
+    };
+    match dispatch(task) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("error: {}", error::one_line(&failure));
+            ExitCode::from(error::exit_code(&failure))
+        }
+    }
+}
+
+/// Prints help where it was asked for, and anything else as one line.
+fn refused(refusal: &clap::Error) -> ExitCode {
+    if matches!(refusal.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) {
+        print!("{refusal}");
+        return ExitCode::SUCCESS;
+    }
+    if refusal.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
+        eprint!("{refusal}");
+        return ExitCode::from(2);
+    }
+    let text = refusal.to_string();
+    // What follows are a tip to read the help and the usage, over several lines.
+    let reason = text.split("\n\nUsage:").next().unwrap_or(&text);
+    let reason = reason.split("\n\nFor more").next().unwrap_or(reason);
+    let mut line = reason.split_whitespace().collect::<Vec<_>>().join(" ");
+    if refusal.kind() == ErrorKind::InvalidSubcommand {
+        let command = CommandLine::command();
+        let names: Vec<_> = command.get_subcommands().map(|command| command.get_name()).collect();
+        line = format!("{line}, accepted: {}", names.join(", "));
+    }
+    eprintln!("{line}");
+    ExitCode::from(2)
+}
+
+fn dispatch(task: Task) -> Result<()> {
+    match task {
+        Task::Demo => demo::run(&std::env::current_dir()?),
+        Task::Test => suite::run(),
+        Task::Bundle => {
+            for (_, path) in bundle::run()? {
+                say(&format!("{}\n", path.display()))?;
+            }
+            Ok(())
+        }
+        Task::Install => {
+            for path in bundle::install()? {
+                say(&format!("installed {}\n", path.display()))?;
+            }
+            Ok(())
+        }
+        Task::Render(arguments) => render(arguments),
+        Task::Hear(arguments) => hear(arguments),
+        Task::Modes(arguments) => modes(arguments),
+        Task::Groove { output } => output::write(&output, &groove::file()),
+    }
+}
+
+/// Prints a result. A reader who has seen enough and closed the pipe is no error.
+fn say(text: &str) -> Result<()> {
+    match std::io::stdout().write_all(text.as_bytes()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(error.into()),
+        _ => Ok(()),
+    }
+}
+
+fn render(arguments: RenderArguments) -> Result<()> {
+    settings::check_preset(&arguments.preset)?;
+    render::run(&arguments.into_request()?)
+}
+
+fn hear(arguments: HearArguments) -> Result<()> {
+    let (json, request) = (arguments.json, arguments.into_request()?);
+    let measurement = hear::run(&request)?;
+    say(&if json { serde_json::to_string(&measurement)? + "\n" } else { measurement.to_string() })
+}
+
+fn modes(arguments: ModesArguments) -> Result<()> {
+    let piece = settings::piece(&arguments.piece)?;
+    let settings = settings::parse_for_piece(piece, &arguments.set)?;
+    let options = BuildOptions::new(f64::from(arguments.rate));
+    let modes = modes::run(piece, &options, &settings)?;
+    say(&if arguments.json { serde_json::to_string(&modes)? + "\n" } else { modes.to_string() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_commands_are_well_formed() {
+        CommandLine::command().debug_assert();
+    }
+}

@@ -1,0 +1,251 @@
+//! What each command takes.
+
+use std::path::PathBuf;
+
+use anyhow::Result;
+use clap::{Args, Subcommand, ValueEnum};
+use overhear_engine::piece::BuildOptions;
+use overhear_engine::strike::Strike;
+
+use crate::player::{Blocks, Source};
+use crate::wav::Bits;
+use crate::{hear, render, settings};
+
+/// Sample rates that the engine builds for, Hz.
+const RATES: std::ops::RangeInclusive<i64> = 22_050..=768_000;
+
+/// Longest sound after the last note and of one stroke, s.
+const LONGEST: f64 = 600.0;
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub enum Task {
+    /// Set up, build, bundle, play a groove through the built CLAP plugin: demo.wav and demo.png
+    Demo,
+    /// Check everything the project promises, the hosts included
+    Test,
+    /// Build the release bundles (CLAP, VST3)
+    Bundle,
+    /// Build the release bundles and copy them where hosts look
+    Install,
+    /// Render MIDI files to WAV files
+    Render(RenderArguments),
+    /// Strike one piece once and measure it
+    Hear(HearArguments),
+    /// List everything that vibrates in a piece
+    Modes(ModesArguments),
+    /// Write the demonstration groove (assets/groove.mid) anew
+    #[command(hide = true)]
+    Groove {
+        /// The MIDI file to write
+        #[arg(short, long, value_name = "FILE")]
+        output: PathBuf,
+    },
+}
+
+/// Arguments of `render`.
+#[derive(Debug, Args)]
+pub struct RenderArguments {
+    /// MIDI files, or folders of them
+    #[arg(required = true, value_name = "SONG.mid")]
+    songs: Vec<PathBuf>,
+    /// The WAV file to write; a folder for several songs
+    #[arg(short, long, value_name = "OUT.wav")]
+    output: PathBuf,
+    /// Start from a preset; `default` is the only one yet
+    #[arg(long, value_name = "NAME", default_value = "default")]
+    pub preset: String,
+    /// Move a parameter before the start, as in kick_tune=60 or ride_level=-6; repeatable
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<String>,
+    /// Sample rate, Hz
+    #[arg(long, value_name = "HZ", default_value = "48000", value_parser = rate)]
+    rate: u32,
+    /// Samples rendered at a time, 1 to 8192 or `random`; does not change the sound
+    #[arg(long, value_name = "N|random", default_value = "512")]
+    block: Blocks,
+    /// Write one more WAV file per piece into this folder
+    #[arg(long, value_name = "DIR")]
+    stems: Option<PathBuf>,
+    /// Bits per sample
+    #[arg(long, default_value = "32f")]
+    bits: Bits,
+    /// Play the engine itself (the default)
+    #[arg(long, conflicts_with = "clap")]
+    engine: bool,
+    /// Play a CLAP bundle in an embedded host; the same samples
+    #[arg(long, value_name = "PATH")]
+    clap: Option<PathBuf>,
+    /// Songs rendered at once; as many as there are cores if not given
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    jobs: Option<u16>,
+    /// Sound after the last note, s
+    #[arg(long, value_name = "S", default_value = "5", value_parser = tail)]
+    tail: f64,
+    /// Play one MIDI channel only, 1 to 16
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=16))]
+    channel: Option<u8>,
+}
+
+impl RenderArguments {
+    /// What is asked for.
+    ///
+    /// # Errors
+    /// [`BadInput`](crate::error::BadInput) for a parameter that is not one.
+    pub fn into_request(self) -> Result<render::Request> {
+        let source = self.clap.map_or(Source::Engine, Source::Clap);
+        Ok(render::Request {
+            inputs: self.songs,
+            output: self.output,
+            stems: self.stems,
+            jobs: self.jobs.map(usize::from),
+            style: render::Style {
+                source,
+                rate: self.rate,
+                settings: settings::parse(&self.set)?,
+                blocks: self.block,
+                bits: self.bits,
+                tail: self.tail,
+                channel: self.channel,
+            },
+        })
+    }
+}
+
+/// Quality of the physics.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub enum Quality {
+    /// Cheapest.
+    Eco,
+    /// As played by default.
+    Standard,
+    /// Richer.
+    High,
+    /// Richest.
+    Offline,
+}
+
+/// Arguments of `hear`.
+#[derive(Debug, Args)]
+pub struct HearArguments {
+    /// kick, snare, rack-tom, floor-tom, crash, ride, splash or timpani
+    piece: String,
+    /// Speed of the stroke, m/s, up to 25
+    #[arg(long, value_name = "M/S", default_value_t = hear::DEFAULT_SPEED, value_parser = speed)]
+    speed: f64,
+    /// Distance of the place from the centre, share of the radius; where it is played if not given
+    #[arg(long, value_name = "R", value_parser = share)]
+    at: Option<f64>,
+    /// Direction of the place, degrees from the player's side
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = angle)]
+    angle: Option<f64>,
+    /// stick, shoulder, nylon, felt-beater, plastic-beater, timpani-mallet, hard-mallet or
+    /// yarn-mallet; what the piece is played with if not given
+    #[arg(long, value_name = "NAME")]
+    striker: Option<String>,
+    /// Tune or muffle the piece, as in snare_tune=240 or ride_muffle=.3; repeatable
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<String>,
+    /// Sample rate, Hz
+    #[arg(long, value_name = "HZ", default_value = "48000", value_parser = rate)]
+    rate: u32,
+    /// Length of the sound, s
+    #[arg(long, value_name = "S", default_value = "4", value_parser = seconds)]
+    seconds: f64,
+    /// Print one JSON object (see docs/commands.md)
+    #[arg(long)]
+    pub json: bool,
+    /// Write the sound as 32-bit float, 20 Pa being full scale
+    #[arg(long, value_name = "OUT.wav")]
+    wav: Option<PathBuf>,
+    /// Switch all damping and radiation off
+    #[arg(long)]
+    lossless: bool,
+    /// Switch tension modulation and the coupling of the modes off (no effect yet: neither exists)
+    #[arg(long)]
+    linear: bool,
+    /// Build perfectly round bodies, whose pairs of modes share one frequency
+    #[arg(long)]
+    unsplit: bool,
+    /// Quality of the physics (no effect yet: there is one)
+    #[arg(long, default_value = "standard")]
+    quality: Quality,
+}
+
+impl HearArguments {
+    /// What is asked for.
+    ///
+    /// # Errors
+    /// [`BadInput`](crate::error::BadInput) for a name or a parameter that is not one.
+    pub fn into_request(self) -> Result<hear::Request> {
+        let piece = settings::piece(&self.piece)?;
+        let default = hear::default_strike(piece);
+        let striker = match &self.striker {
+            Some(name) => hear::striker(name)?,
+            None => default.striker,
+        };
+        let strike = Strike {
+            speed: self.speed,
+            radius: self.at.unwrap_or(default.radius),
+            angle: self.angle.map_or(default.angle, f64::to_radians),
+            striker,
+        };
+        let mut options = BuildOptions::new(f64::from(self.rate));
+        options.lossless = self.lossless;
+        options.unsplit = self.unsplit;
+        let settings = settings::parse_for_piece(piece, &self.set)?;
+        Ok(hear::Request { piece, strike, settings, options, seconds: self.seconds, wav: self.wav })
+    }
+}
+
+/// Arguments of `modes`.
+#[derive(Debug, Args)]
+pub struct ModesArguments {
+    /// kick, snare, rack-tom, floor-tom, crash, ride, splash or timpani
+    pub piece: String,
+    /// Print one JSON object (see docs/commands.md)
+    #[arg(long)]
+    pub json: bool,
+    /// Tune or muffle the piece, as in snare_tune=240 or ride_muffle=.3; repeatable
+    #[arg(long, value_name = "NAME=VALUE")]
+    pub set: Vec<String>,
+    /// Sample rate, Hz
+    #[arg(long, value_name = "HZ", default_value = "48000", value_parser = rate)]
+    pub rate: u32,
+}
+
+fn rate(text: &str) -> Result<u32, String> {
+    text.parse().ok().filter(|&rate: &i64| RATES.contains(&rate)).map_or_else(
+        || Err(format!("accepted: {} to {} Hz", RATES.start(), RATES.end())),
+        |rate| u32::try_from(rate).map_err(|error| error.to_string()),
+    )
+}
+
+/// A number from `least` (left out if `open`) to `most`.
+fn number(text: &str, least: f64, open: bool, most: f64, unit: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value <= most && (value > least || (value == least && !open)) => Ok(value),
+        _ if open => Err(format!("accepted: above {least} to {most}{unit}")),
+        _ => Err(format!("accepted: {least} to {most}{unit}")),
+    }
+}
+
+fn tail(text: &str) -> Result<f64, String> {
+    number(text, 0.0, false, LONGEST, " s")
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    number(text, 0.0, true, LONGEST, " s")
+}
+
+fn speed(text: &str) -> Result<f64, String> {
+    number(text, 0.0, true, Strike::MAX_SPEED, " m/s")
+}
+
+fn share(text: &str) -> Result<f64, String> {
+    number(text, 0.0, false, 1.0, " of the radius")
+}
+
+fn angle(text: &str) -> Result<f64, String> {
+    number(text, -360.0, false, 360.0, " degrees")
+}

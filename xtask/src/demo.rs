@@ -1,0 +1,134 @@
+//! `demo`: from a fresh clone to a groove you can hear.
+//!
+//! Sets up, builds, bundles, loads the built CLAP into the embedded host, plays
+//! `assets/groove.mid` through it at 48 kHz, writes `demo.wav` and `demo.png`, and says what each
+//! piece contributed and what it cost.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Result, ensure};
+use overhear::midi_map;
+use overhear_engine::piece::PieceId;
+
+use crate::player::{Blocks, Hit, Played, Setup, Source, Take};
+use crate::progress::Progress;
+use crate::render::{Style, takes};
+use crate::song::Song;
+use crate::wav::{Bits, WavFile};
+use crate::workspace::Format;
+use crate::{bundle, output, picture, workspace};
+
+/// Sample rate of the demonstration, Hz.
+const RATE: u32 = 48_000;
+
+/// Sound after the last note, s: the last crash rings out.
+const TAIL: f64 = 8.0;
+
+/// Buffers as hosts use them, samples.
+const BLOCK: u32 = 256;
+
+/// Runs the whole demonstration; the files go to `folder`.
+///
+/// # Errors
+/// If something is missing, does not build, or does not sound as it must.
+pub fn run(folder: &Path) -> Result<()> {
+    let step = |number: u32, what: &str| eprintln!("[{number}/4] {what}");
+    let (wav, png) = (folder.join("demo.wav"), folder.join("demo.png"));
+    step(1, "building and bundling the plugin (some minutes the first time)");
+    let clap = clap_bundle()?;
+    step(2, "playing assets/groove.mid through the CLAP plugin");
+    let song = Song::read(&workspace::root().join("assets/groove.mid"))?;
+    let style = style(Source::Clap(clap.clone()));
+    let (take, _) = takes(&song, &style)?;
+    let (played, left, right) = play(&take, &style, None, "groove")?;
+    ensure!(played.finite, "the plugin gave values that are not numbers");
+    ensure!(played.peak > 0.0, "the plugin stayed silent");
+    step(3, "playing every piece by itself through the engine");
+    let peaks = piece_peaks(&take)?;
+    step(4, "writing demo.wav and drawing demo.png");
+    let mut file = WavFile::create(&wav, Bits::Float32, RATE, 2, take.frames)?;
+    file.write(&[&left, &right])?;
+    file.finish()?;
+    output::write(&png, &picture::png("Overhear: assets/groove.mid", &left, &right, RATE)?)?;
+    report(&take, &played, &peaks, [&wav, &png, &clap]);
+    ensure!(played.peak <= 1.0, "the mix is clipped: its peak is {:.3}", played.peak);
+    let silent: Vec<_> =
+        peaks.iter().filter(|(_, peak)| *peak <= 0.0).map(|(piece, _)| piece.name()).collect();
+    ensure!(silent.is_empty(), "silent: {}", silent.join(", "));
+    Ok(())
+}
+
+fn clap_bundle() -> Result<PathBuf> {
+    let bundles = bundle::run()?;
+    let clap = bundles.into_iter().find(|(format, _)| *format == Format::Clap);
+    clap.map(|(_, path)| path).ok_or_else(|| anyhow::anyhow!("the build made no CLAP bundle"))
+}
+
+fn style(source: Source) -> Style {
+    Style {
+        source,
+        rate: RATE,
+        settings: Vec::new(),
+        blocks: Blocks::Fixed(BLOCK),
+        bits: Bits::Float32,
+        tail: TAIL,
+        channel: None,
+    }
+}
+
+/// Plays a take to memory.
+fn play(
+    take: &Take,
+    style: &Style,
+    only: Option<PieceId>,
+    label: &str,
+) -> Result<(Played, Vec<f32>, Vec<f32>)> {
+    let (mut left, mut right) = (Vec::new(), Vec::new());
+    let mut progress = Progress::new(label, take.frames);
+    let setup = Setup { rate: style.rate, settings: style.settings.clone(), only };
+    let played = style.source.perform(&setup, |player| {
+        take.play(player, style.blocks, |l, r| {
+            progress.advance(l.len() as u64);
+            left.extend_from_slice(l);
+            right.extend_from_slice(r);
+            Ok(())
+        })
+    })?;
+    Ok((played, left, right))
+}
+
+/// Peak of each piece's share of the mix.
+fn piece_peaks(take: &Take) -> Result<Vec<(PieceId, f32)>> {
+    let style = style(Source::Engine);
+    PieceId::KIT
+        .into_iter()
+        .map(|piece| {
+            let strikes = |hit: &&Hit| midi_map::stroke(hit.key).is_some_and(|stroke| stroke.piece == piece);
+            let part = Take { hits: take.hits.iter().filter(strikes).copied().collect(), ..*take };
+            Ok((piece, play(&part, &style, Some(piece), piece.name())?.0.peak))
+        })
+        .collect()
+}
+
+fn report(take: &Take, played: &Played, peaks: &[(PieceId, f32)], [wav, png, clap]: [&Path; 3]) {
+    let decibels = |peak: f32| match peak {
+        0.0 => "silent".to_owned(),
+        peak => format!("{:6.1} dBFS", 20.0 * peak.log10()),
+    };
+    let seconds = take.frames as f64 / f64::from(RATE);
+    println!("\npeak of each piece");
+    for (piece, peak) in peaks {
+        println!("  {:<10} {}", piece.name(), decibels(*peak));
+    }
+    println!("  {:<10} {}", "the mix", decibels(played.peak));
+    let share = 100.0 * played.busy.as_secs_f64() / seconds;
+    println!("\n{seconds:.1} s of sound, {} notes, {share:.1} % of real time", take.hits.len());
+    println!("sound    {}", wav.display());
+    println!("picture  {}", png.display());
+    println!("plugin   {}", clap.display());
+    for format in Format::ALL {
+        if let Ok(folder) = bundle::user_folder(format) {
+            println!("`cargo xtask install` puts {} into {}", format.bundle_file(), folder.display());
+        }
+    }
+}

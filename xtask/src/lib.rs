@@ -1,0 +1,30 @@
+//! The commands of Overhear: what `cargo xtask` does, and what its tests build on.
+//!
+//! In reading order: [`cli`] says which commands there are and what they take. `render`
+//! ([`render`]) turns a MIDI file ([`song`]) into sound through a [`player`], which is either the
+//! engine itself or the built plugin in an embedded [`host`]; [`wav`] and [`output`] put it on
+//! disk. `hear` ([`hear`]) strikes one piece and measures it ([`analysis`]); `modes` ([`modes`])
+//! lists what vibrates. [`demo`] plays the [`groove`] and draws a [`picture`] of it. [`bundle`]
+//! and [`suite`] build and test.
+#![deny(unsafe_op_in_unsafe_fn)]
+
+pub mod analysis;
+pub mod bundle;
+pub mod cli;
+pub mod demo;
+pub mod error;
+pub mod groove;
+pub mod hear;
+pub mod host;
+pub mod modes;
+pub mod output;
+pub mod picture;
+pub mod player;
+pub mod progress;
+pub mod render;
+pub mod settings;
+pub mod song;
+pub mod suite;
+pub mod system;
+pub mod wav;
+pub mod workspace;

@@ -1,0 +1,170 @@
+//! One song to its files.
+
+use std::fmt;
+use std::path::PathBuf;
+use std::time::Duration;
+
+use anyhow::{Result, ensure};
+use overhear::midi_map;
+use overhear_engine::piece::PieceId;
+
+use super::Style;
+use crate::bad_input;
+use crate::output::Folder;
+use crate::player::{Hit, Played, Setup, Take};
+use crate::progress::Progress;
+use crate::song::Song;
+use crate::wav::WavFile;
+
+/// One song and where it goes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Job {
+    /// The MIDI file.
+    pub song: PathBuf,
+    /// The WAV file.
+    pub output: PathBuf,
+    /// A folder for one more file per piece.
+    pub stems: Option<PathBuf>,
+}
+
+/// What came of a job, in a line.
+#[derive(Debug, Clone)]
+pub struct Report {
+    output: PathBuf,
+    seconds: f64,
+    played: Played,
+    clipped: u64,
+    hits: usize,
+    silent: usize,
+    stems: usize,
+}
+
+/// A song's notes at their samples, and how many of them strike nothing.
+///
+/// # Errors
+/// [`BadInput`](crate::error::BadInput) if the song is too long to be meant.
+pub fn takes(song: &Song, style: &Style) -> Result<(Take, usize)> {
+    let mut silent = 0;
+    let mut hits = Vec::new();
+    for note in &song.notes {
+        if style.channel.is_some_and(|channel| channel != note.channel + 1) {
+            continue;
+        }
+        silent += usize::from(midi_map::stroke(note.key).is_none());
+        hits.push(Hit {
+            sample: song.sample(note.time, style.rate),
+            channel: note.channel,
+            key: note.key,
+            velocity: note.velocity,
+        });
+    }
+    let tail = (style.tail * f64::from(style.rate)).round() as u64;
+    let last = hits.last().map_or(0, |hit| hit.sample);
+    Ok((Take { hits, frames: last.saturating_add(tail) }, silent))
+}
+
+impl Job {
+    /// Renders the song and its stems; shows progress if nobody else does.
+    ///
+    /// # Errors
+    /// [`BadInput`](crate::error::BadInput) for what cannot be read or written; nothing is left
+    /// behind then.
+    pub fn run(&self, style: &Style, show: bool) -> Result<Report> {
+        let song = Song::read(&self.song)?;
+        let (take, silent) = takes(&song, style)?;
+        let mut file = WavFile::create(&self.output, style.bits, style.rate, 2, take.frames)?;
+        let _folder = self.stems.as_deref().map(Folder::new).transpose()?;
+        let stems = self.stem_files(style, take.frames)?;
+        let name = self.output.display().to_string();
+        let progress = |label: String| {
+            if show { Progress::new(label, take.frames) } else { Progress::hidden() }
+        };
+        let played = play(&take, style, None, &mut file, progress(name.clone()))?;
+        let mut files = vec![file];
+        for (piece, mut file) in stems {
+            let strikes = |hit: &&Hit| midi_map::stroke(hit.key).is_some_and(|stroke| stroke.piece == piece);
+            let part = Take { hits: take.hits.iter().filter(strikes).copied().collect(), ..take };
+            let label = format!("{name}, {}", piece.name());
+            play(&part, style, Some(piece), &mut file, progress(label))?;
+            files.push(file);
+        }
+        let stems = files.len() - 1;
+        // All are whole before any gets its name.
+        let clipped = files.into_iter().map(WavFile::finish).sum::<Result<u64>>()?;
+        Ok(Report {
+            output: self.output.clone(),
+            seconds: take.frames as f64 / f64::from(style.rate),
+            played,
+            clipped,
+            hits: take.hits.len(),
+            silent,
+            stems,
+        })
+    }
+
+    fn stem_files(&self, style: &Style, frames: u64) -> Result<Vec<(PieceId, WavFile)>> {
+        let Some(folder) = &self.stems else {
+            return Ok(Vec::new());
+        };
+        PieceId::KIT
+            .into_iter()
+            .map(|piece| {
+                let path = folder.join(format!("{}.wav", piece.name()));
+                if path == self.output {
+                    return Err(bad_input!(
+                        "`{}` would be the song and a stem, accepted: different names",
+                        path.display(),
+                    ));
+                }
+                Ok((piece, WavFile::create(&path, style.bits, style.rate, 2, frames)?))
+            })
+            .collect()
+    }
+}
+
+fn play(
+    take: &Take,
+    style: &Style,
+    only: Option<PieceId>,
+    file: &mut WavFile,
+    mut progress: Progress,
+) -> Result<Played> {
+    let setup = Setup { rate: style.rate, settings: style.settings.clone(), only };
+    let played = style.source.perform(&setup, |player| {
+        take.play(player, style.blocks, |left, right| {
+            progress.advance(left.len() as u64);
+            file.write(&[left, right])
+        })
+    })?;
+    ensure!(played.finite, "the render holds values that are not numbers");
+    Ok(played)
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let Report { output, seconds, played, clipped, hits, silent, stems } = self;
+        write!(f, "{}: {seconds:.2} s, {hits} notes", output.display())?;
+        if *silent > 0 {
+            write!(f, " ({silent} of them strike nothing in the kit)")?;
+        }
+        let share = 100.0 * busy_share(played.busy, *seconds);
+        write!(f, ", peak {}, {share:.1} % of real time", decibels(played.peak))?;
+        if *clipped > 0 {
+            write!(f, ", {clipped} samples clipped")?;
+        }
+        if *stems > 0 {
+            write!(f, ", {stems} stems")?;
+        }
+        Ok(())
+    }
+}
+
+/// Time spent rendering as a share of the sound's length.
+fn busy_share(busy: Duration, seconds: f64) -> f64 {
+    if seconds > 0.0 { busy.as_secs_f64() / seconds } else { 0.0 }
+}
+
+/// A peak in dBFS.
+fn decibels(peak: f32) -> String {
+    if peak > 0.0 { format!("{:.1} dBFS", 20.0 * peak.log10()) } else { "silent".to_owned() }
+}
