@@ -213,28 +213,26 @@ impl VonKarman {
     /// Energies; turns `quadratic` into `f_k` and `linear` into `2 c_k P_k`.
     fn stretch(&mut self) -> Evaluation {
         let Work { linear, quadratic, forces, .. } = &mut self.work;
-        let (mut energy, mut depth) = (0.0_f64, 0.0_f64);
+        // A sum for each lane, so that the compiler may use them all.
+        let (mut energy, mut depth) = ([0.0_f32; SLOTS], [0.0_f32; SLOTS]);
         for &(row, bend_row) in &self.rows {
             let stiffness = &self.stiffness.as_chunks::<SLOTS>().0[row];
             for member in 0..2 {
                 let p = &quadratic.as_chunks::<SLOTS>().0[2 * row + member];
                 let l = &mut linear.as_chunks_mut::<SLOTS>().0[2 * bend_row + member];
                 let f = &mut forces.as_chunks_mut::<SLOTS>().0[2 * row + member];
-                let (mut sum, mut sum_linear) = (0.0, 0.0);
                 for i in 0..SLOTS {
-                    let c = stiffness[i];
-                    let bent = c * l[i];
-                    let pressed = c * p[i];
-                    sum += p[i] * (pressed + 2.0 * bent);
-                    sum_linear += bent * l[i];
+                    let bent = stiffness[i] * l[i];
+                    let pressed = stiffness[i] * p[i];
+                    energy[i] += p[i] * (pressed + 2.0 * bent);
+                    depth[i] += bent * l[i];
                     f[i] = 2.0 * (pressed + bent);
                     l[i] = 2.0 * pressed;
                 }
-                energy += f64::from(sum);
-                depth += f64::from(sum_linear);
             }
         }
-        Evaluation { energy, depth }
+        let sum = |lanes: [f32; SLOTS]| lanes.into_iter().map(f64::from).sum();
+        Evaluation { energy: sum(energy), depth: sum(depth) }
     }
 
     /// What the stresses press each amplitude with, into `amplitudes`.
