@@ -205,7 +205,7 @@ impl Drum {
         let rows = self.surface.body().modes().iter().zip(&self.modes);
         rows.map(|(mode, row)| {
             let tuned = &self.blueprint.modes[row.pair];
-            let (body, n, kind) = self.name(tuned);
+            let (body, n, kind) = describe(&self.blueprint, tuned);
             ModeInfo {
                 body,
                 m: tuned.m,
@@ -220,23 +220,18 @@ impl Drum {
         })
         .collect()
     }
+}
 
-    /// What a mode mostly is: body, nodal circles, kind.
-    fn name(&self, mode: &tuned::TunedMode) -> (&'static str, u32, ModeKind) {
-        let [batter, resonant] = mode.reference.share;
-        let (_, near) = self.blueprint.batter.order(mode.m);
-        let most = |range: std::ops::Range<usize>| {
-            let size = |&i: &usize| mode.reference.vector[i].abs();
-            let first = range.start;
-            range.max_by(|a, b| size(a).total_cmp(&size(b))).map_or(0, |i| (i - first) as u32)
-        };
-        if 1.0 - batter - resonant > batter.max(resonant) {
-            ("cavity", most(mode.heads()..mode.reference.vector.len()), ModeKind::Cavity)
-        } else if batter >= resonant {
-            ("batter", most(0..near) + 1, ModeKind::Complete)
-        } else {
-            ("resonant", most(near..mode.heads()) + 1, ModeKind::Complete)
-        }
+/// What a mode mostly is: body, nodal circles, kind.
+fn describe(blueprint: &Blueprint, mode: &tuned::TunedMode) -> (&'static str, u32, ModeKind) {
+    let (_, near) = blueprint.batter.order(mode.m);
+    let name = mode.name;
+    if name < near {
+        ("batter", name as u32 + 1, ModeKind::Complete)
+    } else if name < mode.heads() {
+        ("resonant", (name - near) as u32 + 1, ModeKind::Complete)
+    } else {
+        ("cavity", (name - mode.heads()) as u32, ModeKind::Cavity)
     }
 }
 
@@ -250,7 +245,10 @@ fn lay_out(spec: &DrumSpec, blueprint: &Blueprint, options: &BuildOptions) -> Ve
     let mut modes = Vec::new();
     for (pair, mode) in blueprint.modes.iter().enumerate() {
         let turn = f64::from(mode.m) * (angle - spec.splitting.axis(mode.m, 0));
-        for (member, detuning) in splitting.members(mode.m, pair as u32) {
+        let (body, n, _) = describe(blueprint, mode);
+        // A pair is split by what it is, not by where it stands, so that a rebuild splits it alike.
+        let which = n + 1000 * body.len() as u32;
+        for (member, detuning) in splitting.members(mode.m, which) {
             let gel_turn = match member {
                 Member::Cosine => turn.cos(),
                 Member::Sine => turn.sin(),

@@ -57,10 +57,8 @@ impl Gain {
     }
 
     fn set_db(&mut self, db: f64) {
-        if !db.is_nan() {
-            let db = db.min(LOUDEST_DB);
-            self.target = if db <= SILENT_DB { 0.0 } else { 10.0_f64.powf(db / 20.0) as f32 };
-        }
+        let db = db.min(LOUDEST_DB);
+        self.target = if db <= SILENT_DB { 0.0 } else { 10.0_f64.powf(db / 20.0) as f32 };
     }
 
     fn next(&mut self) -> f32 {
@@ -149,11 +147,15 @@ impl Kit {
         }
     }
 
-    /// Moves a control from the next sample on. A piece that does not belong to the kit is ignored.
+    /// Moves a control from the next sample on, to the nearest end of its range if beyond it. A NaN
+    /// is ignored, and so is a piece that does not belong to the kit.
     ///
     /// # Real-time
     /// No allocation, no lock.
     pub fn set(&mut self, control: Control, value: f64) {
+        if value.is_nan() {
+            return;
+        }
         match control {
             Control::Master => self.master.set_db(value),
             Control::Level(id) => {

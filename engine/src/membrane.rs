@@ -9,11 +9,11 @@
 //! ```
 //!
 //! The added mass depends on the frequency, which is found by fixed point. Losses are the film's
-//! own and what the radiating faces send out, `R / (2 M_total)`.
+//! own; what a head sends out depends on what it is part of, see [`drum`](crate::drum).
 //!
 //! Source: Morse & Ingard, Theoretical Acoustics, ch. 5; Rossing, Science of Percussion Instruments.
 
-use crate::air::{self, LoadCurve, MembraneAir};
+use crate::air::{self, MassCurve, MembraneAir};
 use crate::contact::Material;
 use crate::damping::LossLaw;
 use crate::error::SpecError;
@@ -64,7 +64,7 @@ pub struct MembraneMode {
     /// `N`.
     pub norm: f64,
     /// Load of one face.
-    load: LoadCurve,
+    load: MassCurve,
 }
 
 /// Where a mode rings at some tension.
@@ -72,7 +72,7 @@ pub struct MembraneMode {
 pub struct Ringing {
     /// Undamped angular frequency, rad/s.
     pub omega: f64,
-    /// Decay rate, film and radiation, 1/s.
+    /// Decay rate by the film's own losses, 1/s.
     pub sigma: f64,
     /// Modal mass with the air it carries, kg.
     pub mass: f64,
@@ -82,7 +82,6 @@ pub struct Ringing {
 #[derive(Debug, Clone)]
 pub struct Membrane {
     spec: MembraneSpec,
-    surroundings: Surroundings,
     modes: Vec<MembraneMode>,
 }
 
@@ -147,18 +146,17 @@ impl Membrane {
         let reach = MembraneAir::reach(candidates.last().map_or(0.0, |last| last.2));
         let orders = candidates.iter().map(|c| c.0).max().unwrap_or(0);
         let tables = JTable::orders(orders, reach);
-        let mut membrane = Membrane { spec, surroundings, modes: Vec::with_capacity(candidates.len()) };
+        let mut membrane = Membrane { spec, modes: Vec::with_capacity(candidates.len()) };
         for (m, n, zero) in candidates {
             let norm = air::shape_norm(m, bessel::j_prime(m, zero));
-            let bare = MembraneMode { m, n, zero, norm, load: LoadCurve::VACUUM };
+            let bare = MembraneMode { m, n, zero, norm, load: MassCurve::VACUUM };
             let load = match surroundings {
-                Surroundings::Vacuum => LoadCurve::VACUUM,
+                Surroundings::Vacuum => MassCurve::VACUUM,
                 Surroundings::Air => {
-                    // The unloaded frequency is the highest; air lowers it to no less than a fifth.
-                    let u =
-                        |tension| membrane.ringing(&bare, tension).omega * spec.radius / air::SPEED_OF_SOUND;
-                    let table = &tables[m as usize];
-                    MembraneAir::new(m, table).curve(zero, 0.2 * u(range.tension[0]), u(range.tension[1]))
+                    let air = MembraneAir::new(m, &tables[m as usize]);
+                    let [low, high] = range.tension.map(|tension| membrane.rough_u(&bare, tension, &air));
+                    // A shell couples modes to where a head by itself would not ring.
+                    air.curve(zero, 0.6 * low, 1.6 * high)
                 }
             };
             let mode = MembraneMode { load, ..bare };
@@ -174,6 +172,16 @@ impl Membrane {
     pub fn by_order(mut self) -> Membrane {
         self.modes.sort_by_key(|mode| (mode.m, mode.n));
         self
+    }
+
+    /// About where a mode not yet given its load rings at a tension, `omega a / c`.
+    fn rough_u(&self, mode: &MembraneMode, tension: f64, air: &MembraneAir) -> f64 {
+        let force = self.stiffness(mode, tension) * self.spec.area();
+        let film = self.spec.area_density() * self.spec.area();
+        let u = |mass: f64| (force / mass).sqrt() * self.spec.radius / air::SPEED_OF_SOUND;
+        let mass = |u| film + 2.0 * air::DENSITY * self.spec.radius.powi(3) * air.mass(mode.zero, u);
+        // Each round gains a digit or more.
+        (0..3).fold(u(film), |rough, _| u(mass(rough)))
     }
 
     /// The head.
@@ -203,7 +211,7 @@ impl Membrane {
     /// Mass of the air on one face at an angular frequency, kg.
     pub fn face_mass(&self, mode: &MembraneMode, omega: f64) -> f64 {
         let u = omega * self.spec.radius / air::SPEED_OF_SOUND;
-        air::DENSITY * self.spec.radius.powi(3) * mode.load.at(u).mass
+        air::DENSITY * self.spec.radius.powi(3) * mode.load.at(u)
     }
 
     /// `T k^2 + D k^4`, N/m3.
@@ -233,13 +241,7 @@ impl Membrane {
                 break;
             }
         }
-        let u = omega * self.spec.radius / air::SPEED_OF_SOUND;
-        let resistance = air::DENSITY * omega * self.spec.radius.powi(3) * mode.load.at(u).resistance;
-        let radiated = match self.surroundings {
-            Surroundings::Vacuum => 0.0,
-            Surroundings::Air => resistance / (2.0 * mass),
-        };
-        Ringing { omega, sigma: self.spec.loss.sigma(omega) + radiated, mass }
+        Ringing { omega, sigma: self.spec.loss.sigma(omega), mass }
     }
 
     /// The tension (N/m) that puts mode `(m, n)` at a frequency (Hz); `None` if there is no such mode.

@@ -268,11 +268,15 @@ impl Piece {
         }
     }
 
-    /// Strikes at the next sample.
+    /// Strikes at the next sample. Speed and radius are clamped; a stroke with a number that is not
+    /// finite is not played.
     ///
     /// # Real-time
     /// No allocation, no lock; cost is linear in the number of modes.
     pub fn strike(&mut self, strike: &Strike) {
+        if !strike.is_finite() {
+            return;
+        }
         match &mut self.voice {
             Voice::Drum(drum) => drum.strike(strike),
             Voice::Cymbal(cymbal) => cymbal.surface_mut().strike(strike),

@@ -20,6 +20,11 @@ pub struct Strike {
 impl Strike {
     /// Fastest stroke accepted, m/s; faster ones are clamped.
     pub const MAX_SPEED: f64 = 25.0;
+
+    /// Whether every number is one; a stroke that is not is not played.
+    pub fn is_finite(&self) -> bool {
+        self.speed.is_finite() && self.radius.is_finite() && self.angle.is_finite()
+    }
 }
 
 /// What a drummer holds (or stands on).

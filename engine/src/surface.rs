@@ -400,7 +400,10 @@ impl Surface {
     pub fn reset(&mut self) {
         self.body.reset();
         self.beyond.iter_mut().for_each(NonlinearForce::reset);
-        self.strikers.iter_mut().for_each(|striker| striker.present = false);
+        for striker in &mut self.strikers {
+            // Which place the next stroke takes hangs on all of these.
+            (striker.present, striker.touching, striker.age) = (false, false, 0);
+        }
         self.any_present = false;
         self.departed_energy = 0.0;
     }

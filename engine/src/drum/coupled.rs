@@ -84,6 +84,8 @@ pub struct CoupledMode {
     pub direction: Vec<f64>,
     /// Share of the kinetic energy that is the batter's, and the resonant head's; the rest is the air's.
     pub share: [f64; 2],
+    /// The same for every head mode and then every cavity mode.
+    pub shares: Vec<f64>,
     /// Area of the monopole in a baffle that would radiate its power at unit modal acceleration, m2.
     pub monopole_area: f64,
 }
@@ -191,9 +193,11 @@ impl<'a> OrderProblem<'a> {
         let Solution { omega, vector, direction } = solution;
         let heads = parts.len();
         let mut share = [0.0; 2];
+        let mut shares = Vec::with_capacity(vector.len());
         let mut sigma = 0.0;
         for ((part, mass), x) in parts.iter().zip(masses).zip(&vector) {
             let kinetic = mass * x * x;
+            shares.push(kinetic);
             share[usize::from(part.far)] += kinetic;
             sigma += kinetic * part.head.membrane.spec().loss.sigma(omega);
         }
@@ -201,6 +205,7 @@ impl<'a> OrderProblem<'a> {
             let springs = cavity.modes.iter().filter(|mode| mode.omega > 0.0);
             for (mode, y) in springs.zip(&vector[heads..]) {
                 let kinetic = mode.spring / (mode.omega * mode.omega) * y * y;
+                shares.push(kinetic);
                 // A loss factor, not a dashpot: air that only rides along loses as slowly as it moves.
                 sigma += kinetic * omega / (2.0 * self.cavity_q);
             }
@@ -209,7 +214,7 @@ impl<'a> OrderProblem<'a> {
         let radius = self.batter.membrane.spec().radius;
         sigma += 0.5 * DENSITY * omega * radius.powi(3) * resistance;
         let monopole_area = air::monopole_area(radius, resistance, omega);
-        CoupledMode { omega, sigma, vector, direction, share, monopole_area }
+        CoupledMode { omega, sigma, vector, direction, share, shares, monopole_area }
     }
 
     /// Radiation resistance over `rho omega a^3` at unit modal displacement.

@@ -105,7 +105,7 @@ impl DrumSpec {
         DrumSpec {
             pitch_hz: (35.0, 55.0, 90.0),
             muffler: Muffler::Pillow { sigma: 21.0 },
-            ..DrumSpec::two_headed(22.0, 18.0, batter, DrumSpec::single_ply(22.0, 1.10, 700.0))
+            ..DrumSpec::two_headed(22.0, 18.0, batter, DrumSpec::single_ply(22.0, 1.10, 1000.0))
         }
     }
 
@@ -120,7 +120,7 @@ impl DrumSpec {
     /// Toms: two-ply batter, single-ply resonant head.
     fn tom(diameter_in: f64, depth_in: f64) -> DrumSpec {
         let batter = (TWO_PLY, LossLaw { constant: 3.0, per_khz: 5.0 });
-        DrumSpec::two_headed(diameter_in, depth_in, batter, DrumSpec::single_ply(diameter_in, 1.15, 1200.0))
+        DrumSpec::two_headed(diameter_in, depth_in, batter, DrumSpec::single_ply(diameter_in, 1.15, 1500.0))
     }
 
     /// 12 x 9 in rack tom.

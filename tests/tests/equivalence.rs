@@ -1,0 +1,188 @@
+//! The same strikes and controls give the same samples, bit for bit, however time is cut; rest is rest.
+
+use overhear_engine::kit::{Control, Kit};
+use overhear_engine::piece::{Piece, PieceId};
+use overhear_engine::strike::{Strike, Striker};
+use overhear_tests::{Chance, RATES, kit, piece, render, stroke, total_energy};
+
+#[derive(Debug, Clone, Copy)]
+enum Action {
+    Strike(PieceId, Strike),
+    Set(Control, f64),
+    /// A newly built snare takes the place of the one that plays.
+    Replace,
+}
+
+/// What happens at which sample, in order.
+type Score = Vec<(usize, Action)>;
+
+const LENGTH: usize = 12_011;
+
+/// Strikes and controls on every piece at odd samples, many of them close together.
+fn score(seed: u64) -> Score {
+    let mut chance = Chance::new(seed);
+    let mut score: Score = (0..90)
+        .map(|_| {
+            let id = chance.of(&PieceId::KIT);
+            let (low, _, high) = Piece::tuning_range(id);
+            let action = match chance.below(6) {
+                0 => Action::Set(Control::Tuning(id), chance.between(low, high)),
+                1 => Action::Set(Control::Muffling(id), chance.unit()),
+                2 => Action::Set(Control::Level(id), chance.between(-70.0, 6.0)),
+                3 => Action::Set(Control::Master, chance.between(-20.0, 6.0)),
+                _ => Action::Strike(id, chance.stroke(8.0)),
+            };
+            (chance.below(LENGTH / 2) * 2 + 1, action)
+        })
+        .collect();
+    score.push((5_001, Action::Replace));
+    score.sort_by_key(|&(at, _)| at);
+    score
+}
+
+fn act(kit: &mut Kit, action: Action, spare: &mut Option<Box<Piece>>) {
+    match action {
+        Action::Strike(id, strike) => kit.strike(id, &strike),
+        Action::Set(control, value) => kit.set(control, value),
+        Action::Replace => *spare = spare.take().and_then(|spare| kit.install(spare)),
+    }
+}
+
+/// Plays a score in buffers of the lengths that `buffer` gives; both outputs.
+fn play(
+    kit: &mut Kit,
+    spare: &mut Option<Box<Piece>>,
+    score: &Score,
+    mut buffer: impl FnMut() -> usize,
+) -> Vec<[u32; 2]> {
+    let (mut left, mut right) = (vec![f32::NAN; LENGTH], vec![f32::NAN; LENGTH]);
+    let (mut done, mut buffer_end) = (0, 0);
+    let mut events = score.iter().peekable();
+    while done < LENGTH {
+        if done == buffer_end {
+            buffer_end = (done + buffer()).min(LENGTH);
+        }
+        while let Some((_, action)) = events.next_if(|&&(at, _)| at == done) {
+            act(kit, *action, spare);
+        }
+        let end = events.peek().map_or(buffer_end, |&&(at, _)| at.min(buffer_end));
+        kit.render(&mut left[done..end], &mut right[done..end]);
+        done = end;
+    }
+    left.iter().zip(&right).map(|(left, right)| [left.to_bits(), right.to_bits()]).collect()
+}
+
+/// Puts the controls where they are in a new kit, and all to rest.
+fn start_over(kit: &mut Kit, spare: &mut Option<Box<Piece>>) {
+    kit.set(Control::Master, 0.0);
+    for id in PieceId::KIT {
+        kit.set(Control::Tuning(id), Piece::tuning_range(id).1);
+        kit.set(Control::Muffling(id), 0.0);
+        kit.set(Control::Level(id), 0.0);
+    }
+    kit.reset();
+    spare.iter_mut().for_each(|spare| spare.reset());
+}
+
+fn buffers_do_not_matter(rate: f64) {
+    let mut kit = kit(rate);
+    let mut spare = Some(Box::new(piece(PieceId::Snare, rate)));
+    let score = score(rate as u64);
+    let whole = play(&mut kit, &mut spare, &score, || LENGTH);
+    assert!(whole.iter().filter(|&&[left, _]| f32::from_bits(left).abs() > 1e-3).count() > LENGTH / 2);
+    for length in [1, 17, 64, 512, 8192] {
+        start_over(&mut kit, &mut spare);
+        assert!(whole == play(&mut kit, &mut spare, &score, || length), "buffers of {length} at {rate} Hz");
+    }
+    for seed in 0..3 {
+        start_over(&mut kit, &mut spare);
+        let mut chance = Chance::new(seed);
+        let random = || 1 + chance.below(1 << (1 + seed * 4));
+        assert!(whole == play(&mut kit, &mut spare, &score, random), "random buffers at {rate} Hz");
+    }
+}
+
+#[test]
+fn the_hosts_buffer_changes_no_sample_at_44_1_khz() {
+    buffers_do_not_matter(RATES[0]);
+}
+
+#[test]
+fn the_hosts_buffer_changes_no_sample_at_48_khz() {
+    buffers_do_not_matter(RATES[1]);
+}
+
+#[test]
+fn the_hosts_buffer_changes_no_sample_at_96_khz() {
+    buffers_do_not_matter(RATES[2]);
+}
+
+#[test]
+fn a_kit_reset_plays_as_a_new_one() {
+    let score = score(7);
+    let spare = || Some(Box::new(piece(PieceId::Snare, RATES[0])));
+    let mut random = Chance::new(3);
+    let new = play(&mut kit(RATES[0]), &mut spare(), &score, || 512);
+    // Left in the middle of a block, with controls on their way and strikers about.
+    let mut used = kit(RATES[0]);
+    play(&mut used, &mut spare(), &self::score(8), || 1 + random.below(99));
+    for id in PieceId::KIT {
+        used.set(Control::Tuning(id), 1.0);
+        used.strike(id, &stroke(Striker::Nylon, 5.0, 0.3, 0.0));
+    }
+    used.render(&mut [0.0; 7], &mut [0.0; 7]);
+    start_over(&mut used, &mut None);
+    assert!(new == play(&mut used, &mut spare(), &score, || 512));
+}
+
+#[test]
+fn a_piece_reset_plays_as_a_new_one() {
+    for id in PieceId::ALL {
+        let mut new = piece(id, RATES[0]);
+        let mut used = piece(id, RATES[0]);
+        // Reset while it rings, is muffled, and two of three strikers still touch or may again.
+        used.strike(&stroke(Striker::Stick, 9.0, 0.8, 0.0));
+        used.set_muffling(0.7);
+        used.render(&mut [0.0; 1003]);
+        used.strike(&stroke(Striker::YarnMallet, 1.0, 0.3, 0.0));
+        used.strike(&stroke(Striker::FeltBeater, 1.0, 0.5, 1.0));
+        used.render(&mut [0.0; 5]);
+        used.set_muffling(0.0);
+        used.reset();
+        assert_eq!(total_energy(&used), 0.0);
+        let roll = |piece: &mut Piece| -> Vec<f32> {
+            let mut chance = Chance::new(5);
+            let stroke = |_| {
+                piece.strike(&chance.stroke(6.0));
+                render(piece, 0.003, RATES[0])
+            };
+            (0..12).flat_map(stroke).collect()
+        };
+        assert!(roll(&mut new) == roll(&mut used), "{id:?}");
+    }
+}
+
+#[test]
+fn a_piece_left_alone_comes_to_rest_exactly_and_by_no_denormals() {
+    const RATE: f64 = 22_050.0;
+    // The larger cymbals take a minute and are no different.
+    for id in PieceId::ALL.into_iter().filter(|&id| id.is_drum() || id == PieceId::Splash) {
+        let mut piece = piece(id, RATE);
+        piece.strike(&stroke(Striker::Stick, 0.5, 0.4, 1.0));
+        let mut seconds = 0;
+        while !piece.surface_mut().is_still() {
+            let sound = render(&mut piece, 1.0, RATE);
+            let body = piece.surface_mut().body();
+            for k in 0..body.len() {
+                assert!(!body.displacement(k).is_subnormal(), "{id:?}, mode {k} after {seconds} s");
+            }
+            // What is heard is a sum over the modes; zero, once there is nothing.
+            assert!(sound.iter().all(|x| !x.is_subnormal()));
+            seconds += 1;
+            assert!(seconds < 120, "{id:?} still moves");
+        }
+        assert_eq!(piece.energy(), 0.0);
+        assert!(render(&mut piece, 0.1, RATE).iter().all(|&x| x == 0.0));
+        println!("{id:?}: still after {seconds} s");
+    }
+}

@@ -1,0 +1,208 @@
+//! Nothing is gained: energy falls or stays, strikers leave no faster than they came, and numbers stay
+//! finite whatever is asked.
+
+use std::cell::RefCell;
+
+use overhear_engine::kit::Control;
+use overhear_engine::piece::{Piece, PieceId};
+use overhear_engine::snapshot::KitSnapshot;
+use overhear_engine::strike::{Strike, Striker};
+use overhear_tests::{Chance, brought_by, kit, lossless_piece, piece, render, stroke, total_energy};
+use proptest::prelude::*;
+use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
+
+const RATE: f64 = 44_100.0;
+
+#[test]
+fn energy_falls_once_the_striker_has_left() {
+    let mut worst = 0.0_f64;
+    for id in PieceId::ALL {
+        let mut piece = piece(id, RATE);
+        for striker in [Striker::Stick, Striker::YarnMallet] {
+            piece.reset();
+            piece.strike(&stroke(striker, 5.0, 0.55, 2.0));
+            while piece.striker_energy() > 0.0 {
+                render(&mut piece, 0.01, RATE);
+            }
+            let mut before = piece.energy();
+            assert!(before > 0.0);
+            for _ in 0..1500 {
+                render(&mut piece, 32.0 / RATE, RATE);
+                let after = piece.energy();
+                worst = worst.max(after / before - 1.0);
+                // A sample's rounding is 6e-8.
+                assert!(after <= before * (1.0 + 1e-6), "{id:?}: {before} J, then {after} J");
+                before = after;
+            }
+        }
+    }
+    println!("largest rise in a block: {worst:.1e}");
+}
+
+thread_local! {
+    /// `[piece]`; building one for every case would take minutes.
+    static PIECES: RefCell<Vec<Piece>> = RefCell::new(PieceId::ALL.map(|id| piece(id, RATE)).into());
+}
+
+/// Runs a property over cases that are the same every time.
+fn check<T: std::fmt::Debug>(
+    cases: u32,
+    strategy: impl Strategy<Value = T>,
+    property: impl Fn(T) -> Result<(), TestCaseError>,
+) {
+    let config = Config { cases, failure_persistence: None, max_shrink_iters: 64, ..Config::default() };
+    let rng = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
+    TestRunner::new_with_rng(config, rng).run(&strategy, property).unwrap_or_else(|error| panic!("{error}"));
+}
+
+fn any_stroke(fastest: f64) -> impl Strategy<Value = Strike> {
+    // The very centre and the very rim too.
+    let radius = prop_oneof![4 => 0.0..=1.0, 1 => Just(0.0), 1 => Just(1.0)];
+    (0.01..=fastest, radius, 0.0..6.3, 0..Striker::ALL.len())
+        .prop_map(|(speed, radius, angle, striker)| stroke(Striker::ALL[striker], speed, radius, angle))
+}
+
+/// A piece, how far its tuning is along its range, and its muffling.
+fn any_setting() -> impl Strategy<Value = (usize, f64, f64)> {
+    (0..PieceId::ALL.len(), 0.0..=1.0, prop_oneof![Just(0.0), 0.0..=1.0])
+}
+
+fn set(piece: &mut Piece, tuning: f64, muffling: f64) {
+    let (low, _, high) = Piece::tuning_range(piece.id());
+    piece.set_tuning(low * (high / low).powf(tuning));
+    piece.set_muffling(muffling);
+    piece.reset();
+}
+
+#[test]
+fn no_strike_leaves_a_body_at_rest_faster_than_it_came() {
+    let fastest = RefCell::new((0.0_f64, String::new()));
+    check(400, (any_setting(), any_stroke(Strike::MAX_SPEED)), |((which, tuning, muffling), strike)| {
+        PIECES.with_borrow_mut(|pieces| {
+            let piece = &mut pieces[which];
+            set(piece, tuning, muffling);
+            piece.strike(&strike);
+            let brought = brought_by(&strike);
+            let mut waited = 0;
+            while piece.striker_energy() > 0.0 {
+                render(piece, 0.002, RATE);
+                waited += 1;
+                prop_assert!(waited < 1000, "{:?} {strike:?}: still there", piece.id());
+                prop_assert!(
+                    total_energy(piece) <= brought * (1.0 + 1e-5),
+                    "{:?} {strike:?}: {} J of {brought}",
+                    piece.id(),
+                    total_energy(piece)
+                );
+            }
+            let ratio = f64::from(piece.last_strike().leaving_speed.abs()) / strike.speed;
+            if ratio > fastest.borrow().0 {
+                *fastest.borrow_mut() = (ratio, format!("{:?} {strike:?}", piece.id()));
+            }
+            prop_assert!(ratio <= 1.0, "{:?} {strike:?}: {ratio}", piece.id());
+            prop_assert_eq!(piece.quarantines(), 0);
+            Ok(())
+        })
+    });
+    println!("leaving over arriving at most {:?}", fastest.borrow());
+}
+
+#[test]
+fn a_roll_leaves_no_more_energy_than_it_brought() {
+    let closest = RefCell::new(0.0_f64);
+    let roll = proptest::collection::vec((any_stroke(12.0), 10_usize..3000), 12..24);
+    check(48, (any_setting(), roll), |((which, tuning, muffling), roll)| {
+        PIECES.with_borrow_mut(|pieces| {
+            let piece = &mut pieces[which];
+            set(piece, tuning, muffling);
+            let mut brought = 0.0;
+            for (strike, wait) in roll {
+                piece.strike(&strike);
+                brought += brought_by(&strike);
+                let mut sound = [0.0; 64];
+                for _ in 0..wait.div_ceil(64) {
+                    piece.render(&mut sound);
+                    let total = total_energy(piece);
+                    let mut closest = closest.borrow_mut();
+                    *closest = closest.max(total / brought);
+                    prop_assert!(total <= brought * (1.0 + 1e-5), "{total} J of {brought}");
+                }
+            }
+            prop_assert_eq!(piece.quarantines(), 0);
+            Ok(())
+        })
+    });
+    println!("energy about over energy brought, at most {:.7}", closest.borrow());
+}
+
+#[test]
+fn several_strikers_at_once_keep_the_balance() {
+    let mut worst = 0.0_f64;
+    for (seed, id) in PieceId::ALL.into_iter().enumerate() {
+        let mut piece = lossless_piece(id, RATE);
+        for round in 0..6 {
+            let mut chance = Chance::new(1000 * seed as u64 + round);
+            piece.reset();
+            let mut brought = 0.0;
+            // More than there are places for, close to each other in place and time.
+            for _ in 0..7 {
+                let strike = Strike {
+                    speed: chance.between(0.5, 8.0),
+                    radius: chance.between(0.4, 0.6),
+                    angle: chance.between(0.0, 0.3),
+                    ..chance.stroke(1.0)
+                };
+                piece.strike(&strike);
+                brought += brought_by(&strike);
+                let mut sound = [0.0; 4];
+                for _ in 0..chance.below(12) {
+                    piece.render(&mut sound);
+                    let off = (total_energy(&piece) / brought - 1.0).abs();
+                    worst = worst.max(off);
+                    assert!(off < 1e-4, "{id:?}: {off:.1e}");
+                }
+            }
+            for _ in 0..138 {
+                render(&mut piece, 32.0 / RATE, RATE);
+                let off = (total_energy(&piece) / brought - 1.0).abs();
+                worst = worst.max(off);
+                assert!(off < 1e-4, "{id:?}: {off:.1e}");
+            }
+        }
+    }
+    println!("worst: {worst:.1e}");
+}
+
+#[test]
+fn random_strikes_and_controls_leave_everything_finite() {
+    for (seed, rate) in [22_050.0, 44_100.0, 192_000.0].into_iter().enumerate() {
+        let mut kit = kit(rate);
+        let mut chance = Chance::new(seed as u64);
+        let mut loudest = 0.0_f32;
+        for _ in 0..1500 {
+            let id = chance.of(&PieceId::KIT);
+            match chance.below(4) {
+                0 | 1 => kit.strike(id, &chance.stroke(25.0)),
+                2 => kit.set(Control::Muffling(id), chance.between(-0.5, 1.5)),
+                _ => {
+                    let (low, _, high) = Piece::tuning_range(id);
+                    kit.set(Control::Tuning(id), chance.between(0.5 * low, 1.5 * high));
+                }
+            }
+            let mut sound = [[0.0; 200]; 2];
+            let frames = 1 + chance.below(200);
+            let [left, right] = &mut sound;
+            kit.render(&mut left[..frames], &mut right[..frames]);
+            for &x in sound.as_flattened() {
+                assert!(x.is_finite());
+                loudest = loudest.max(x.abs());
+            }
+        }
+        let mut seen = KitSnapshot::default();
+        kit.snapshot(&mut seen);
+        assert!(seen.pieces.iter().all(|piece| piece.quarantines == 0 && piece.energy.is_finite()));
+        // 1500 strokes of up to 25 m/s: loud, but no run-away.
+        println!("{rate}: peak {loudest}");
+        assert!(loudest < 1000.0, "{loudest}");
+    }
+}

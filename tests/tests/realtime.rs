@@ -1,0 +1,240 @@
+//! What the audio thread must not do: allocate, ask the system for anything, wait.
+//!
+//! Allocations are counted by the allocator of this test. System calls are caught by the kernel
+//! (Linux): a child process forbids itself all of them and renders. A free lock makes no
+//! call, so that the engine names none is read from its source.
+
+use std::path::Path;
+
+use assert_no_alloc::{AllocDisabler, assert_no_alloc, reset_violation_count, violation_count};
+use overhear_engine::kit::{Control, Kit};
+use overhear_engine::piece::{Piece, PieceId};
+use overhear_engine::snapshot::KitSnapshot;
+use overhear_engine::strike::Strike;
+use overhear_tests::{Chance, kit, piece};
+
+#[global_allocator]
+static ALLOCATOR: AllocDisabler = AllocDisabler;
+
+const RATE: f64 = 44_100.0;
+
+/// Everything the audio thread works with, made beforehand.
+struct Stage {
+    kit: Kit,
+    /// Pieces to swap in; what they replace comes back here.
+    spares: Vec<Box<Piece>>,
+    snapshot: KitSnapshot,
+    left: Vec<f32>,
+    right: Vec<f32>,
+    chance: Chance,
+}
+
+/// Numbers that no control expects.
+const ODD: [f64; 10] =
+    [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0, 0.0, -0.0, 1e-310, 1e300, -1e300, f64::MAX];
+
+impl Stage {
+    fn new(seed: u64) -> Stage {
+        Stage {
+            kit: kit(RATE),
+            spares: [PieceId::Snare, PieceId::Splash, PieceId::Timpani]
+                .map(|id| Box::new(piece(id, RATE)))
+                .into(),
+            snapshot: KitSnapshot::default(),
+            left: vec![0.0; 8192],
+            right: vec![0.0; 8192],
+            chance: Chance::new(seed),
+        }
+    }
+
+    /// One thing a host may do, and the buffer after it.
+    fn act(&mut self) {
+        let chance = &mut self.chance;
+        let id = chance.of(&PieceId::ALL);
+        match chance.below(1000) {
+            0..500 => {
+                let stroke = chance.stroke(30.0);
+                self.kit.strike(id, &stroke);
+            }
+            500..530 => {
+                let odd = Strike {
+                    speed: chance.of(&ODD),
+                    radius: chance.of(&ODD),
+                    angle: chance.of(&ODD),
+                    ..chance.stroke(1.0)
+                };
+                self.kit.strike(id, &odd);
+            }
+            530..980 => {
+                let (low, _, high) = Piece::tuning_range(id);
+                let (control, from, to) = match chance.below(4) {
+                    0 => (Control::Tuning(id), 0.8 * low, 1.2 * high),
+                    1 => (Control::Muffling(id), -0.2, 1.2),
+                    2 => (Control::Level(id), -80.0, 30.0),
+                    _ => (Control::Master, -80.0, 30.0),
+                };
+                let value = if chance.below(8) == 0 { chance.of(&ODD) } else { chance.between(from, to) };
+                self.kit.set(control, value);
+            }
+            980..990 => self.kit.snapshot(&mut self.snapshot),
+            990..996 => {
+                // The timpani does not belong to the kit and comes straight back.
+                let spare = chance.below(self.spares.len());
+                let spare = self.spares.swap_remove(spare);
+                self.spares.extend(self.kit.install(spare));
+            }
+            996 => self.kit.finish_controls(),
+            _ => self.kit.reset(),
+        }
+        // Mostly small buffers; now and then the largest.
+        let longest = self.chance.of(&[1, 1, 2, 4, 8, 16, 33, 64]);
+        let frames = if self.chance.below(4000) == 0 { 8192 } else { 1 + self.chance.below(longest) };
+        self.kit.render(&mut self.left[..frames], &mut self.right[..frames]);
+    }
+
+    fn is_sound(&self) -> bool {
+        self.left.iter().chain(&self.right).all(|x| x.is_finite())
+    }
+}
+
+#[test]
+fn nothing_allocates_while_ten_thousand_events_arrive() {
+    let mut stage = Stage::new(1);
+    reset_violation_count();
+    for event in 0..10_000 {
+        assert_no_alloc(|| stage.act());
+        assert_eq!(violation_count(), 0, "at event {event}");
+        assert!(stage.is_sound(), "at event {event}");
+    }
+    stage.kit.snapshot(&mut stage.snapshot);
+    assert!(stage.snapshot.pieces.iter().all(|piece| piece.ready && piece.quarantines == 0));
+    assert_eq!(stage.spares.len(), 3);
+}
+
+#[test]
+fn the_trap_catches_an_allocation_and_a_release() {
+    reset_violation_count();
+    let kept = assert_no_alloc(|| std::hint::black_box(vec![1.0_f32; 100]));
+    assert_eq!(violation_count(), 1);
+    assert_no_alloc(|| drop(std::hint::black_box(kept)));
+    assert_eq!(violation_count(), 2);
+    reset_violation_count();
+}
+
+#[test]
+fn a_stroke_that_is_no_number_is_not_played() {
+    let mut stage = Stage::new(2);
+    for odd in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let sound = Strike { speed: 3.0, radius: 0.4, angle: 0.0, striker: stage.chance.stroke(1.0).striker };
+        for strike in
+            [Strike { speed: odd, ..sound }, Strike { radius: odd, ..sound }, Strike { angle: odd, ..sound }]
+        {
+            stage.kit.strike(PieceId::Snare, &strike);
+            stage.kit.render(&mut stage.left, &mut stage.right);
+            assert!(stage.left.iter().all(|&x| x == 0.0), "{strike:?}");
+        }
+    }
+}
+
+#[test]
+fn a_control_that_is_no_number_changes_nothing() {
+    let mut stage = Stage::new(3);
+    stage.kit.set(Control::Tuning(PieceId::Snare), 300.0);
+    stage.kit.set(Control::Tuning(PieceId::Snare), f64::NAN);
+    stage.kit.finish_controls();
+    let tension = stage.kit.piece(PieceId::Snare).map(Piece::tensions);
+    // Nor what a piece takes over that comes later.
+    let later = stage.spares.remove(0);
+    assert!(stage.kit.install(later).is_some_and(|before| before.id() == PieceId::Snare));
+    assert_eq!(stage.kit.piece(PieceId::Snare).map(Piece::tensions), tension);
+}
+
+#[test]
+fn the_engine_names_no_lock_thread_file_or_clock() {
+    let mut folders = vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("../engine/src")];
+    let mut files = 0;
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(&folder).expect("the engine's source") {
+            let path = entry.expect("a folder's entry").path();
+            if path.is_dir() {
+                folders.push(path);
+                continue;
+            }
+            files += 1;
+            let text = std::fs::read_to_string(&path).expect("a source file");
+            for name in
+                ["std::sync", "std::thread", "std::fs", "std::io", "std::net", "std::time"].into_iter().chain(
+                    ["std::env", "std::process", "Mutex", "RwLock", "Condvar", "println!", "thread_local!"],
+                )
+            {
+                assert!(!text.contains(name), "{name} in {}", path.display());
+            }
+        }
+    }
+    assert!(files > 20, "{files}");
+}
+
+/// In children of this test, which forbid themselves all system calls.
+#[cfg(all(target_os = "linux", any(target_arch = "x86_64", target_arch = "aarch64")))]
+mod system_calls {
+    use std::os::unix::process::ExitStatusExt;
+    use std::process::{Command, ExitStatus};
+
+    use seccompiler::{BpfProgram, SeccompAction, SeccompFilter};
+
+    use super::Stage;
+
+    /// Exit code of a child that got to its end.
+    const DONE: i32 = 42;
+
+    /// From here on any system call of this thread kills the process, but for those that end it (they
+    /// release its signal stack too).
+    fn forbid_system_calls() {
+        let filter = SeccompFilter::new(
+            [libc::SYS_exit_group, libc::SYS_sigaltstack, libc::SYS_munmap].map(|call| (call, vec![])).into(),
+            SeccompAction::KillProcess,
+            SeccompAction::Allow,
+            std::env::consts::ARCH.try_into().expect("a known architecture"),
+        );
+        let program: BpfProgram = filter.expect("a filter").try_into().expect("a program");
+        seccompiler::apply_filter(&program).expect("a kernel that filters");
+    }
+
+    /// Runs one of the ignored tests below in a process of its own.
+    fn child(name: &str) -> ExitStatus {
+        let mut command = Command::new(std::env::current_exe().expect("this test"));
+        command.args(["--exact", &format!("system_calls::{name}"), "--ignored", "--nocapture"]);
+        command.status().expect("a child")
+    }
+
+    #[test]
+    #[ignore = "run in a child process by the test below"]
+    fn child_that_renders() {
+        let mut stage = Stage::new(4);
+        forbid_system_calls();
+        for _ in 0..10_000 {
+            stage.act();
+        }
+        std::process::exit(if stage.is_sound() { DONE } else { 1 });
+    }
+
+    #[test]
+    #[ignore = "run in a child process by the test below"]
+    fn child_that_sleeps() {
+        forbid_system_calls();
+        std::thread::sleep(std::time::Duration::from_nanos(1));
+        std::process::exit(DONE);
+    }
+
+    #[test]
+    fn ten_thousand_events_make_no_system_call() {
+        let status = child("child_that_renders");
+        assert_eq!(status.code(), Some(DONE), "{status}");
+    }
+
+    #[test]
+    fn the_trap_catches_a_system_call() {
+        let status = child("child_that_sleeps");
+        assert_eq!(status.signal(), Some(libc::SIGSYS), "{status}");
+    }
+}
