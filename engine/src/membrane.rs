@@ -155,8 +155,7 @@ impl Membrane {
                 Surroundings::Air => {
                     let air = MembraneAir::new(m, &tables[m as usize]);
                     let [low, high] = range.tension.map(|tension| membrane.rough_u(&bare, tension, &air));
-                    // A shell couples modes to where a head by itself would not ring.
-                    air.curve(zero, 0.6 * low, 1.6 * high)
+                    air.curve(zero, 0.9 * low, 1.1 * high)
                 }
             };
             let mode = MembraneMode { load, ..bare };

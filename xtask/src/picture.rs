@@ -117,6 +117,8 @@ fn draw_spectrogram(area: &Area, channels: [&[f32]; 2], rate: f64) -> Result<(),
         .x_desc("s")
         .y_desc("Hz")
         .x_labels(14)
+        .x_label_formatter(&|seconds| format!("{seconds:.0}"))
+        .y_label_formatter(&|hertz| format!("{hertz:.0}"))
         .axis_style(GRID)
         .label_style(("sans-serif", 16).into_font().color(&INK))
         .draw()?;

@@ -120,18 +120,11 @@ impl<'a> OrderProblem<'a> {
         if parts.is_empty() {
             return Vec::new();
         }
-        // The outer air's mass depends on the frequency: taken first where each head mode would ring
-        // by itself, then where the mode it is most in does.
-        let mut omegas: Vec<f64> =
+        // The outer air's mass depends on the frequency, slowly; it is taken where each head mode would
+        // ring by itself, so that all modes come out of one system and move smoothly with the pitch.
+        let omegas: Vec<f64> =
             parts.iter().map(|part| part.head.membrane.ringing(part.mode, part.head.tension).omega).collect();
-        let mut solved = self.eigenmodes(&parts, &omegas);
-        for _ in 0..2 {
-            for (i, omega) in omegas.iter_mut().enumerate() {
-                let most = solved.iter().max_by(|a, b| a.vector[i].abs().total_cmp(&b.vector[i].abs()));
-                *omega = most.map_or(*omega, |mode| mode.omega);
-            }
-            solved = self.eigenmodes(&parts, &omegas);
-        }
+        let solved = self.eigenmodes(&parts, &omegas);
         let masses = self.head_masses(&parts, &omegas);
         solved.into_iter().map(|mode| self.finish(&parts, &masses, mode)).collect()
     }
