@@ -33,6 +33,8 @@ pub mod airy;
 pub mod coupling;
 #[cfg(test)]
 mod oracle;
+#[cfg(test)]
+mod reference;
 
 use crate::math::quadrature::GaussLegendre;
 use crate::modal::simd::polar::{BLOCK, Circle, Radials, SLOTS};

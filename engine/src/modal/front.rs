@@ -111,4 +111,11 @@ impl ModalBody {
     pub fn displacements(&self) -> &[f32] {
         &self.state.im
     }
+
+    /// Bends the first modes, velocities left as they are, m; for tests and tools.
+    pub fn set_displacements(&mut self, displacements: &[f32]) {
+        for (q, &new) in self.state.im.iter_mut().zip(displacements) {
+            *q = new;
+        }
+    }
 }

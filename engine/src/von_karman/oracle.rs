@@ -60,10 +60,37 @@ impl Oracle {
         }
     }
 
-    /// Energy and gradient at the cosine and sine amplitudes `q` (m), about a common axis.
-    pub fn evaluate(&self, q: &[[f64; 2]]) -> Parts {
+    /// `c_k`, `P_k` and `l_k` of every Airy function and member.
+    pub fn projections(&self, q: &[[f64; 2]]) -> (Vec<f64>, Vec<f64>, Vec<f64>) {
+        let (mut stiffness, mut quadratic, mut linear) = (vec![], vec![], vec![]);
         let (n_r, n_t) = (self.radii.len(), self.angles);
-        // Fields [theta][r].
+        let fields = self.fields(q);
+        for (m, order) in self.airy.iter().enumerate() {
+            for (k, &c) in order.stiffness.iter().enumerate() {
+                for member in 0..if m == 0 { 1 } else { 2 } {
+                    let mut product = 0.0;
+                    for t in 0..n_t {
+                        let (sin, cos) = (m as f64 * TAU * (t as f64 + 0.5) / n_t as f64).sin_cos();
+                        let around = if member == 0 { cos } else { sin };
+                        for r in 0..n_r {
+                            let [a, b, d] = fields[t * n_r + r];
+                            product +=
+                                self.weights[r] * self.airy_shapes[m][k][r] * around * 2.0 * (a * b - d * d);
+                        }
+                    }
+                    let bent = |i: usize| if self.orders[i] as usize == m { self.bends[i][k] } else { 0.0 };
+                    stiffness.push(c);
+                    quadratic.push(product * self.scale);
+                    linear.push((0..q.len()).map(|i| bent(i) * q[i][member]).sum());
+                }
+            }
+        }
+        (stiffness, quadratic, linear)
+    }
+
+    /// `A`, `B`, `D` on the grid, `[angle][r]`.
+    fn fields(&self, q: &[[f64; 2]]) -> Vec<[f64; 3]> {
+        let (n_r, n_t) = (self.radii.len(), self.angles);
         let mut fields = vec![[0.0_f64; 3]; n_r * n_t];
         for t in 0..n_t {
             let theta = TAU * (t as f64 + 0.5) / n_t as f64;
@@ -78,6 +105,13 @@ impl Oracle {
                 }
             }
         }
+        fields
+    }
+
+    /// Energy and gradient at the cosine and sine amplitudes `q` (m), about a common axis.
+    pub fn evaluate(&self, q: &[[f64; 2]]) -> Parts {
+        let (n_r, n_t) = (self.radii.len(), self.angles);
+        let fields = self.fields(q);
         let (mut energy, mut linear) = (0.0, 0.0);
         let mut stress = vec![0.0; n_r * n_t];
         let mut gradient = vec![[0.0; 2]; q.len()];

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use clap::{Args, Subcommand, ValueEnum};
-use overhear_engine::piece::BuildOptions;
+use overhear_engine::piece::{self, BuildOptions};
 use overhear_engine::strike::Strike;
 
 use crate::player::{Blocks, Source};
@@ -112,17 +112,28 @@ impl RenderArguments {
     }
 }
 
-/// Quality of the physics.
+/// How far up a cymbal's modes are coupled.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 pub enum Quality {
-    /// Cheapest.
+    /// To 1 kHz.
     Eco,
-    /// As played by default.
+    /// To 2 kHz, as played by default.
     Standard,
-    /// Richer.
+    /// To 4 kHz.
     High,
-    /// Richest.
+    /// To 8 kHz.
     Offline,
+}
+
+impl From<Quality> for piece::Quality {
+    fn from(quality: Quality) -> piece::Quality {
+        match quality {
+            Quality::Eco => piece::Quality::Eco,
+            Quality::Standard => piece::Quality::Standard,
+            Quality::High => piece::Quality::High,
+            Quality::Offline => piece::Quality::Offline,
+        }
+    }
 }
 
 /// Arguments of `hear`.
@@ -161,13 +172,13 @@ pub struct HearArguments {
     /// Switch all damping and radiation off
     #[arg(long)]
     lossless: bool,
-    /// Switch tension modulation and the coupling of the modes off (no effect yet: neither exists)
+    /// Switch tension modulation and the coupling of the modes off
     #[arg(long)]
     linear: bool,
     /// Build perfectly round bodies, whose pairs of modes share one frequency
     #[arg(long)]
     unsplit: bool,
-    /// Quality of the physics (no effect yet: there is one)
+    /// How far up a cymbal's modes are coupled
     #[arg(long, default_value = "standard")]
     quality: Quality,
 }
@@ -193,6 +204,8 @@ impl HearArguments {
         let mut options = BuildOptions::new(f64::from(self.rate));
         options.lossless = self.lossless;
         options.unsplit = self.unsplit;
+        options.linear = self.linear;
+        options.quality = self.quality.into();
         let settings = settings::parse_for_piece(piece, &self.set)?;
         Ok(hear::Request { piece, strike, settings, options, seconds: self.seconds, wav: self.wav })
     }
