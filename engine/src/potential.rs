@@ -26,7 +26,8 @@
 //! of rank one; the contact solver needs to know nothing else.
 //!
 //! `g` is evaluated once in `stride` samples, at the displacements that the modes would reach by
-//! themselves in the middle of the stretch: second order, and no phase lag.
+//! themselves in the middle of the stretch: second order, and no phase lag. Where the potential's share of
+//! the energy has become weak, the errors are too, and every other evaluation is left out.
 //!
 //! Drift: `psi` follows the path, not the true energy, and errors add up. At each evaluation `U` is
 //! known, hence where `psi` ought to be; a share of the difference is made up, and the energy that
@@ -92,6 +93,10 @@ const SLOW_TIME: f64 = 1.6e-3;
 /// octave of a soft stroke by 0.06 dB, 1e-3 some by 0.2 dB.
 const NEGLIGIBLE: f64 = 3e-4;
 
+/// Share of the energy under which a potential is weak. *Measured* on the crash: no third octave moves by
+/// 0.09 dB.
+const WEAK: f64 = 0.05;
+
 /// Peaks over this window and the one before.
 #[derive(Debug, Clone, Copy, Default)]
 struct Peaks {
@@ -103,8 +108,11 @@ struct Peaks {
 pub struct NonlinearForce {
     potential: Box<dyn Potential>,
     front: Front,
-    /// Samples between evaluations, at least 1.
+    /// Samples between evaluations while it is strong, at least 1, and now.
+    strong_stride: u32,
     stride: u32,
+    /// Share of the energy under which it is weak.
+    weak: f64,
     /// Factor on the potential.
     stiffness: f64,
     dt: f64,
@@ -136,6 +144,8 @@ pub struct NonlinearForce {
     predicted: Row,
     gradient: Row,
     peaks: Peaks,
+    /// Share of the energy over the last windows.
+    share: f64,
     /// All that was exchanged between `psi` and the modes since it was built, J, without sign.
     exchanged: f64,
 }
@@ -152,7 +162,9 @@ impl NonlinearForce {
         let mut force = NonlinearForce {
             potential,
             front: Front::new(modes),
+            strong_stride: stride.max(1),
             stride: stride.max(1),
+            weak: WEAK,
             stiffness: 1.0,
             dt: 1.0 / sample_rate,
             negligible: NEGLIGIBLE,
@@ -173,6 +185,7 @@ impl NonlinearForce {
             predicted: zero_row(modes),
             gradient: zero_row(modes),
             peaks: Peaks::default(),
+            share: f64::INFINITY,
             exchanged: 0.0,
         };
         force.follow(body, pickup);
@@ -191,8 +204,14 @@ impl NonlinearForce {
 
     /// Evaluates once in `stride` samples from now on; [`follow`](Self::follow) must be called after.
     pub fn set_stride(&mut self, stride: u32) {
-        self.stride = stride.max(1);
+        self.strong_stride = stride.max(1);
+        self.stride = self.strong_stride;
         self.countdown = 0;
+    }
+
+    /// Is weak under another share of the energy; under 0 never. For comparisons.
+    pub fn set_weak(&mut self, share: f64) {
+        self.weak = share;
     }
 
     /// Whether it acts; otherwise it rests.
@@ -244,6 +263,7 @@ impl NonlinearForce {
             self.peaks = Peaks::default();
             self.window = 0;
         }
+        self.share = f64::INFINITY;
     }
 
     /// Lets it rest if it has found itself negligible; on the clock that blocks are cut by, so that
@@ -268,6 +288,12 @@ impl NonlinearForce {
         body.keep(&mut self.front);
         let due = self.countdown == 0 && !self.done;
         if due {
+            let weak = self.judge();
+            let stride = if weak { 2 * self.strong_stride } else { self.strong_stride };
+            if stride != self.stride {
+                self.stride = stride;
+                body.face(&mut self.front, pickup, 0.5 * f64::from(stride));
+            }
             self.countdown = self.stride;
             self.evaluate(body);
             body.connect(&mut self.port);
@@ -329,7 +355,7 @@ impl NonlinearForce {
         } else {
             self.exchange(body, psi - ahead, kinetic);
         }
-        self.judge(energy.abs(), kinetic);
+        self.count(energy.abs(), kinetic);
     }
 
     /// Keeps `C` above the depth, lets it sink where it need not be so high.
@@ -362,25 +388,35 @@ impl NonlinearForce {
         }
     }
 
-    /// Rests where the peaks over a window say that nothing is left to do.
-    fn judge(&mut self, potential: f64, kinetic: f64) {
+    /// Counts what an evaluation found; rests where the peaks say that nothing is left to do.
+    fn count(&mut self, potential: f64, kinetic: f64) {
         let Peaks { potential: p, kinetic: t } = &mut self.peaks;
         p[1] = p[1].max(potential);
         t[1] = t[1].max(kinetic);
-        self.window += 1;
-        if f64::from(self.window * self.stride) * self.dt < WINDOW {
+        self.window += self.stride;
+        if f64::from(self.window) * self.dt < WINDOW {
             return;
         }
-        let share = p[0].max(p[1]) / t[0].max(t[1]).max(f64::MIN_POSITIVE);
         let known = t[0] > 0.0;
+        let share = p[0].max(p[1]) / t[0].max(t[1]).max(f64::MIN_POSITIVE);
         (p[0], t[0]) = (p[1], t[1]);
         (p[1], t[1]) = (0.0, 0.0);
         self.window = 0;
-        if known && share < self.negligible {
+        self.share = if known { share } else { f64::INFINITY };
+        if self.share < self.negligible {
             self.done = true;
             self.psi = 0.0;
             self.port.shape_mut().fill(0.0);
         }
+    }
+
+    /// Whether it is weak: judged by the windows, but a blow counts at once.
+    fn judge(&mut self) -> bool {
+        let (p, t) = (self.peaks.potential[1], self.peaks.kinetic[1]);
+        if p > self.weak * t {
+            self.share = self.share.max(self.weak);
+        }
+        self.share < self.weak
     }
 }
 

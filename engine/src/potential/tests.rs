@@ -153,8 +153,8 @@ impl Potential for Dome {
         let p: f64 = (0..MODES).map(|k| weight(k) * q(k) * q(k)).sum();
         let l: f64 = (0..MODES).map(|k| self.0 * q(k)).sum();
         gradient.fill(0.0);
-        for k in 0..MODES {
-            gradient[k] = (4.0 * (p + l) * weight(k) * q(k) + 2.0 * p * self.0) as f32;
+        for (k, g) in gradient.iter_mut().enumerate().take(MODES) {
+            *g = (4.0 * (p + l) * weight(k) * q(k) + 2.0 * p * self.0) as f32;
         }
         Evaluation { energy: p * p + 2.0 * p * l, depth: l * l }
     }

@@ -114,11 +114,11 @@ impl Modes {
                 break;
             }
         }
-        for k in 0..n {
+        for (k, force) in force.into_iter().enumerate() {
             let w = self.omega[k];
             if w > 0.0 {
                 let (sin, cos) = (w * dt).sin_cos();
-                let held = force[k] / (self.mass * w * w);
+                let held = force / (self.mass * w * w);
                 self.v[k] = self.v[k] * cos - w * (self.q[k] - held) * sin;
             }
         }

@@ -20,9 +20,10 @@ pub const BLOCK: usize = 3;
 
 /// Transform between spectrum and field for one number of orders and angles.
 pub struct Circle {
-    /// Rows of even and of odd orders, padded.
+    /// Rows of even and of odd orders, padded, and without.
     evens: usize,
     odds: usize,
+    orders: [usize; 2],
     /// Angles in a quarter turn.
     quarter: usize,
     /// `[angle block][row][angle][cos, sin]`.
@@ -60,7 +61,7 @@ impl Circle {
             .flat_map(|block| (0..quarter).map(move |angle| (block, angle)))
             .map(|(block, angle)| pack(&|i| turn(block * BLOCK + i, angle)))
             .collect();
-        Circle { evens, odds, quarter, unfold, fold }
+        Circle { evens, odds, orders: [highest / 2 + 1, highest.div_ceil(2)], quarter, unfold, fold }
     }
 
     /// Rows of a spectrum.
@@ -225,12 +226,14 @@ impl Kernel for Unfold<'_> {
     type Output = ();
     #[inline(always)]
     fn with<S: Simd>(self, simd: S, fma: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s + Copy) {
-        let Circle { evens, unfold, .. } = self.circle;
+        let Circle { evens, orders, unfold, .. } = self.circle;
         let rows = self.circle.rows();
         let spectrum = S::as_simd_f32s(self.spectrum).0;
         let field = S::as_mut_simd_f32s(self.field).0;
         let w = spectrum.len() / (2 * rows);
         let (even_rows, odd_rows) = spectrum.split_at(2 * w * evens);
+        // What fills up the blocks is zero.
+        let (even_rows, odd_rows) = (&even_rows[..2 * w * orders[0]], &odd_rows[..2 * w * orders[1]]);
         for (turns, out) in unfold.chunks_exact(rows).zip(field.chunks_exact_mut(4 * BLOCK * w)) {
             let (even_turns, odd_turns) = turns.split_at(*evens);
             for v in 0..w {
