@@ -62,7 +62,8 @@ pub fn run() -> Result<()> {
     tests(&mut tally, "tests", &mut all);
     if workspace::root().join("tests/tests/realtime.rs").exists() {
         let mut realtime = workspace::cargo();
-        realtime.args(["test", "--release", "--package", "overhear-tests", "--test", "realtime"]);
+        realtime.args(["test", "--release", "--package", "overhear-tests"]);
+        realtime.args(["--test", "realtime", "--test", "process"]);
         tests(&mut tally, "real-time tests in release", &mut realtime);
     }
     drop(display);

@@ -1,0 +1,34 @@
+//! What the documents name exists.
+
+use std::path::Path;
+
+/// The words between backquotes in a document at the root of the workspace.
+fn quoted(document: &str) -> Vec<String> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let text = std::fs::read_to_string(root.join(document)).unwrap();
+    // Fenced blocks hold pictures and commands, not names.
+    let prose: String = text.split("```").step_by(2).collect();
+    prose.split('`').skip(1).step_by(2).map(str::to_owned).collect()
+}
+
+#[test]
+fn every_path_the_architecture_names_exists() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let is_path = |word: &&String| word.contains('/') && !word.contains(' ');
+    let words = quoted("ARCHITECTURE.md");
+    let paths: Vec<_> = words.iter().filter(is_path).collect();
+    assert!(paths.len() > 30, "{paths:?}");
+    let missing: Vec<_> = paths.iter().filter(|path| !root.join(path).exists()).collect();
+    assert!(missing.is_empty(), "not there: {missing:?}");
+}
+
+#[test]
+fn every_file_the_readme_links_to_exists() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let text = std::fs::read_to_string(root.join("README.md")).unwrap();
+    let links: Vec<&str> = text.split("](").skip(1).filter_map(|rest| rest.split(')').next()).collect();
+    assert!(links.len() >= 3, "{links:?}");
+    let missing: Vec<_> =
+        links.iter().filter(|link| !link.contains("://") && !root.join(link).exists()).collect();
+    assert!(missing.is_empty(), "not there: {missing:?}");
+}

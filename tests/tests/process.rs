@@ -1,0 +1,110 @@
+//! What the plugin does in `process`, between the host's buffers and the engine: the same traps as for
+//! the engine by itself.
+
+use assert_no_alloc::{AllocDisabler, assert_no_alloc, reset_violation_count, violation_count};
+use overhear::parameters::PARAMETERS;
+use overhear::performer::Performer;
+use overhear_engine::snapshot::KitSnapshot;
+use overhear_tests::Chance;
+
+#[global_allocator]
+static ALLOCATOR: AllocDisabler = AllocDisabler;
+
+/// A performer with its kit, and what a host gives it.
+struct Session {
+    performer: Performer,
+    snapshot: KitSnapshot,
+    left: Vec<f32>,
+    right: Vec<f32>,
+    chance: Chance,
+}
+
+impl Session {
+    fn new(seed: u64) -> Session {
+        let mut performer = Performer::new(48_000.0);
+        performer.install_kit(48_000.0).expect("a rate that pieces can be built for");
+        Session {
+            performer,
+            snapshot: KitSnapshot::default(),
+            left: vec![0.0; 512],
+            right: vec![0.0; 512],
+            chance: Chance::new(seed),
+        }
+    }
+
+    /// A note, a parameter or a reset, and the slice of a buffer after it.
+    fn act(&mut self) {
+        match self.chance.below(1000) {
+            0..600 => {
+                let note = self.chance.below(128) as u8;
+                let velocity = self.chance.between(-0.1, 1.1) as f32;
+                self.performer.note_on(note, velocity, 9);
+            }
+            600..980 => {
+                // One past the end too: a host may ask for a parameter there is not.
+                let index = self.chance.below(PARAMETERS.len() + 1);
+                let value = self.chance.of(&[f32::NAN, -1e9, -30.0, 0.0, 0.5, 1.0, 60.0, 140.0, 1e9]);
+                self.performer.set_parameter(index, value);
+            }
+            980..998 => self.performer.snapshot(&mut self.snapshot),
+            _ => self.performer.reset(),
+        }
+        let longest = self.chance.of(&[1, 1, 2, 4, 8, 16, 33, 64]);
+        let frames = 1 + self.chance.below(longest);
+        self.performer.render(&mut self.left[..frames], &mut self.right[..frames]);
+    }
+}
+
+#[test]
+fn nothing_allocates_while_ten_thousand_events_are_performed() {
+    let mut session = Session::new(1);
+    reset_violation_count();
+    for event in 0..10_000 {
+        assert_no_alloc(|| session.act());
+        assert_eq!(violation_count(), 0, "at event {event}");
+        assert!(session.left.iter().chain(&session.right).all(|x| x.is_finite()), "at event {event}");
+    }
+    session.performer.snapshot(&mut session.snapshot);
+    assert!(session.snapshot.pieces.iter().all(|piece| piece.ready && piece.quarantines == 0));
+    assert_eq!(session.snapshot.dropped_strikes, 0);
+}
+
+/// In a child of this test, which forbids itself all system calls.
+#[cfg(all(target_os = "linux", any(target_arch = "x86_64", target_arch = "aarch64")))]
+mod system_calls {
+    use std::process::Command;
+
+    use seccompiler::{BpfProgram, SeccompAction, SeccompFilter};
+
+    use super::Session;
+
+    /// Exit code of a child that got to its end.
+    const DONE: i32 = 42;
+
+    #[test]
+    #[ignore = "run in a child process by the test below"]
+    fn child_that_performs() {
+        let mut session = Session::new(2);
+        let allowed = [libc::SYS_exit_group, libc::SYS_sigaltstack, libc::SYS_munmap];
+        let filter = SeccompFilter::new(
+            allowed.map(|call| (call, vec![])).into(),
+            SeccompAction::KillProcess,
+            SeccompAction::Allow,
+            std::env::consts::ARCH.try_into().expect("a known architecture"),
+        );
+        let program: BpfProgram = filter.expect("a filter").try_into().expect("a program");
+        seccompiler::apply_filter(&program).expect("a kernel that filters");
+        for _ in 0..10_000 {
+            session.act();
+        }
+        std::process::exit(DONE);
+    }
+
+    #[test]
+    fn ten_thousand_events_performed_make_no_system_call() {
+        let mut command = Command::new(std::env::current_exe().expect("this test"));
+        command.args(["--exact", "system_calls::child_that_performs", "--ignored", "--nocapture"]);
+        let status = command.status().expect("a child");
+        assert_eq!(status.code(), Some(DONE), "{status}");
+    }
+}
