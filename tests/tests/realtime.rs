@@ -22,6 +22,7 @@ const RATE: f64 = 44_100.0;
 struct Stage {
     kit: Kit,
     /// Pieces to swap in; what they replace comes back here.
+    #[expect(clippy::vec_box, reason = "a kit takes boxes, and boxing allocates")]
     spares: Vec<Box<Piece>>,
     snapshot: KitSnapshot,
     left: Vec<f32>,

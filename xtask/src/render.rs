@@ -127,13 +127,11 @@ fn is_midi(path: &Path) -> bool {
 /// Which song becomes which files.
 fn jobs(request: &Request, songs: &[PathBuf], many: bool) -> Result<Vec<Job>> {
     let into_folder = many || request.output.is_dir();
-    if many {
-        if request.output.is_file() {
-            return Err(bad_input!(
-                "`{}` is a file, accepted for several songs: a folder",
-                request.output.display(),
-            ));
-        }
+    if many && request.output.is_file() {
+        return Err(bad_input!(
+            "`{}` is a file, accepted for several songs: a folder",
+            request.output.display(),
+        ));
     }
     let mut jobs: Vec<Job> = Vec::new();
     for song in songs {
