@@ -1,7 +1,7 @@
 //! The editor: the kit's levels, one piece's motion, its parameters.
 //!
 //! It reads snapshots, mode shapes and parameters and never touches the engine. Drawing is split
-//! into the [surface], the [panels] around it, the [knob] and the [theme]; what stays here is the
+//! into the surface, the panels around it, the knob and the theme; what stays here is the
 //! window: opening it at the size the project stored, and storing the size it is given.
 
 use std::error::Error;

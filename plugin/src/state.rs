@@ -90,19 +90,19 @@ mod tests {
     #[test]
     fn stored_values_are_kept_and_missing_ones_reset() {
         let values = ordered(&[("kktune", ParamValue::F32(61.5))]);
-        assert_eq!((values["kktune"], values["kkmuff"]), (61.5, 0.0));
+        assert_eq!((values["kktune"], values["snmuff"]), (61.5, 0.0));
     }
 
     #[test]
     fn broken_values_are_put_right_and_unknown_ones_dropped() {
         let values = ordered(&[
             ("kktune", ParamValue::F32(1e9)),
-            ("kkmuff", ParamValue::F32(f32::NAN)),
+            ("snmuff", ParamValue::F32(f32::NAN)),
             ("kklevl", ParamValue::String("loud".into())),
             ("sntune", ParamValue::F32(f32::NEG_INFINITY)),
             ("nobody", ParamValue::F32(1.0)),
         ]);
-        assert_eq!((values["kktune"], values["kkmuff"]), (90.0, 0.0));
+        assert_eq!((values["kktune"], values["snmuff"]), (90.0, 0.0));
         assert_eq!((values["kklevl"], values["sntune"]), (0.0, 140.0));
         assert!(!values.contains_key("nobody"));
     }

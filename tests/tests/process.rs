@@ -1,5 +1,7 @@
 //! What the plugin does in `process`, between the host's buffers and the engine: the same traps as for
 //! the engine by itself.
+//!
+//! `cargo test --package overhear-tests --features traps --test process`
 
 use assert_no_alloc::{AllocDisabler, assert_no_alloc, reset_violation_count, violation_count};
 use overhear::parameters::PARAMETERS;

@@ -16,7 +16,7 @@
 //! R = rho omega a^3 C_m  B / 2  int_0^u  F_b^2 + F_r^2 - 2 F_b F_r cos(k_z l)  ds
 //! ```
 //!
-//! the heads radiate into all of space (`B` = 1, see [`shadow`](super::shadow)) as two layers the length `l` apart: a
+//! the heads radiate into all of space (`B` = 1, see [`shadow`]) as two layers the length `l` apart: a
 //! motion of both the same way moves no net air and rings on, one against the other is a monopole
 //! and dies. `l` is the shell's length and what the air around a disc of no length adds, `8 a / (3 pi)`.
 //!
