@@ -43,8 +43,8 @@ struct BodyMode {
 /// What muffling takes from the modes.
 #[derive(Debug, Clone, PartialEq)]
 enum MufflerCoefs {
-    /// Decay rate of the batter's own motion at full amount, 1/s.
-    Pillow(f64),
+    /// Decay rates of the batter's own motion and of the air's along the drum at full amount, 1/s.
+    Pillow(f64, f64),
     /// Dashpot at full amount, kg/s, and the batter's radial functions where it lies, `[batter mode]`.
     Gel(f64, Vec<f64>),
 }
@@ -312,7 +312,7 @@ fn lay_out(spec: &DrumSpec, blueprint: &Blueprint, options: &BuildOptions) -> Ve
 impl MufflerCoefs {
     fn new(spec: &DrumSpec, blueprint: &Blueprint) -> MufflerCoefs {
         match spec.muffler {
-            Muffler::Pillow { sigma } => MufflerCoefs::Pillow(sigma),
+            Muffler::Pillow { sigma, flow } => MufflerCoefs::Pillow(sigma, flow),
             Muffler::Gel { sigma, radius, .. } => {
                 let film = spec.batter.membrane.area_density() * spec.batter.membrane.area();
                 MufflerCoefs::Gel(2.0 * film * sigma, blueprint.batter.membrane.radial_shapes(&[radius]))
@@ -323,7 +323,7 @@ impl MufflerCoefs {
     /// Decay rate that full muffling adds to a mode, 1/s.
     fn sigma(&self, mode: &BodyMode, rung: &Rung, blueprint: &Blueprint, place: &Place) -> f64 {
         match self {
-            MufflerCoefs::Pillow(sigma) => sigma * rung.batter,
+            MufflerCoefs::Pillow(sigma, flow) => sigma * rung.batter + flow * rung.flow,
             MufflerCoefs::Gel(dashpot, radial) => {
                 let tuned = &blueprint.modes[mode.pair];
                 let (first, count) = blueprint.batter.order(tuned.m);
