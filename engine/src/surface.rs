@@ -7,6 +7,7 @@
 //! than to another's).
 
 use crate::contact::{ContactLaw, ContactStep, Material};
+use crate::drum::high_band::HighBand;
 use crate::modal::{ModalBody, Mode, Pickup, Port};
 use crate::potential::{NonlinearForce, Potential};
 use crate::shapes::ShapeTable;
@@ -79,6 +80,8 @@ pub struct Surface {
     strikers: [StrikerState; MAX_STRIKERS],
     /// What the body does beyond its modes.
     beyond: Option<NonlinearForce>,
+    /// What it does above its modes; a place for each striker.
+    high: Option<HighBand>,
     /// Between present strikers: one-sample compliance of the body's modes, m/N.
     compliance: [[f64; MAX_STRIKERS]; MAX_STRIKERS],
     /// Each present striker's coupling with the force beyond the modes.
@@ -107,6 +110,7 @@ impl Surface {
             lossless: parts.lossless,
             strikers: std::array::from_fn(|_| StrikerState::absent(count)),
             beyond: None,
+            high: None,
             compliance: [[0.0; MAX_STRIKERS]; MAX_STRIKERS],
             coupling: [0.0; MAX_STRIKERS],
             yielding: [[0.0; MAX_STRIKERS]; MAX_STRIKERS],
@@ -121,6 +125,21 @@ impl Surface {
     pub fn set_potential(&mut self, potential: Box<dyn Potential>, modes: usize, stride: u32) {
         let force = NonlinearForce::new(potential, modes, stride, (&self.body, &self.pickup), 1.0 / self.dt);
         self.beyond = Some(force);
+    }
+
+    /// Lets a high band listen to the strikers; it has [`MAX_STRIKERS`] places.
+    pub fn set_high_band(&mut self, high: HighBand) {
+        self.high = Some(high);
+    }
+
+    /// What the body does above its modes.
+    pub fn high_band(&self) -> Option<&HighBand> {
+        self.high.as_ref()
+    }
+
+    /// What the body does above its modes, to be retuned with them.
+    pub fn high_band_mut(&mut self) -> Option<&mut HighBand> {
+        self.high.as_mut()
     }
 
     /// What the body does beyond its modes, if it does.
@@ -220,6 +239,10 @@ impl Surface {
         let restitution = if self.lossless { 1.0 } else { striker.spec.restitution };
         striker.law = ContactLaw::new(&striker.spec.tip, &self.material, restitution);
         self.shapes.fill(radius, strike.angle, striker.port.shape_mut());
+        if let Some(high) = &mut self.high {
+            let patch = high.patch(striker.spec.mass, speed, striker.spec.tip.radius());
+            high.put(i, radius, strike.angle, patch);
+        }
         striker.present = true;
         striker.touching = false;
         striker.age = 0;
@@ -268,7 +291,7 @@ impl Surface {
     pub fn render(&mut self, out: &mut [f32]) {
         let mut done = 0;
         while self.any_present && done < out.len() {
-            out[done] = self.step();
+            out[done] = self.step(done);
             done += 1;
         }
         let rest = &mut out[done..];
@@ -285,10 +308,11 @@ impl Surface {
             }
             _ => body.ring(0, pickup, rest),
         }
+        self.high.iter_mut().for_each(|high| high.render(out));
     }
 
-    /// One sample with strikers about.
-    fn step(&mut self) -> f32 {
+    /// One sample with strikers about; which of the run.
+    fn step(&mut self, sample: usize) -> f32 {
         let mean = self.step_free();
         let dt = self.dt;
         for (i, striker) in self.strikers.iter_mut().enumerate().filter(|(_, striker)| striker.present) {
@@ -298,11 +322,12 @@ impl Surface {
         self.solve();
         let mut direct = 0.0;
         let mut forces = [0.0; MAX_STRIKERS];
-        for (force, striker) in forces.iter_mut().zip(&self.strikers) {
+        for (i, (force, striker)) in forces.iter_mut().zip(&self.strikers).enumerate() {
             if striker.present && striker.force > 0.0 {
                 *force = striker.force;
                 self.body.push(&striker.port, striker.force as f32);
                 direct += striker.force as f32 * striker.direct;
+                self.high.iter_mut().for_each(|high| high.push(i, sample, striker.force as f32));
             }
         }
         if let Some(beyond) = self.beyond.as_mut().filter(|beyond| beyond.is_active()) {
@@ -391,7 +416,9 @@ impl Surface {
     pub fn settle(&mut self) -> bool {
         self.body.flush_quiet();
         self.beyond.iter_mut().for_each(NonlinearForce::settle);
-        let finite = self.body.is_finite()
+        let high = self.high.as_mut().is_none_or(HighBand::settle);
+        let finite = high
+            && self.body.is_finite()
             && self.strikers.iter().all(|striker| !striker.present || striker.position.is_finite());
         if !finite {
             self.reset();
@@ -401,13 +428,14 @@ impl Surface {
 
     /// Whether nothing moves and nothing is about.
     pub fn is_still(&self) -> bool {
-        !self.any_present && self.body.is_still()
+        !self.any_present && self.body.is_still() && self.high.as_ref().is_none_or(HighBand::is_still)
     }
 
     /// Puts everything to rest; strikers are gone.
     pub fn reset(&mut self) {
         self.body.reset();
         self.beyond.iter_mut().for_each(NonlinearForce::reset);
+        self.high.iter_mut().for_each(HighBand::reset);
         for striker in &mut self.strikers {
             // Which place the next stroke takes hangs on all of these.
             (striker.present, striker.touching, striker.age) = (false, false, 0);
