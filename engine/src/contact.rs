@@ -93,18 +93,6 @@ pub enum Tip {
     },
 }
 
-impl Tip {
-    /// Radius that a soft surface wraps itself around, m.
-    pub const fn radius(&self) -> f64 {
-        /// Half the thickness of a mallet's or a beater's head, m. *Measured*: 30 to 50 mm.
-        const FELT: f64 = 0.020;
-        match *self {
-            Tip::Solid { radius, .. } => radius,
-            Tip::Felt { .. } => FELT,
-        }
-    }
-}
-
 /// The force law of one pair of bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactLaw {

@@ -48,6 +48,13 @@ impl ListeningPoint {
         1.0 - self.distance / self.distance.hypot(radius)
     }
 
+    /// Distance to a place on the disc, `radius` (m) from its centre in direction `angle` (rad), m.
+    pub fn distance_to(&self, radius: f64, angle: f64) -> f64 {
+        let offset = self.distance * self.inclination.sin();
+        let across = 2.0 * offset * radius * (angle - self.azimuth).cos();
+        (self.distance * self.distance + radius * radius - across).sqrt()
+    }
+
     /// Root mean square of one over the distance to the rim of a disc of that radius (m), 1/m.
     pub fn rim_nearness(&self, radius: f64) -> f64 {
         let offset = self.distance * self.inclination.sin();

@@ -21,9 +21,9 @@ fn the_high_band_adds_ten_decibels_to_a_tom_above_4_khz_up_to_16_khz_and_leaves_
     let [with, without] = [true, false].map(|high_band| {
         let mut tom = with_high_band(PieceId::RackTom, high_band);
         tom.strike(&stroke(Striker::Stick, 4.0, 0.4, 0.2));
-        // From when the stick has left: what rings.
         let sound = render(&mut tom, 1.0, RATE);
-        let ringing = Spectrum::new(&sound[(0.02 * RATE) as usize..], RATE);
+        // From when the stick has left: what rings.
+        let ringing = Spectrum::hann(&sound[(0.02 * RATE) as usize..(0.12 * RATE) as usize], RATE);
         (Spectrum::new(&sound, RATE), ringing, tom.last_strike())
     });
     let gain = |low, high| decibels(loudness(&with.0, low, high), loudness(&without.0, low, high));

@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::air::SPEED_OF_SOUND;
+use crate::air::{DENSITY, SPEED_OF_SOUND};
 use crate::cavity::{CavityOrder, HeadShape};
 use crate::drum::coupled::{CoupledMode, OrderProblem, Outside, Stretched};
 use crate::drum::high_band::{Ear, HighBandSpec};
@@ -17,7 +17,8 @@ use crate::membrane::{self, Membrane, ModeRange, Surroundings};
 use crate::piece::BuildOptions;
 use crate::shapes::{ShapeIndex, ShapeTable};
 use crate::split::Splitting;
-use crate::surface::MAX_STRIKERS;
+use crate::surface::patch::Film;
+use crate::surface::{STRIKER_PLACES, wires};
 
 /// Modes of the enclosed air up to this are kept as modes, Hz; above, air only rides along.
 const CAVITY_LIMIT_HZ: f64 = 2500.0;
@@ -84,6 +85,17 @@ impl TunedHead {
             seed: 100 + u32::from(ear.far),
             places,
         }
+    }
+
+    /// The head as a tip feels it from near, at a place of the scale; its modes reach `limit_hz` at the
+    /// default pitch `at_default`.
+    pub fn film(&self, place: &Place, at_default: &Place, limit_hz: f64) -> Film {
+        let (spec, now) = (self.membrane.spec(), self.tension(place));
+        let reached = TAU * limit_hz * (now / self.tension(at_default)).sqrt();
+        // Waves that fine move the air within their own length only: rho / k on either face.
+        let bare = spec.area_density();
+        let air = 2.0 * DENSITY * (now / bare).sqrt() / reached;
+        Film { radius: spec.radius, tension: now, density: bare + air, reached }
     }
 
     fn stretched(&self, pitch: usize) -> Stretched<'_> {
@@ -195,13 +207,28 @@ impl Blueprint {
             let members = Splitting::ROUND.members(mode.m, 0);
             index.extend(members.map(|(member, _)| ShapeIndex { radial, rows, m: mode.m, member, axis }));
         }
-        ShapeTable::new(&head.membrane.radial_shapes(&ShapeTable::radii()), index)
+        let waves = head.membrane.modes().iter().map(|mode| mode.zero);
+        ShapeTable::new(&head.membrane.radial_shapes(&ShapeTable::radii()), index).with_waves(waves)
     }
 
     /// What the batter does above its modes, laid out at a pitch (Hz).
     pub fn high_band(&self, spec: &DrumSpec, options: &BuildOptions, pitch_hz: f64) -> HighBandSpec {
         let ear = Ear { point: spec.listening_point, outside: spec.outside, far: false };
-        self.batter.high_band(ear, options, &self.scale.place(pitch_hz), MAX_STRIKERS)
+        self.batter.high_band(ear, options, &self.scale.place(pitch_hz), STRIKER_PLACES)
+    }
+
+    /// What the resonant head does above its modes, for wires to set going.
+    pub fn far_high_band(
+        &self,
+        spec: &DrumSpec,
+        options: &BuildOptions,
+        pitch_hz: f64,
+    ) -> Option<HighBandSpec> {
+        let behind = spec.cavity.map_or(0.0, |cavity| cavity.depth);
+        let point = spec.listening_point.from_behind(behind);
+        let ear = Ear { point, outside: spec.outside, far: true };
+        let head = self.resonant.as_ref()?;
+        Some(head.high_band(ear, options, &self.scale.place(pitch_hz), wires::GROUPS))
     }
 
     /// How each mode of the body is heard at the listening point at a pitch (Hz), `[mode]`, pairs as two.

@@ -28,24 +28,26 @@
 //! `J_0^2 + 2 sum J_m^2 = 1`. It is what the strip along the rim sends out; the point hears it from the rim's
 //! distances, by chance in any phase.
 //!
-//! Contact: the head wraps itself around a round tip of radius `R`, whose pressure on it is even, over a patch of the area
-//! `pi b^2 = F R / (2 T)`. An even pressure moves a wave by `2 J_1(k b) / (k b)`; averaged over the areas a stroke goes
-//! through, up to its largest force, that is `4 (1 - J_0(k b)) / (k b)^2`. The largest force is about that of a mass on the
-//! spring `2 pi T / ln(a / b)`, the stiffness of a head against a patch.
+//! Contact: the head wraps itself around a tip, whose pressure on it is even, over a patch that grows with the force.
+//! An even pressure moves a wave by `2 J_1(k b) / (k b)`; averaged over the areas a stroke goes through, up to its
+//! largest patch of radius `b`, that is `4 (1 - J_0(k b)) / (k b)^2`.
 //!
-//! Direct sound: a force moves an endless sheet with the acceleration `F / s` under it, at once. Each mode's share of
-//! that belongs to the mode (see [`Pickup`]); complete modes and slices share none, so nothing is counted
-//! twice. Nearly all of it is the complete set's: what is left for the slices adds up by chance, some 16 dB below.
+//! Direct sound: a force moves an endless sheet with the acceleration `F / s` under it, at once, and from a distance `d`
+//! that is heard as `rho F / (2 pi s d)`: waves on the head are slower than sound, so that what radiates at some
+//! frequency are modes that ring far below it and only weigh. Each mode's share belongs to the mode (see
+//! [`Pickup`]); complete modes and slices share none, so nothing is counted twice, and the slices' adds up by
+//! chance, some 16 dB below. The complete modes' shares are right where each rings, with the air it carries there and
+//! with the sound going around the drum's body. Faster than about `omega a / c = sqrt 2` the air no longer rides along and the body
+//! is a baffle: what they lack of the sheet (two thirds, of a drum that stands free; *measured*) follows the force through a
+//! high-pass filter of first order from there.
 //!
 //! Limits: a chance shape per slice is right for the mean over slices and places, not for one; the
-//! head's stretch does not shift them. The complete set's direct sound is what its modes would send out where they
-//! ring, not where they are driven: of a drum in free air a third of an endless sheet's in a baffle, which is
-//! what is right above `omega a / c` of two or so.
+//! head's stretch does not shift them.
 //!
 //! Source: Weyl's law as in Rossing & Fletcher, Principles of Vibration and Sound, ch. 3; Cremer, Heckl &
 //! Petersson, Structure-Borne Sound, ch. 6 (radiation of bending waves at an edge). The mean square is derived here.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::{PI, SQRT_2, TAU};
 
 use crate::air::{DENSITY, SPEED_OF_SOUND};
 use crate::drum::coupled::Outside;
@@ -63,8 +65,8 @@ const SLICES: f64 = 40.0;
 const TOP_HZ: f64 = 16_000.0;
 const TOP_OF_RATE: f64 = 0.45;
 
-/// `ln(a / b)` of a stroke: 3 for a beater on a kick, 4 for a bead on a tom. *Derived*.
-const PATCH_LOGARITHM: f64 = 4.0;
+/// The slow part of a force below this is nothing, N: 200 dB under a soft stroke.
+const FAINT: f32 = 1e-10;
 
 /// A slice fades from full to nothing over this ratio above the top, so that tuning takes it out softly.
 const FADE: f64 = 1.03;
@@ -147,9 +149,24 @@ pub struct SliceInfo {
 /// A place that is pressed on, and how hard over the present run.
 struct Place {
     port: Port,
+    /// Pressure at once per unit force, Pa/N: the slices'; an endless sheet's; what of that the complete set lacks.
     direct: f32,
+    sheet: f32,
+    lacking: f32,
+    /// The slow part of the force, N.
+    slow: f32,
     forces: [f32; MAX_RUN],
     pressed: bool,
+}
+
+impl Place {
+    /// Adds what follows the forces of the run at once.
+    fn add_direct(&mut self, follow: f32, out: &mut [f32]) {
+        for (out, force) in out.iter_mut().zip(&self.forces) {
+            self.slow += follow * (force - self.slow);
+            *out += self.direct * force + self.lacking * (force - self.slow);
+        }
+    }
 }
 
 /// The high band of one head.
@@ -159,10 +176,10 @@ pub struct HighBand {
     pickup: Pickup,
     slices: Vec<Slice>,
     places: Vec<Place>,
+    /// How far the slow part of a force follows it in a sample.
+    follow: f32,
     /// Whether anything moves.
     rings: bool,
-    /// N/m.
-    tension: f64,
 }
 
 impl HighBand {
@@ -171,15 +188,24 @@ impl HighBand {
         let slices = slices(spec);
         let modes: Vec<Mode> = slices.iter().map(|slice| mode(spec, slice, spec.tensions[1])).collect();
         let count = modes.len();
-        let place = |_| Place { port: Port::new(count), direct: 0.0, forces: [0.0; MAX_RUN], pressed: false };
+        let place = |_| Place {
+            port: Port::new(count),
+            direct: 0.0,
+            sheet: 0.0,
+            lacking: 0.0,
+            slow: 0.0,
+            forces: [0.0; MAX_RUN],
+            pressed: false,
+        };
+        let corner = SQRT_2 * SPEED_OF_SOUND / spec.head.radius;
         let mut band = HighBand {
             spec: *spec,
             body: ModalBody::new(modes, spec.sample_rate),
             pickup: Pickup::new(vec![[0.0; 2]; count]),
             slices,
             places: (0..spec.places.min(MAX_DRIVES)).map(place).collect(),
+            follow: (1.0 - (-corner / spec.sample_rate).exp()) as f32,
             rings: false,
-            tension: spec.tensions[1],
         };
         band.retune(spec.tensions[1], &HighMuffling::NONE);
         band
@@ -190,7 +216,6 @@ impl HighBand {
     /// # Real-time
     /// No allocation; some 200 ns a slice.
     pub fn retune(&mut self, tension: f64, muffling: &HighMuffling) {
-        self.tension = tension;
         let HighBand { spec, body, pickup, slices, .. } = self;
         let top = top_hz(spec.sample_rate);
         for (k, (slice, transfer)) in slices.iter().zip(pickup.transfer_mut()).enumerate() {
@@ -212,27 +237,26 @@ impl HighBand {
         }
     }
 
-    /// Radius of the patch that a round tip covers at its hardest, m: a mass (kg) at a speed (m/s) with a tip of
-    /// that radius (m).
-    pub fn patch(&self, mass: f64, speed: f64, tip_radius: f64) -> f64 {
-        let stiffness = TAU * self.tension;
-        let force_over_stiffness = speed * (mass / (stiffness * PATCH_LOGARITHM)).sqrt();
-        (tip_radius * force_over_stiffness).sqrt().min(tip_radius)
-    }
-
     /// Puts place `i` somewhere: distance from the centre as a share of the radius, direction in rad, and the
-    /// radius (m) of the patch that is pressed on.
+    /// radius (m) of the largest patch that is pressed on.
     ///
     /// # Real-time
     /// No allocation; some 100 ns a slice.
     pub fn put(&mut self, i: usize, radius: f64, angle: f64, patch: f64) {
         let HighBand { spec, body, pickup, slices, places, .. } = self;
-        let Place { port, direct, .. } = &mut places[i];
+        let Place { port, direct, sheet, .. } = &mut places[i];
+        *sheet = endless_sheet(spec, slices, radius, angle) as f32;
         for (shape, slice) in port.shape_mut().iter_mut().zip(&*slices) {
             *shape = (slice.at(radius, angle) * pressed(slice.zero * patch / spec.head.radius)) as f32;
         }
         body.connect(port);
         *direct = pickup.direct_at(body, port);
+    }
+
+    /// Tells place `i` what the complete set's pressure is at once per unit force there, Pa/N.
+    pub fn complete(&mut self, i: usize, direct: f32) {
+        let place = &mut self.places[i];
+        place.lacking = place.sheet - direct;
     }
 
     /// A force (N) on place `i`, held over a sample of the present run.
@@ -249,7 +273,7 @@ impl HighBand {
     /// # Real-time
     /// Linear in slices times samples times places pressed; nothing at rest.
     pub fn render(&mut self, out: &mut [f32]) {
-        let HighBand { body, pickup, places, rings, .. } = self;
+        let HighBand { body, pickup, places, follow, rings, .. } = self;
         *rings |= places.iter().any(|place| place.pressed);
         if !*rings {
             return;
@@ -258,12 +282,11 @@ impl HighBand {
         let sound = &mut sound[..out.len()];
         let pressed = places.iter().filter(|place| place.pressed);
         body.ring_driven(pressed.map(|place| (&place.port, &place.forces[..])), pickup, sound);
-        for place in places.iter_mut().filter(|place| place.pressed) {
-            for (sound, force) in sound.iter_mut().zip(&place.forces) {
-                *sound += place.direct * force;
+        for place in places.iter_mut().filter(|place| place.pressed || place.slow != 0.0) {
+            place.add_direct(*follow, sound);
+            if std::mem::take(&mut place.pressed) {
+                place.forces.fill(0.0);
             }
-            place.forces.fill(0.0);
-            place.pressed = false;
         }
         for (out, sound) in out.iter_mut().zip(&*sound) {
             *out += sound;
@@ -277,9 +300,12 @@ impl HighBand {
     pub fn settle(&mut self) -> bool {
         if self.rings {
             self.body.flush_quiet();
-            self.rings = !self.body.is_still();
+            for place in self.places.iter_mut().filter(|place| place.slow.abs() < FAINT) {
+                place.slow = 0.0;
+            }
+            self.rings = !self.body.is_still() || self.places.iter().any(|place| place.slow != 0.0);
         }
-        self.body.is_finite()
+        self.body.is_finite() && self.places.iter().all(|place| place.slow.is_finite())
     }
 
     /// Whether nothing moves.
@@ -293,7 +319,7 @@ impl HighBand {
         self.rings = false;
         for place in &mut self.places {
             place.forces.fill(0.0);
-            place.pressed = false;
+            (place.pressed, place.slow) = (false, 0.0);
         }
     }
 
@@ -417,6 +443,16 @@ fn rim_strip(spec: &HighBandSpec, slice: &Slice, omega: f64) -> f64 {
     // A wave as fast as sound meets the rim only so long.
     let apart = (j * j - u * u).hypot(2.0 * j);
     a * a * (8.0 * PI * j).sqrt() / apart
+}
+
+/// Pressure at once per unit force on an endless sheet at a place, Pa/N; nothing at the rim, which does not move.
+fn endless_sheet(spec: &HighBandSpec, slices: &[Slice], radius: f64, angle: f64) -> f64 {
+    let Some(first) = slices.first() else { return 0.0 };
+    let gain = slices.iter().map(|slice| slice.gain).sum::<f64>() / slices.len() as f64;
+    let free = 1.0 - libm::j0(2.0 * first.zero * (1.0 - radius));
+    let distance = spec.ear.point.distance_to(radius * spec.head.radius, angle);
+    // Into the head is away from the point.
+    -free * gain * DENSITY / (TAU * distance * spec.head.area_density())
 }
 
 /// Pressure at the point over the acceleration of one real mode, root mean square, Pa s2/m.

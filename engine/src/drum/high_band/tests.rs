@@ -108,7 +108,7 @@ fn tuned_back_and_forth_it_is_what_it_was() {
     let (blueprint, spec) = rack_tom();
     let mut band = band(&blueprint, &spec, 140.0);
     let before: Vec<SliceInfo> = band.slices().collect();
-    let tension = band.tension;
+    let tension = band.spec.tensions[1];
     band.retune(3.0 * tension, &HighMuffling { even: 5.0, pad: (30.0, 0.8) });
     let ratio = band.slices().next().unwrap().omega / before[0].omega;
     let bending = {
