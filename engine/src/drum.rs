@@ -67,9 +67,6 @@ pub struct Drum {
     modes: Vec<BodyMode>,
     /// Shapes on the resonant head, where wires lie against it.
     far_shapes: Option<ShapeTable>,
-    /// The default pitch, and what the modes of batter and resonant head reach there, Hz.
-    default: Place,
-    limits_hz: [f64; 2],
     muffler: MufflerCoefs,
     lossless: bool,
     pitch: Glide,
@@ -110,11 +107,6 @@ impl Drum {
         let mut drum = Drum {
             surface,
             far_shapes: if spec.wires { blueprint.resonant_shapes(spec.splitting) } else { None },
-            default: place,
-            limits_hz: [
-                spec.batter.limit_hz,
-                spec.resonant.map_or(spec.batter.limit_hz, |resonant| resonant.head.limit_hz),
-            ],
             blueprint,
             modes,
             muffler,
@@ -127,8 +119,8 @@ impl Drum {
             rungs,
         };
         if options.high_band {
-            let near = HighBand::new(&drum.blueprint.high_band(&spec, options, pitch));
-            let far = drum.blueprint.far_high_band(&spec, options, pitch).filter(|_| spec.wires);
+            let near = HighBand::new(&drum.blueprint.high_band(&spec, options));
+            let far = drum.blueprint.far_high_band(&spec, options).filter(|_| spec.wires);
             drum.surface.set_high_bands(near, far.as_ref().map(HighBand::new));
         }
         drum.follow_controls();
@@ -243,12 +235,8 @@ impl Drum {
                 }
             }
         }
-        let film = |head: &build::TunedHead, limit_hz| head.film(&place, &self.default, limit_hz);
-        let [near, far] = self.limits_hz;
-        self.surface.set_films(
-            film(&self.blueprint.batter, near),
-            self.blueprint.resonant.as_ref().map(|head| film(head, far)),
-        );
+        let far = self.blueprint.resonant.as_ref().map(|head| head.film(&place));
+        self.surface.set_films(self.blueprint.batter.film(&place), far);
         if let Some(far) = &self.far_shapes {
             self.surface.lay_wires(far);
         }
