@@ -18,6 +18,7 @@ use crate::error::SpecError;
 use crate::glide::Glide;
 use crate::modal::Mode;
 use crate::piece::{BuildOptions, Member, ModeInfo, ModeKind};
+use crate::rim::Rim;
 use crate::shapes::ShapeTable;
 use crate::split::Splitting;
 use crate::strike::Strike;
@@ -118,6 +119,10 @@ impl Drum {
         drum.follow_controls();
         if let (Some(resonant), true) = (spec.resonant, spec.wires) {
             drum.surface.set_wires(&resonant.head.membrane.material);
+        }
+        if spec.rim {
+            let radius = spec.batter.membrane.radius;
+            drum.surface.set_rim(Rim::new(radius, spec.listening_point, options.lossless));
         }
         drum.follow_shapes();
         if !options.linear {
@@ -253,7 +258,7 @@ impl Drum {
     /// Every mode as it is now.
     pub fn modes(&self) -> Vec<ModeInfo> {
         let rows = self.surface.body().modes().iter().zip(&self.modes);
-        rows.map(|(mode, row)| {
+        let heads = rows.map(|(mode, row)| {
             let tuned = &self.blueprint.modes[row.pair];
             let (body, n, kind) = describe(&self.blueprint, tuned);
             ModeInfo {
@@ -267,8 +272,20 @@ impl Drum {
                 radiation: tuned.reference.monopole_area * mode.mass.sqrt(),
                 kind,
             }
-        })
-        .collect()
+        });
+        let rim = self.surface.rim().into_iter().flat_map(|rim| &rim.modes).map(|mode| ModeInfo {
+            body: "rim",
+            m: mode.n,
+            n: 0,
+            member: mode.member,
+            frequency_hz: mode.mode.omega_d() / TAU,
+            t60: SIGMA_T60 / mode.mode.sigma,
+            modal_mass: mode.mode.mass,
+            // The narrow hoop's far field is next to nothing; it is heard from near.
+            radiation: 0.0,
+            kind: Rim::kind(mode),
+        });
+        heads.chain(rim).collect()
     }
 }
 

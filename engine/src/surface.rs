@@ -17,15 +17,18 @@ pub mod patch;
 pub mod touch;
 pub mod wires;
 
-use crate::contact::{ContactLaw, ContactStep, Material};
+use crate::contact::{ContactLaw, ContactStep, Material, Tip};
+use crate::modal::simd::MAX_RUN;
 use crate::modal::{ModalBody, Mode, Pickup};
 use crate::potential::{NonlinearForce, Potential};
+use crate::rim::Rim;
 use crate::shapes::ShapeTable;
 use crate::snapshot::{StrikeSnapshot, WireSnapshot};
-use crate::strike::Strike;
+use crate::stick::Stick;
+use crate::strike::{Across, Strike, StrikerSpec};
 
 use patch::Film;
-use touch::{Side, TouchPoint, Toucher};
+use touch::{PARTS, Side, TouchPoint, Toucher};
 use wires::SnareWires;
 
 /// Strikers that can be about one surface at a time; the one that has been away longest gives way.
@@ -41,8 +44,12 @@ const MAX_POINTS: usize = FIRST_WIRE + wires::GROUPS;
 /// A striker farther off than this has left for good, m. *By ear*: no head comes up so far.
 const AWAY: f64 = 0.010;
 
-/// A striker that neither leaves nor falls silent is lifted after this, s. *By ear*.
+/// A striker that does not leave is lifted after this, s; after twice as long also if it still touches. *By ear*.
 const LIFTED_AFTER: f64 = 0.3;
+
+/// In a rimshot the bead meets the head so long before the shaft meets the rim, s: a head gives way by some
+/// millimetres, and drummers aim for the rim below it. *By ear*.
+const SHOT_LEAD: f64 = 0.8e-3;
 
 /// Sweeps over simultaneous contacts; they stop as soon as nothing changes.
 const MAX_SWEEPS: usize = 40;
@@ -84,6 +91,7 @@ pub struct Surface {
     /// Tip and shaft of every striker, then one point of every group.
     points: Vec<TouchPoint>,
     wires: Option<SnareWires>,
+    rim: Option<RimBody>,
     /// Points present.
     live: [usize; MAX_POINTS],
     live_count: usize,
@@ -95,10 +103,18 @@ pub struct Surface {
     coupling: [f64; MAX_POINTS],
     /// The compliance the points meet: the modes', stiffened by the force beyond them, m/N.
     yielding: Matrix,
-    /// Kinetic energy that strikers have taken with them, J.
+    /// Energy that strikers have come with, and taken with them, J.
+    brought_energy: f64,
     departed_energy: f64,
     last: StrikeSnapshot,
     dt: f64,
+}
+
+/// The rim and its motion.
+struct RimBody {
+    rim: Rim,
+    body: ModalBody,
+    pickup: Pickup,
 }
 
 /// Whose point it is.
@@ -134,12 +150,14 @@ impl Surface {
             touchers: (0..MAX_STRIKERS).map(|_| Toucher::absent(dt)).collect(),
             points: (0..FIRST_WIRE).map(|_| TouchPoint::absent(count, dt)).collect(),
             wires: None,
+            rim: None,
             live: [0; MAX_POINTS],
             live_count: 0,
             beyond: None,
             compliance: [[0.0; MAX_POINTS]; MAX_POINTS],
             coupling: [0.0; MAX_POINTS],
             yielding: [[0.0; MAX_POINTS]; MAX_POINTS],
+            brought_energy: 0.0,
             departed_energy: 0.0,
             last: StrikeSnapshot::default(),
             dt,
@@ -198,6 +216,18 @@ impl Surface {
         }
     }
 
+    /// Gives the drum a rim that sticks can meet. Allocates.
+    pub fn set_rim(&mut self, rim: Rim) {
+        let modes: Vec<Mode> = rim.modes.iter().map(|mode| mode.mode).collect();
+        for shaft in self.points[..FIRST_WIRE].iter_mut().skip(1).step_by(STRIKER_POINTS) {
+            *shaft = TouchPoint::absent(modes.len(), self.dt);
+        }
+        let body = ModalBody::new(modes, 1.0 / self.dt);
+        let mut pickup = Pickup::new(rim.modes.iter().map(|mode| mode.transfer).collect());
+        body.tune(&mut pickup);
+        self.rim = Some(RimBody { rim, body, pickup });
+    }
+
     /// Throws the wires on or off.
     ///
     /// # Real-time
@@ -229,6 +259,11 @@ impl Surface {
     /// Whether there are wires and they lie against the head.
     pub fn wires_on(&self) -> bool {
         self.wires.as_ref().is_some_and(|wires| wires.on)
+    }
+
+    /// The rim and its modes as they are, if there is one.
+    pub fn rim(&self) -> Option<&Rim> {
+        self.rim.as_ref().map(|rim| &rim.rim)
     }
 
     /// What the wires have done since the latest stroke.
@@ -292,10 +327,11 @@ impl Surface {
         self.beyond.as_mut()
     }
 
-    /// Energy of the body, J: of its modes, what it holds beyond them, and its wires.
+    /// Energy of the body, J: of its modes, what it holds beyond them, its wires and its rim.
     pub fn energy(&self) -> f64 {
         let wires: f64 = self.present(MAX_STRIKERS..self.touchers.len());
-        self.body.energy() + self.beyond.as_ref().map_or(0.0, NonlinearForce::energy) + wires
+        let rim = self.rim.as_ref().map_or(0.0, |rim| rim.body.energy());
+        self.body.energy() + self.beyond.as_ref().map_or(0.0, NonlinearForce::energy) + wires + rim
     }
 
     /// True energy of the body beyond its modes, J, and the relative error of the variable that
@@ -370,10 +406,15 @@ impl Surface {
             ..StrikeSnapshot::default()
         };
         let spec = strike.striker.spec();
-        let toucher = &mut self.touchers[i];
-        toucher.present = true;
-        (toucher.age, toucher.stroke) = (0, self.last.count);
-        let weights = toucher.take(&spec, speed, !self.lossless, self.dt);
+        (self.touchers[i].age, self.touchers[i].stroke) = (0, self.last.count);
+        self.touchers[i].present = true;
+        let weights = match (spec.across, &spec.stick) {
+            (Some(across), Some(stick)) if self.rim.is_some() => {
+                self.lay_across(i, (&spec, stick, across), speed, radius)
+            }
+            _ => self.touchers[i].take(&spec, speed, !self.lossless, self.dt),
+        };
+        self.brought_energy += self.touchers[i].arrived;
         let restitution = if self.lossless { 1.0 } else { spec.restitution };
         let law = ContactLaw::new(&spec.tip, &self.material, restitution);
         let tip = points_of(i).start;
@@ -390,6 +431,40 @@ impl Surface {
         if let Some(force) = &mut self.beyond {
             force.wake();
         }
+    }
+
+    /// Lets a stick come down on head and rim, from the player's side; returns what its tip feels of it.
+    fn lay_across(
+        &mut self,
+        i: usize,
+        (spec, stick, across): (&StrikerSpec, &Stick, Across),
+        speed: f64,
+        radius: f64,
+    ) -> [f64; PARTS] {
+        let Some(rim) = &mut self.rim else {
+            return [0.0; PARTS];
+        };
+        let reach = match across {
+            Across::RimShot => 1.0 - radius,
+            Across::CrossStick => 1.0 + radius,
+        };
+        let shaft = (stick.place + reach * rim.rim.radius / stick.length).clamp(0.1, 0.8);
+        let lossy = !self.lossless;
+        let [tip, side] = self.touchers[i].take_across((spec, stick, across), speed, shaft, lossy, self.dt);
+        let (radius, restitution) = Stick::SHAFT;
+        let edge = Tip::Solid { material: stick.material, radius };
+        let law = ContactLaw::new(&edge, &rim.rim.material, if lossy { restitution } else { 1.0 });
+        let at = points_of(i).start + 1;
+        let point = &mut self.points[at];
+        point.arrive(Side::Rim, law, side);
+        rim.rim.shape(0.0, point.port.shape_mut());
+        if across == Across::RimShot {
+            point.compression = -speed * SHOT_LEAD;
+        }
+        point.origin = -rim.body.displacement_at(&point.port) - point.compression;
+        self.list();
+        self.connect(at);
+        tip
     }
 
     /// An empty place, or that of the striker which has been about longest without touching, or,
@@ -427,12 +502,20 @@ impl Surface {
 
     /// Works out what the body tells point `i` and the others of each other.
     fn connect(&mut self, i: usize) {
-        self.body.connect(&mut self.points[i].port);
-        let port = &self.points[i].port;
-        self.coupling[i] = self.beyond.as_ref().map_or(0.0, |force| force.coupling(&self.body, port));
-        self.points[i].direct = self.pickup.direct_at(&self.body, &self.points[i].port);
+        let side = self.points[i].side;
+        let (body, pickup, beyond) = match (&self.rim, side) {
+            (Some(rim), Side::Rim) => (&rim.body, &rim.pickup, None),
+            _ => (&self.body, &self.pickup, self.beyond.as_ref()),
+        };
+        let point = &mut self.points[i];
+        body.connect(&mut point.port);
+        point.direct = pickup.direct_at(body, &point.port);
+        self.coupling[i] = beyond.map_or(0.0, |force| force.coupling(body, &point.port));
         for &j in &self.live[..self.live_count] {
-            let mut mutual = self.body.compliance(&self.points[j].port, &self.points[i].port);
+            let mut mutual = 0.0;
+            if self.points[j].side == side {
+                mutual = body.compliance(&self.points[j].port, &self.points[i].port);
+            }
             if owner(i) == owner(j) {
                 mutual +=
                     self.touchers[owner(i)].compliance(&self.points[i].weights, &self.points[j].weights);
@@ -455,18 +538,24 @@ impl Surface {
             done += 1;
         }
         let rest = &mut out[done..];
-        let Surface { body, pickup, beyond, .. } = self;
+        let Surface { body, pickup, beyond, rim, .. } = self;
         match beyond {
             Some(force) if force.is_active() => {
-                body.ring(force.front().length(), pickup, rest);
-                for sample in rest {
+                body.ring(force.front().length(), pickup, &mut *rest);
+                for sample in rest.iter_mut() {
                     force.begin(body, pickup);
                     body.step_front(force.front());
                     force.free(body);
                     *sample += force.finish(body, 0.0) + body.listen_front(force.front(), pickup);
                 }
             }
-            _ => body.ring(0, pickup, rest),
+            _ => body.ring(0, pickup, &mut *rest),
+        }
+        if let Some(rim) = rim.as_mut().filter(|rim| !rim.body.is_still()) {
+            let mut heard = [0.0; MAX_RUN];
+            let heard = &mut heard[..rest.len()];
+            rim.body.ring(0, &rim.pickup, heard);
+            rest.iter_mut().zip(heard).for_each(|(sum, x)| *sum += *x);
         }
     }
 
@@ -477,9 +566,15 @@ impl Surface {
         for toucher in self.touchers.iter_mut().filter(|toucher| toucher.present) {
             toucher.step();
         }
+        if let Some(rim) = &mut self.rim {
+            rim.body.step();
+        }
         for &i in &self.live[..self.live_count] {
             let point = &mut self.points[i];
-            let surface = self.body.displacement_at(&point.port) - self.coupling[i] * mean;
+            let surface = match (&self.rim, point.side) {
+                (Some(rim), Side::Rim) => rim.body.displacement_at(&point.port),
+                _ => self.body.displacement_at(&point.port) - self.coupling[i] * mean,
+            };
             let position = self.touchers[owner(i)].position(&point.weights);
             point.free_flight(position - surface - point.origin, self.yielding[i][i], dt);
         }
@@ -490,7 +585,10 @@ impl Surface {
             let point = &self.points[i];
             let force = point.pressing();
             if force != 0.0 {
-                self.body.push(&point.port, force as f32);
+                match (&mut self.rim, point.side) {
+                    (Some(rim), Side::Rim) => rim.body.push(&point.port, force as f32),
+                    _ => self.body.push(&point.port, force as f32),
+                }
                 self.touchers[owner(i)].push(&point.weights, force);
                 direct += force as f32 * point.direct;
                 pressed += force * self.coupling[i];
@@ -511,7 +609,8 @@ impl Surface {
             wires.age += 1;
         }
         self.watch_strikers();
-        self.body.listen(&self.pickup) + direct
+        let rim = self.rim.as_ref().map_or(0.0, |rim| rim.body.listen(&rim.pickup));
+        self.body.listen(&self.pickup) + rim + direct
     }
 
     /// How far the forces of all other points have brought point `i` out of the surface, m.
@@ -535,7 +634,8 @@ impl Surface {
             }
             let mut present = points.iter().filter(|point| point.present);
             let touching = present.clone().any(|point| point.touching);
-            if present.all(|point| point.compression < -AWAY) || (!touching && age > LIFTED_AFTER) {
+            let lifted = age > if touching { 2.0 * LIFTED_AFTER } else { LIFTED_AFTER };
+            if lifted || present.all(|point| point.compression < -AWAY) {
                 self.leave(i);
                 left = true;
             }
@@ -556,7 +656,9 @@ impl Surface {
         let live = &self.live[..self.live_count];
         if force.begin(&mut self.body, &self.pickup) {
             for &i in live {
-                self.coupling[i] = force.coupling(&self.body, &self.points[i].port);
+                if self.points[i].side == Side::Surface {
+                    self.coupling[i] = force.coupling(&self.body, &self.points[i].port);
+                }
             }
         }
         self.body.step();
@@ -598,6 +700,11 @@ impl Surface {
         which.filter(|&i| self.touchers[i].present).map(|i| self.energy_of(i)).sum()
     }
 
+    /// Kinetic energy that strikers have come with since the last reset, J.
+    pub fn brought_energy(&self) -> f64 {
+        self.brought_energy
+    }
+
     /// Energy that strikers have taken away with them since the last reset, J.
     pub fn departed_energy(&self) -> f64 {
         self.departed_energy
@@ -609,8 +716,10 @@ impl Surface {
     /// Linear in the number of modes; meant for once a block.
     pub fn settle(&mut self) -> bool {
         self.body.flush_quiet();
+        self.rim.iter_mut().for_each(|rim| rim.body.flush_quiet());
         self.beyond.iter_mut().for_each(NonlinearForce::settle);
         let finite = self.body.is_finite()
+            && self.rim.as_ref().is_none_or(|rim| rim.body.is_finite())
             && self.live[..self.live_count].iter().all(|&i| self.points[i].compression.is_finite());
         if !finite {
             self.reset();
@@ -625,12 +734,14 @@ impl Surface {
 
     /// Whether nothing moves and nothing is about.
     pub fn is_still(&self) -> bool {
-        self.live_count == 0 && self.body.is_still()
+        let rim = self.rim.as_ref().is_none_or(|rim| rim.body.is_still());
+        self.live_count == 0 && self.body.is_still() && rim
     }
 
     /// Puts everything to rest; strikers are gone.
     pub fn reset(&mut self) {
         self.body.reset();
+        self.rim.iter_mut().for_each(|rim| rim.body.reset());
         self.beyond.iter_mut().for_each(NonlinearForce::reset);
         for toucher in &mut self.touchers {
             // Which place the next stroke takes hangs on all of these.
@@ -641,7 +752,7 @@ impl Surface {
         }
         self.list();
         self.park_wires();
-        self.departed_energy = 0.0;
+        (self.brought_energy, self.departed_energy) = (0.0, 0.0);
     }
 }
 
@@ -655,5 +766,5 @@ fn report(last: &mut StrikeSnapshot, toucher: &Toucher, points: &[TouchPoint], d
         last.peak_force = last.peak_force.max(point.force as f32);
         last.impulse += (point.force * dt) as f32;
     }
-    last.leaving_speed = -toucher.parts[0].v as f32;
+    last.leaving_speed = toucher.leaving_speed() as f32;
 }

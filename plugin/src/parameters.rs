@@ -64,7 +64,9 @@ impl Parameter {
         if value.is_nan() {
             return self.default;
         }
-        ((value / self.step).round() * self.step).clamp(self.min, self.max)
+        // Divided, not multiplied: 0.03 then is the number nearest to it, as it is where it is written.
+        let steps = self.step.recip().round();
+        ((value * steps).round() / steps).clamp(self.min, self.max)
     }
 
     /// Exponent of the knob's travel that puts [`centre`](Self::centre) in its middle.
@@ -222,6 +224,8 @@ mod tests {
     fn text_and_value_agree_both_ways() {
         for parameter in &PARAMETERS {
             for value in [parameter.min, parameter.default, parameter.centre, parameter.max] {
+                // A switch has no middle.
+                let value = parameter.snap(value);
                 let text = format!("{}{}", parameter.text(value), parameter.unit);
                 assert_eq!(parameter.from_text(&text), Some(value), "{text}");
             }
