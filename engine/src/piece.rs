@@ -140,6 +140,8 @@ pub struct BuildOptions {
     pub linear: bool,
     /// How far up a cymbal's modes are coupled.
     pub quality: Quality,
+    /// Heads sound above their complete sets of modes; see [`high_band`](crate::drum::high_band).
+    pub high_band: bool,
 }
 
 impl BuildOptions {
@@ -151,6 +153,7 @@ impl BuildOptions {
             unsplit: false,
             linear: false,
             quality: Quality::Standard,
+            high_band: true,
         }
     }
 }

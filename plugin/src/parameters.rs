@@ -64,9 +64,7 @@ impl Parameter {
         if value.is_nan() {
             return self.default;
         }
-        // Divided, not multiplied: 0.03 then is the number nearest to it, as it is where it is written.
-        let steps = self.step.recip().round();
-        ((value * steps).round() / steps).clamp(self.min, self.max)
+        ((value / self.step).round() * self.step).clamp(self.min, self.max)
     }
 
     /// Exponent of the knob's travel that puts [`centre`](Self::centre) in its middle.
