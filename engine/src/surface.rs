@@ -239,7 +239,7 @@ impl Surface {
         }
         if let Some(high) = &mut self.far_high {
             for (i, [x, y]) in wires::PLACES.into_iter().enumerate() {
-                high.put(i, x.hypot(y), x.atan2(-y), wires::PATCH);
+                high.put(i, x.hypot(y), x.atan2(-y), wires::TURN);
             }
         }
         for i in FIRST_WIRE..self.points.len() {
