@@ -64,7 +64,8 @@ pub struct StrikerSpec {
     /// Restitution against a rigid wall, 0 to 1.
     pub restitution: f64,
     /// Radius of the disc that the tip presses on a head, m. *Derived*: a head wraps around a solid tip of
-    /// radius `R` to `sqrt(F R / (2 pi T))`, at the force of a firm stroke; felt is pressed flat.
+    /// radius `R` to `sqrt(F R / (2 pi T))`, felt that gives way by `d` is flat to `sqrt(2 R d)`; both at the
+    /// force of a firm stroke.
     pub patch: f64,
     /// What bends behind the tip.
     pub stick: Option<Stick>,
@@ -135,11 +136,11 @@ impl Striker {
             Striker::Nylon => {
                 StrikerSpec::solid(16.0, Material::NYLON, 4.0, 0.7, 2.3).on(Stick::at(Stick::BEAD))
             }
-            Striker::FeltBeater => StrikerSpec::felt(110.0, 6e8, 2.3, 0.5, 20.0),
+            Striker::FeltBeater => StrikerSpec::felt(110.0, 6e8, 2.3, 0.5, 8.0),
             Striker::PlasticBeater => StrikerSpec::solid(110.0, Material::PLASTIC, 25.0, 0.5, 8.0),
-            Striker::TimpaniMallet => StrikerSpec::felt(25.0, 3e8, 2.5, 0.6, 10.0),
-            Striker::HardMallet => StrikerSpec::felt(25.0, 1e10, 2.5, 0.6, 6.0),
-            Striker::YarnMallet => StrikerSpec::felt(30.0, 5e7, 2.2, 0.5, 10.0),
+            Striker::TimpaniMallet => StrikerSpec::felt(25.0, 3e8, 2.5, 0.6, 7.0),
+            Striker::HardMallet => StrikerSpec::felt(25.0, 1e10, 2.5, 0.6, 4.5),
+            Striker::YarnMallet => StrikerSpec::felt(30.0, 5e7, 2.2, 0.5, 6.0),
             Striker::RimShot => Striker::Stick.spec().across(Across::RimShot),
             Striker::CrossStick => Striker::Stick.spec().across(Across::CrossStick),
         }

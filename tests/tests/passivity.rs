@@ -172,6 +172,35 @@ fn several_strikers_at_once_keep_the_balance() {
 }
 
 #[test]
+fn a_lossless_drum_keeps_its_energy_for_a_second_from_1_to_25_m_s_centre_to_rim() {
+    for rate in [44_100.0, 96_000.0] {
+        let mut worst = (0.0_f64, String::new());
+        for id in PieceId::ALL.into_iter().filter(|id| id.is_drum()) {
+            let mut piece = lossless_piece(id, rate);
+            let mut chance = Chance::new(id as u64);
+            for speed in [1.0, 5.0, 25.0] {
+                for radius in [0.0, 0.5, 1.0] {
+                    let striker = chance.of(&Striker::ALL);
+                    piece.reset();
+                    let strike = stroke(striker, speed, radius, chance.between(0.0, 6.0));
+                    piece.strike(&strike);
+                    let brought = piece.brought_energy();
+                    for _ in 0..20 {
+                        render(&mut piece, 0.05, rate);
+                        let off = (total_energy(&piece) / brought - 1.0).abs();
+                        if off > worst.0 {
+                            worst = (off, format!("{id:?} {strike:?}"));
+                        }
+                        assert!(off < 1e-3, "{rate}: {off:.1e} off: {id:?} {strike:?}");
+                    }
+                }
+            }
+        }
+        println!("{rate}: off by at most {worst:?}");
+    }
+}
+
+#[test]
 fn random_strikes_and_controls_leave_everything_finite() {
     for (seed, rate) in [22_050.0, 44_100.0, 192_000.0].into_iter().enumerate() {
         let mut kit = kit(rate);
