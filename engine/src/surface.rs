@@ -2,9 +2,7 @@
 //!
 //! Displacement and force are positive along the stroke, into the surface. Whatever touches is a few
 //! oscillators ([`touch`]); both they and the body integrate a force held over the sample exactly, so a contact
-//! is one scalar equation, and several at once a few sweeps of it (Gauss-Seidel: each contact is
-//! solved with the others' forces held; it converges because a place yields more to its own force
-//! than to another's).
+//! is one scalar equation, and several at once ([`together`]) a small system of them.
 //!
 //! ```text
 //! strikers (tip, shaft) --\                      /--> modes --> pickup --> pressure
@@ -14,6 +12,7 @@
 
 pub mod oscillator;
 pub mod patch;
+mod together;
 pub mod touch;
 pub mod wires;
 
@@ -29,6 +28,7 @@ use crate::stick::Stick;
 use crate::strike::{Across, Strike, StrikerSpec};
 
 use patch::Film;
+use together::{Compliances, Meeting};
 use touch::{PARTS, Side, TouchPoint, Toucher};
 use wires::SnareWires;
 
@@ -43,7 +43,8 @@ pub const STRIKER_PLACES: usize = STRIKER_POINTS * MAX_STRIKERS;
 
 /// Where the wires' points begin, and how many points there are at most.
 const FIRST_WIRE: usize = STRIKER_PLACES;
-const MAX_POINTS: usize = FIRST_WIRE + wires::GROUPS;
+const MAX_POINTS: usize = together::MOST;
+const _: () = assert!(FIRST_WIRE + wires::GROUPS <= MAX_POINTS);
 
 /// A striker farther off than this has left for good, m. *By ear*: no head comes up so far.
 const AWAY: f64 = 0.010;
@@ -54,15 +55,6 @@ const LIFTED_AFTER: f64 = 0.3;
 /// In a rimshot the bead meets the head so long before the shaft meets the rim, s: a head gives way by some
 /// millimetres, and drummers aim for the rim below it. *By ear*.
 const SHOT_LEAD: f64 = 0.8e-3;
-
-/// Sweeps over simultaneous contacts; they stop as soon as nothing changes.
-const MAX_SWEEPS: usize = 40;
-
-/// Change of a force, relative, and in N, below which it counts as found.
-const SETTLED: f64 = 1e-10;
-const SETTLED_N: f64 = 1e-9;
-
-type Matrix = [[f64; MAX_POINTS]; MAX_POINTS];
 
 /// What a surface is made from.
 pub struct SurfaceParts {
@@ -105,11 +97,11 @@ pub struct Surface {
     high: Option<HighBand>,
     far_high: Option<HighBand>,
     /// Between present points: one-sample compliance of the modes and of what touches, m/N.
-    compliance: Matrix,
+    compliance: Compliances,
     /// Each present point's coupling with the force beyond the modes.
     coupling: [f64; MAX_POINTS],
     /// The compliance the points meet: the modes', stiffened by the force beyond them, m/N.
-    yielding: Matrix,
+    yielding: Compliances,
     /// Energy that strikers have come with, and taken with them, J.
     brought_energy: f64,
     departed_energy: f64,
@@ -718,23 +710,25 @@ impl Surface {
         force.free(&self.body)
     }
 
-    /// Forces of all contacts for this sample: sweeps until none changes any more. A point alone
-    /// is done in one.
+    /// Forces of all contacts for this sample.
     fn solve(&mut self) {
-        for _ in 0..if self.live_count > 1 { MAX_SWEEPS } else { 1 } {
-            let mut changed = false;
-            for n in 0..self.live_count {
-                let i = self.live[n];
-                let others = self.moved_by_others(i);
-                let point = &mut self.points[i];
-                let step = ContactStep { free: point.step.free - others, ..point.step };
-                let force = point.law.force(&step);
-                changed |= (force - point.force).abs() > SETTLED * force + SETTLED_N;
-                point.force = force;
+        let live = &self.live[..self.live_count];
+        let absent = Meeting { law: self.points[0].law, step: self.points[0].step, force: 0.0 };
+        let (mut meetings, mut yielding) = ([absent; MAX_POINTS], [[0.0; MAX_POINTS]; MAX_POINTS]);
+        for (n, &i) in live.iter().enumerate() {
+            let point = &self.points[i];
+            // The preloads of the others are part of equilibrium: what they would push is put back.
+            let mut free = point.step.free;
+            for (k, &j) in live.iter().enumerate().filter(|&(k, _)| k != n) {
+                yielding[n][k] = self.yielding[i][j];
+                free += self.yielding[i][j] * self.points[j].preload;
             }
-            if !changed {
-                break;
-            }
+            meetings[n] =
+                Meeting { law: point.law, step: ContactStep { free, ..point.step }, force: point.force };
+        }
+        together::solve(&mut meetings[..live.len()], &yielding);
+        for (meeting, &i) in meetings.iter().zip(live) {
+            self.points[i].force = meeting.force;
         }
     }
 

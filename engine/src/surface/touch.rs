@@ -119,7 +119,6 @@ impl TouchPoint {
         }
         self.step =
             ContactStep { before: self.compression, free, compliance: yielding, lambda: self.lambda, dt };
-        self.force = 0.0;
     }
 
     /// Applies the force of the sample; `others` is how far those of all other points have parted the two, m.
