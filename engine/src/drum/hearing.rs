@@ -8,6 +8,10 @@
 //! worked out at the pitches of their own [grid](super::tuned::Grid). Of all others the phase is that of the default
 //! pitch, where among so many it does not count, and the size goes straight in logarithms from the lowest pitch over the
 //! default to the highest.
+//!
+//! Limits: *measured* against a rebuild, octaves of modes heard one by one are met within 0.2 dB; those above within
+//! 1 dB for small changes, by up to 5 dB (too loud) where a kick is let down by a third of an octave, for then phases do
+//! count.
 
 use std::f64::consts::TAU;
 
