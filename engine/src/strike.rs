@@ -76,7 +76,8 @@ impl Striker {
     pub const fn spec(self) -> StrikerSpec {
         match self {
             Striker::Stick => StrikerSpec::solid(16.0, Material::HICKORY, 5.0, 0.7),
-            Striker::Shoulder => StrikerSpec::solid(20.0, Material::HICKORY, 20.0, 0.6),
+            // Its side, round by 6 mm, crosses an edge round by 0.4 mm: Hertz's mean radius, sqrt(6 * 0.4).
+            Striker::Shoulder => StrikerSpec::solid(20.0, Material::HICKORY_ACROSS, 1.5, 0.6),
             Striker::Nylon => StrikerSpec::solid(16.0, Material::NYLON, 4.0, 0.7),
             Striker::FeltBeater => StrikerSpec::felt(110.0, 6e8, 2.3, 0.5),
             Striker::PlasticBeater => StrikerSpec::solid(110.0, Material::PLASTIC, 25.0, 0.5),
