@@ -18,8 +18,10 @@ use crate::error::SpecError;
 use crate::glide::Glide;
 use crate::modal::Mode;
 use crate::piece::{BuildOptions, Member, ModeInfo, ModeKind};
+use crate::shapes::ShapeTable;
 use crate::split::Splitting;
 use crate::strike::Strike;
+use crate::surface::wires::PRELOAD;
 use crate::surface::{Surface, SurfaceParts};
 
 use build::Blueprint;
@@ -52,10 +54,17 @@ pub struct Drum {
     surface: Surface,
     blueprint: Blueprint,
     modes: Vec<BodyMode>,
+    /// Shapes on the resonant head, where wires lie against it.
+    far_shapes: Option<ShapeTable>,
+    /// The default pitch, and what the modes of batter and resonant head reach there, Hz.
+    default: Place,
+    limits_hz: [f64; 2],
     muffler: MufflerCoefs,
     lossless: bool,
     pitch: Glide,
     muffling: Glide,
+    /// Force of the strainer, N.
+    preload: Glide,
     /// Whether a control has moved since the modes last followed.
     stale: bool,
     /// Whether the shapes have yet to follow the pitch.
@@ -89,17 +98,27 @@ impl Drum {
         });
         let mut drum = Drum {
             surface,
+            far_shapes: if spec.wires { blueprint.resonant_shapes(spec.splitting) } else { None },
+            default: place,
+            limits_hz: [
+                spec.batter.limit_hz,
+                spec.resonant.map_or(spec.batter.limit_hz, |resonant| resonant.head.limit_hz),
+            ],
             blueprint,
             modes,
             muffler,
             lossless: options.lossless,
             pitch: Glide::new(pitch, low, high),
             muffling: Glide::new(0.0, 0.0, 1.0),
+            preload: Glide::new(PRELOAD.1, PRELOAD.0, PRELOAD.2),
             stale: true,
             shapes_stale: true,
             rungs,
         };
         drum.follow_controls();
+        if let (Some(resonant), true) = (spec.resonant, spec.wires) {
+            drum.surface.set_wires(&resonant.head.membrane.material);
+        }
         drum.follow_shapes();
         if !options.linear {
             let (stretch, modes) = Stretch::new(&spec.batter.membrane, &drum.blueprint, pitch);
@@ -141,12 +160,18 @@ impl Drum {
     pub fn advance_controls(&mut self, seconds: f64) {
         let moved = [&mut self.pitch, &mut self.muffling].map(|glide| glide.advance(seconds));
         self.stale |= moved.contains(&true);
+        if self.preload.advance(seconds) {
+            self.surface.set_preload(self.preload.value());
+        }
     }
 
     /// Lets the controls arrive at once.
     pub fn finish_controls(&mut self) {
         let moved = [&mut self.pitch, &mut self.muffling].map(Glide::jump);
         self.stale |= moved.contains(&true);
+        if self.preload.jump() {
+            self.surface.set_preload(self.preload.value());
+        }
         self.follow_controls();
         self.follow_shapes();
     }
@@ -188,7 +213,32 @@ impl Drum {
             for (i, weight) in self.surface.shapes_mut().weights_mut(k).iter_mut().enumerate() {
                 *weight = tuned.share(i, &place) as f32;
             }
+            if let Some(far) = &mut self.far_shapes {
+                let (_, near) = self.blueprint.batter.order(tuned.m);
+                for (i, weight) in far.weights_mut(k).iter_mut().enumerate() {
+                    *weight = tuned.share(near + i, &place) as f32;
+                }
+            }
         }
+        let film = |head: &build::TunedHead, limit_hz| head.film(&place, &self.default, limit_hz);
+        let [near, far] = self.limits_hz;
+        self.surface.set_films(
+            film(&self.blueprint.batter, near),
+            self.blueprint.resonant.as_ref().map(|head| film(head, far)),
+        );
+        if let Some(far) = &self.far_shapes {
+            self.surface.lay_wires(far);
+        }
+    }
+
+    /// Throws the snare wires on or off, if there are any.
+    pub fn throw_wires(&mut self, on: bool) {
+        self.surface.throw_wires(on);
+    }
+
+    /// Asks for a force of the strainer, N, if there is one.
+    pub fn set_preload(&mut self, newtons: f64) {
+        self.preload.set(newtons);
     }
 
     /// Tension of each head, N/m.

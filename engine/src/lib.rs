@@ -29,6 +29,7 @@ pub mod potential;
 pub mod shapes;
 pub mod snapshot;
 pub mod split;
+pub mod stick;
 pub mod strike;
 pub mod surface;
 pub mod von_karman;

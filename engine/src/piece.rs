@@ -464,6 +464,7 @@ impl Piece {
         into.ready = true;
         into.energy = self.energy() as f32;
         into.strike = self.last_strike();
+        into.wires = self.voice.surface().wires();
         into.quarantines = self.quarantines;
         for (k, q) in into.displacement.iter_mut().enumerate() {
             *q = if k < body.len() { body.displacement(k) } else { 0.0 };

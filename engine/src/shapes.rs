@@ -4,6 +4,7 @@
 //! axes `theta_0` of a pair are where the body's small unevenness puts them.
 
 use crate::piece::Member;
+use crate::surface::patch::pressed_share;
 
 /// Intervals of the table. *Measured*: the finest shape of a cymbal at 22 kHz (wavelength a tenth
 /// of the radius) is met within 1e-4.
@@ -38,6 +39,8 @@ pub struct ShapeTable {
     axes: Vec<[f32; 2]>,
     /// Number of orders.
     orders: usize,
+    /// `[radial]`: wavenumber of the radial function times the radius; empty if there is no single one.
+    waves: Vec<f32>,
 }
 
 /// Orders beyond this would need a larger scratch array; no body has so many.
@@ -71,7 +74,14 @@ impl ShapeTable {
             starts.push(total);
             total += mode.rows;
         }
-        ShapeTable { radial, index, starts, weights: vec![1.0; total], axes, orders }
+        ShapeTable { radial, index, starts, weights: vec![1.0; total], axes, orders, waves: Vec::new() }
+    }
+
+    /// Tells the wavenumber of every radial function, times the radius, `[radial]`: those of a membrane, of
+    /// which a disc feels a known share.
+    pub fn with_waves(mut self, waves: impl Iterator<Item = f64>) -> ShapeTable {
+        self.waves = waves.map(|wave| wave as f32).collect();
+        self
     }
 
     /// How each mode goes around, `[mode]`.
@@ -89,6 +99,16 @@ impl ShapeTable {
     /// # Real-time
     /// No allocation; linear in the number of modes and the rows they mix.
     pub fn fill(&self, radius: f64, angle: f64, out: &mut [f32]) {
+        self.fill_pressed(radius, angle, 0.0, out);
+    }
+
+    /// Writes every mode's shape averaged over a disc about a place, `[mode]`; `disc` is its radius as a share
+    /// of the body's. Of a wave the average is `2 J_1(x) / x` of the middle; of bodies whose waves are not
+    /// known, the middle is all.
+    ///
+    /// # Real-time
+    /// As [`fill`](Self::fill), and a Bessel function for each row mixed.
+    pub fn fill_pressed(&self, radius: f64, angle: f64, disc: f64, out: &mut [f32]) {
         // cos and sin of every multiple of the angle, by one rotation each.
         let mut around = [[1.0_f64, 0.0]; MAX_ORDERS];
         let (sin, cos) = angle.sin_cos();
@@ -106,8 +126,16 @@ impl ShapeTable {
             };
             let weights = &self.weights[self.starts[k]..][..mode.rows];
             let rows = self.radial[mode.radial * (INTERVALS + 1)..].chunks_exact(INTERVALS + 1);
-            let radial: f64 =
-                weights.iter().zip(rows).map(|(&w, row)| f64::from(w) * stencil.apply(row)).sum();
+            let felt = |row: usize| match self.waves.get(mode.radial + row) {
+                Some(&wave) if disc > 0.0 => pressed_share(f64::from(wave) * disc),
+                _ => 1.0,
+            };
+            let radial: f64 = weights
+                .iter()
+                .zip(rows)
+                .enumerate()
+                .map(|(i, (&weight, row))| f64::from(weight) * felt(i) * stencil.apply(row))
+                .sum();
             *out = (radial * turn) as f32;
         }
     }

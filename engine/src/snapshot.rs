@@ -31,6 +31,17 @@ pub struct StrikeSnapshot {
     pub touches: u32,
 }
 
+/// What snare wires have done since the latest stroke.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct WireSnapshot {
+    /// Landings of all groups.
+    pub landings: u32,
+    /// Groups off the head now.
+    pub aloft: u32,
+    /// When a group last lifted off, s after the stroke; 0 if none has.
+    pub last_lift: f32,
+}
+
 /// One piece, seen from outside.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PieceSnapshot {
@@ -44,6 +55,8 @@ pub struct PieceSnapshot {
     pub displacement: [f32; FIELD_MODES],
     /// The latest stroke.
     pub strike: StrikeSnapshot,
+    /// Its snare wires.
+    pub wires: WireSnapshot,
     /// Times the piece was put back to rest because a value was not finite.
     pub quarantines: u32,
 }
@@ -56,6 +69,7 @@ impl Default for PieceSnapshot {
             energy: 0.0,
             displacement: [0.0; FIELD_MODES],
             strike: StrikeSnapshot::default(),
+            wires: WireSnapshot::default(),
             quarantines: 0,
         }
     }

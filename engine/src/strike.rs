@@ -1,8 +1,10 @@
 //! What a hit is: how fast, where, with what.
 //!
-//! A striker is a point mass behind a tip. The stick's bending and the hand are neglected.
+//! A striker is a mass behind a tip that presses on a small disc. A stick also [bends](crate::stick). The hand
+//! is what damps it, and what keeps a stick that has come off from falling back.
 
 use crate::contact::{Material, Tip};
+use crate::stick::Stick;
 
 /// One stroke on one piece.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,16 +59,32 @@ pub struct StrikerSpec {
     pub tip: Tip,
     /// Restitution against a rigid wall, 0 to 1.
     pub restitution: f64,
+    /// Radius of the disc that the tip presses on a head, m. *Derived*: a head wraps around a solid tip of
+    /// radius `R` to `sqrt(F R / (2 pi T))`, at the force of a firm stroke; felt is pressed flat.
+    pub patch: f64,
+    /// What bends behind the tip.
+    pub stick: Option<Stick>,
 }
 
 impl StrikerSpec {
-    const fn solid(grams: f64, material: Material, radius_mm: f64, restitution: f64) -> StrikerSpec {
+    const fn solid(
+        grams: f64,
+        material: Material,
+        radius_mm: f64,
+        restitution: f64,
+        patch_mm: f64,
+    ) -> StrikerSpec {
         let tip = Tip::Solid { material, radius: radius_mm * 1e-3 };
-        StrikerSpec { mass: grams * 1e-3, tip, restitution }
+        StrikerSpec { mass: grams * 1e-3, tip, restitution, patch: patch_mm * 1e-3, stick: None }
     }
 
-    const fn felt(grams: f64, stiffness: f64, exponent: f64, restitution: f64) -> StrikerSpec {
-        StrikerSpec { mass: grams * 1e-3, tip: Tip::Felt { stiffness, exponent }, restitution }
+    const fn felt(grams: f64, stiffness: f64, exponent: f64, restitution: f64, patch_mm: f64) -> StrikerSpec {
+        let tip = Tip::Felt { stiffness, exponent };
+        StrikerSpec { mass: grams * 1e-3, tip, restitution, patch: patch_mm * 1e-3, stick: None }
+    }
+
+    const fn on(self, stick: Stick) -> StrikerSpec {
+        StrikerSpec { stick: Some(stick), ..self }
     }
 }
 
@@ -75,15 +93,20 @@ impl Striker {
     /// feels, not the whole stick.
     pub const fn spec(self) -> StrikerSpec {
         match self {
-            Striker::Stick => StrikerSpec::solid(16.0, Material::HICKORY, 5.0, 0.7),
+            Striker::Stick => {
+                StrikerSpec::solid(16.0, Material::HICKORY, 5.0, 0.7, 2.5).on(Stick::at(Stick::BEAD))
+            }
             // Its side, round by 6 mm, crosses an edge round by 0.4 mm: Hertz's mean radius, sqrt(6 * 0.4).
-            Striker::Shoulder => StrikerSpec::solid(20.0, Material::HICKORY_ACROSS, 1.5, 0.6),
-            Striker::Nylon => StrikerSpec::solid(16.0, Material::NYLON, 4.0, 0.7),
-            Striker::FeltBeater => StrikerSpec::felt(110.0, 6e8, 2.3, 0.5),
-            Striker::PlasticBeater => StrikerSpec::solid(110.0, Material::PLASTIC, 25.0, 0.5),
-            Striker::TimpaniMallet => StrikerSpec::felt(25.0, 3e8, 2.5, 0.6),
-            Striker::HardMallet => StrikerSpec::felt(25.0, 1e10, 2.5, 0.6),
-            Striker::YarnMallet => StrikerSpec::felt(30.0, 5e7, 2.2, 0.5),
+            Striker::Shoulder => StrikerSpec::solid(20.0, Material::HICKORY_ACROSS, 1.5, 0.6, 5.0)
+                .on(Stick::at(Stick::SHOULDER)),
+            Striker::Nylon => {
+                StrikerSpec::solid(16.0, Material::NYLON, 4.0, 0.7, 2.3).on(Stick::at(Stick::BEAD))
+            }
+            Striker::FeltBeater => StrikerSpec::felt(110.0, 6e8, 2.3, 0.5, 20.0),
+            Striker::PlasticBeater => StrikerSpec::solid(110.0, Material::PLASTIC, 25.0, 0.5, 8.0),
+            Striker::TimpaniMallet => StrikerSpec::felt(25.0, 3e8, 2.5, 0.6, 10.0),
+            Striker::HardMallet => StrikerSpec::felt(25.0, 1e10, 2.5, 0.6, 6.0),
+            Striker::YarnMallet => StrikerSpec::felt(30.0, 5e7, 2.2, 0.5, 10.0),
         }
     }
 

@@ -1,20 +1,42 @@
-//! A round surface that is struck and heard: a modal body, its shapes, and the strikers about it.
+//! A round surface that is struck and heard: a modal body, its shapes, and what touches it.
 //!
-//! Displacement and force are positive along the stroke, into the surface. Each striker is a
-//! point mass; both it and the body integrate a force held over the sample exactly, so a contact
+//! Displacement and force are positive along the stroke, into the surface. Whatever touches is a few
+//! oscillators ([`touch`]); both they and the body integrate a force held over the sample exactly, so a contact
 //! is one scalar equation, and several at once a few sweeps of it (Gauss-Seidel: each contact is
 //! solved with the others' forces held; it converges because a place yields more to its own force
 //! than to another's).
+//!
+//! ```text
+//! strikers (tip, shaft) --\                      /--> modes --> pickup --> pressure
+//! wires (8 groups) --------+--> contacts, solved -+--> rim ---> pickup --/
+//! stretch, coupling -------/    together
+//! ```
+
+pub mod oscillator;
+pub mod patch;
+pub mod touch;
+pub mod wires;
 
 use crate::contact::{ContactLaw, ContactStep, Material};
-use crate::modal::{ModalBody, Mode, Pickup, Port};
+use crate::modal::{ModalBody, Mode, Pickup};
 use crate::potential::{NonlinearForce, Potential};
 use crate::shapes::ShapeTable;
-use crate::snapshot::StrikeSnapshot;
-use crate::strike::{Strike, StrikerSpec};
+use crate::snapshot::{StrikeSnapshot, WireSnapshot};
+use crate::strike::Strike;
+
+use patch::Film;
+use touch::{Side, TouchPoint, Toucher};
+use wires::SnareWires;
 
 /// Strikers that can be about one surface at a time; the one that has been away longest gives way.
 pub const MAX_STRIKERS: usize = 4;
+
+/// Points a striker has: its tip and its shaft.
+const STRIKER_POINTS: usize = 2;
+
+/// Where the wires' points begin, and how many points there are at most.
+const FIRST_WIRE: usize = STRIKER_POINTS * MAX_STRIKERS;
+const MAX_POINTS: usize = FIRST_WIRE + wires::GROUPS;
 
 /// A striker farther off than this has left for good, m. *By ear*: no head comes up so far.
 const AWAY: f64 = 0.010;
@@ -25,33 +47,11 @@ const LIFTED_AFTER: f64 = 0.3;
 /// Sweeps over simultaneous contacts; they stop as soon as nothing changes.
 const MAX_SWEEPS: usize = 40;
 
-/// Relative change of a force below which it counts as found.
-const SETTLED: f64 = 1e-12;
+/// Change of a force, relative, and in N, below which it counts as found.
+const SETTLED: f64 = 1e-10;
+const SETTLED_N: f64 = 1e-9;
 
-/// A striker at or near the surface.
-struct StrikerState {
-    /// Whether there is one.
-    present: bool,
-    spec: StrikerSpec,
-    law: ContactLaw,
-    port: Port,
-    /// Pressure at the pickup at once per unit force, Pa/N.
-    direct: f32,
-    /// Position along the stroke, m; velocity, m/s.
-    position: f64,
-    velocity: f64,
-    /// Overlap with the surface now, m.
-    compression: f64,
-    /// Loss of the present touch, s/m.
-    lambda: f64,
-    touching: bool,
-    /// Samples since the stroke.
-    age: u64,
-    force: f64,
-    step: ContactStep,
-    /// Which stroke of the surface this was.
-    stroke: u32,
-}
+type Matrix = [[f64; MAX_POINTS]; MAX_POINTS];
 
 /// What a surface is made from.
 pub struct SurfaceParts {
@@ -76,26 +76,50 @@ pub struct Surface {
     pickup: Pickup,
     material: Material,
     lossless: bool,
-    strikers: [StrikerState; MAX_STRIKERS],
+    /// The head right under a tip, if the surface is one.
+    film: Option<Film>,
+    far_film: Option<Film>,
+    /// Strikers, then groups of wires.
+    touchers: Vec<Toucher>,
+    /// Tip and shaft of every striker, then one point of every group.
+    points: Vec<TouchPoint>,
+    wires: Option<SnareWires>,
+    /// Points present.
+    live: [usize; MAX_POINTS],
+    live_count: usize,
     /// What the body does beyond its modes.
     beyond: Option<NonlinearForce>,
-    /// Between present strikers: one-sample compliance of the body's modes, m/N.
-    compliance: [[f64; MAX_STRIKERS]; MAX_STRIKERS],
-    /// Each present striker's coupling with the force beyond the modes.
-    coupling: [f64; MAX_STRIKERS],
-    /// The compliance the strikers meet: the modes', stiffened by the force beyond them, m/N.
-    yielding: [[f64; MAX_STRIKERS]; MAX_STRIKERS],
-    any_present: bool,
+    /// Between present points: one-sample compliance of the modes and of what touches, m/N.
+    compliance: Matrix,
+    /// Each present point's coupling with the force beyond the modes.
+    coupling: [f64; MAX_POINTS],
+    /// The compliance the points meet: the modes', stiffened by the force beyond them, m/N.
+    yielding: Matrix,
     /// Kinetic energy that strikers have taken with them, J.
     departed_energy: f64,
     last: StrikeSnapshot,
     dt: f64,
 }
 
+/// Whose point it is.
+const fn owner(point: usize) -> usize {
+    if point < FIRST_WIRE { point / STRIKER_POINTS } else { MAX_STRIKERS + point - FIRST_WIRE }
+}
+
+/// The points of a toucher.
+const fn points_of(toucher: usize) -> std::ops::Range<usize> {
+    if toucher < MAX_STRIKERS {
+        STRIKER_POINTS * toucher..STRIKER_POINTS * (toucher + 1)
+    } else {
+        let point = FIRST_WIRE + toucher - MAX_STRIKERS;
+        point..point + 1
+    }
+}
+
 impl Surface {
     /// A surface at rest. Allocates.
     pub fn new(parts: SurfaceParts) -> Surface {
-        let count = parts.modes.len();
+        let (count, dt) = (parts.modes.len(), 1.0 / parts.sample_rate);
         let body = ModalBody::new(parts.modes, parts.sample_rate);
         let mut pickup = Pickup::new(parts.transfer);
         body.tune(&mut pickup);
@@ -105,15 +129,20 @@ impl Surface {
             pickup,
             material: parts.material,
             lossless: parts.lossless,
-            strikers: std::array::from_fn(|_| StrikerState::absent(count)),
+            film: None,
+            far_film: None,
+            touchers: (0..MAX_STRIKERS).map(|_| Toucher::absent(dt)).collect(),
+            points: (0..FIRST_WIRE).map(|_| TouchPoint::absent(count, dt)).collect(),
+            wires: None,
+            live: [0; MAX_POINTS],
+            live_count: 0,
             beyond: None,
-            compliance: [[0.0; MAX_STRIKERS]; MAX_STRIKERS],
-            coupling: [0.0; MAX_STRIKERS],
-            yielding: [[0.0; MAX_STRIKERS]; MAX_STRIKERS],
-            any_present: false,
+            compliance: [[0.0; MAX_POINTS]; MAX_POINTS],
+            coupling: [0.0; MAX_POINTS],
+            yielding: [[0.0; MAX_POINTS]; MAX_POINTS],
             departed_energy: 0.0,
             last: StrikeSnapshot::default(),
-            dt: 1.0 / parts.sample_rate,
+            dt,
         }
     }
 
@@ -121,6 +150,128 @@ impl Surface {
     pub fn set_potential(&mut self, potential: Box<dyn Potential>, modes: usize, stride: u32) {
         let force = NonlinearForce::new(potential, modes, stride, (&self.body, &self.pickup), 1.0 / self.dt);
         self.beyond = Some(force);
+    }
+
+    /// Makes the surface a head that yields under a tip beyond its modes, and so the far one under wires;
+    /// acts on whatever touches from now on.
+    pub fn set_films(&mut self, near: Film, far: Option<Film>) {
+        (self.film, self.far_film) = (Some(near), far);
+    }
+
+    /// Gives the drum snare wires; [`lay_wires`](Self::lay_wires) tells where. Allocates.
+    pub fn set_wires(&mut self, head: &Material) {
+        let wires = SnareWires::new(head, self.lossless, self.dt);
+        let (preload, seat) = wires.seat();
+        for _ in wires::PLACES {
+            let mut point = TouchPoint::absent(self.body.len(), self.dt);
+            point.arrive(Side::Surface, wires.law, [1.0, 0.0, 0.0, 0.0, 0.0]);
+            (point.present, point.preload, point.seat) = (false, preload, seat);
+            let mut group = Toucher::absent(self.dt);
+            (group.parts[0], group.part_count) = (wires.group(self.lossless), 1);
+            self.points.push(point);
+            self.touchers.push(group);
+        }
+        self.wires = Some(wires);
+    }
+
+    /// Lays the wires against the far head of these shapes (positive along the stroke).
+    ///
+    /// # Real-time
+    /// Linear in the number of modes.
+    pub fn lay_wires(&mut self, far: &ShapeTable) {
+        let disc = self.far_film.map_or(0.0, |film| wires::PATCH / film.radius);
+        for (point, [x, y]) in self.points.iter_mut().skip(FIRST_WIRE).zip(wires::PLACES) {
+            let shape = point.port.shape_mut();
+            far.fill_pressed(x.hypot(y), x.atan2(-y), disc, shape);
+            // They lie on the other side: their way into the head is against the stroke.
+            shape.iter_mut().for_each(|shape| *shape = -*shape);
+        }
+        for i in FIRST_WIRE..self.points.len() {
+            let position = self.touchers[owner(i)].position(&self.points[i].weights);
+            let moved = position - self.body.displacement_at(&self.points[i].port);
+            // A head of another shape lies elsewhere under the wires; the contact must not notice.
+            let point = &mut self.points[i];
+            point.origin = moved - (point.compression - point.seat) - point.bands_bent();
+            if point.present {
+                self.connect(i);
+            }
+        }
+    }
+
+    /// Throws the wires on or off.
+    ///
+    /// # Real-time
+    /// No allocation; linear in the number of modes.
+    pub fn throw_wires(&mut self, on: bool) {
+        if let Some(wires) = self.wires.as_mut().filter(|wires| wires.on != on) {
+            wires.on = on;
+            self.park_wires();
+            if on && !self.body.is_still() {
+                self.wake_wires();
+            }
+        }
+    }
+
+    /// Sets the force of the strainer, N; live.
+    pub fn set_preload(&mut self, preload: f64) {
+        let Some(wires) = &mut self.wires else {
+            return;
+        };
+        wires.preload = preload.clamp(wires::PRELOAD.0, wires::PRELOAD.2);
+        let (share, seat) = wires.seat();
+        for point in &mut self.points[FIRST_WIRE..] {
+            // What is measured from equilibrium stays; equilibrium itself moves.
+            point.compression += seat - point.seat;
+            (point.preload, point.seat) = (share, seat);
+        }
+    }
+
+    /// Whether there are wires and they lie against the head.
+    pub fn wires_on(&self) -> bool {
+        self.wires.as_ref().is_some_and(|wires| wires.on)
+    }
+
+    /// What the wires have done since the latest stroke.
+    pub fn wires(&self) -> WireSnapshot {
+        let aloft = self.points.iter().skip(FIRST_WIRE).filter(|point| point.present && !point.touching);
+        self.wires.as_ref().map_or_else(WireSnapshot::default, |wires| wires.snapshot(aloft.count() as u32))
+    }
+
+    /// Lets the wires lie still where they are.
+    fn park_wires(&mut self) {
+        if let Some(wires) = &mut self.wires {
+            wires.parked = true;
+            self.points[FIRST_WIRE..].iter_mut().for_each(|point| point.present = false);
+            self.touchers[MAX_STRIKERS..].iter_mut().for_each(|group| group.present = false);
+            self.list();
+        }
+    }
+
+    /// Lets the wires move again, from the equilibrium they were left in.
+    fn wake_wires(&mut self) {
+        let Some(wires) = self.wires.as_mut().filter(|wires| wires.on && wires.parked) else {
+            return;
+        };
+        wires.parked = false;
+        let lambda = wires.resting_lambda();
+        for i in FIRST_WIRE..self.points.len() {
+            let point = &mut self.points[i];
+            (point.present, point.touching, point.lambda) = (true, true, lambda);
+            (point.compression, point.force) = (point.seat, point.preload);
+            if let Some(film) = self.far_film {
+                let (x, y) = (wires::PLACES[i - FIRST_WIRE][0], wires::PLACES[i - FIRST_WIRE][1]);
+                (point.bands, point.band_count) =
+                    film.bands(x.hypot(y), wires::PATCH, !self.lossless, self.dt);
+            }
+            let group = &mut self.touchers[owner(i)];
+            group.present = true;
+            group.parts[0].rest();
+            self.points[i].origin = -self.body.displacement_at(&self.points[i].port);
+        }
+        self.list();
+        for i in FIRST_WIRE..self.points.len() {
+            self.connect(i);
+        }
     }
 
     /// What the body does beyond its modes, if it does.
@@ -141,9 +292,10 @@ impl Surface {
         self.beyond.as_mut()
     }
 
-    /// Energy of the body, J: of its modes and what it holds beyond them.
+    /// Energy of the body, J: of its modes, what it holds beyond them, and its wires.
     pub fn energy(&self) -> f64 {
-        self.body.energy() + self.beyond.as_ref().map_or(0.0, NonlinearForce::energy)
+        let wires: f64 = self.present(MAX_STRIKERS..self.touchers.len());
+        self.body.energy() + self.beyond.as_ref().map_or(0.0, NonlinearForce::energy) + wires
     }
 
     /// True energy of the body beyond its modes, J, and the relative error of the variable that
@@ -190,10 +342,8 @@ impl Surface {
         if let Some(force) = &mut self.beyond {
             force.follow(&self.body, &self.pickup);
         }
-        for i in 0..MAX_STRIKERS {
-            if self.strikers[i].present {
-                self.connect(i);
-            }
+        for n in 0..self.live_count {
+            self.connect(self.live[n]);
         }
     }
 
@@ -204,9 +354,13 @@ impl Surface {
     pub fn strike(&mut self, strike: &Strike) {
         let speed = strike.speed.clamp(0.0, Strike::MAX_SPEED);
         let radius = strike.radius.clamp(0.0, 1.0);
+        self.wake_wires();
+        if let Some(wires) = &mut self.wires {
+            wires.begin_count();
+        }
         let i = self.free_place();
-        if self.strikers[i].present {
-            self.departed_energy += self.strikers[i].energy();
+        if self.touchers[i].present {
+            self.leave(i);
         }
         self.last = StrikeSnapshot {
             count: self.last.count.wrapping_add(1),
@@ -215,22 +369,24 @@ impl Surface {
             angle: strike.angle as f32,
             ..StrikeSnapshot::default()
         };
-        let striker = &mut self.strikers[i];
-        striker.spec = strike.striker.spec();
-        let restitution = if self.lossless { 1.0 } else { striker.spec.restitution };
-        striker.law = ContactLaw::new(&striker.spec.tip, &self.material, restitution);
-        self.shapes.fill(radius, strike.angle, striker.port.shape_mut());
-        striker.present = true;
-        striker.touching = false;
-        striker.age = 0;
-        striker.force = 0.0;
-        striker.velocity = speed;
-        striker.stroke = self.last.count;
-        self.any_present = true;
-        self.connect(i);
-        let striker = &mut self.strikers[i];
-        striker.position = self.body.displacement_at(&striker.port);
-        striker.compression = 0.0;
+        let spec = strike.striker.spec();
+        let toucher = &mut self.touchers[i];
+        toucher.present = true;
+        (toucher.age, toucher.stroke) = (0, self.last.count);
+        let weights = toucher.take(&spec, speed, !self.lossless, self.dt);
+        let restitution = if self.lossless { 1.0 } else { spec.restitution };
+        let law = ContactLaw::new(&spec.tip, &self.material, restitution);
+        let tip = points_of(i).start;
+        let point = &mut self.points[tip];
+        point.arrive(Side::Surface, law, weights);
+        let disc = self.film.map_or(0.0, |film| spec.patch / film.radius);
+        self.shapes.fill_pressed(radius, strike.angle, disc, point.port.shape_mut());
+        if let Some(film) = self.film {
+            (point.bands, point.band_count) = film.bands(radius, spec.patch, !self.lossless, self.dt);
+        }
+        point.origin = -self.body.displacement_at(&point.port);
+        self.list();
+        self.connect(tip);
         if let Some(force) = &mut self.beyond {
             force.wake();
         }
@@ -239,23 +395,50 @@ impl Surface {
     /// An empty place, or that of the striker which has been about longest without touching, or,
     /// if all touch, of the oldest.
     fn free_place(&self) -> usize {
-        let rank =
-            |striker: &StrikerState| (striker.present, striker.touching, std::cmp::Reverse(striker.age));
-        (0..MAX_STRIKERS).min_by_key(|&i| rank(&self.strikers[i])).unwrap_or(0)
+        let rank = |&i: &usize| {
+            let toucher = &self.touchers[i];
+            let touching = self.points[points_of(i)].iter().any(|point| point.present && point.touching);
+            (toucher.present, touching, std::cmp::Reverse(toucher.age))
+        };
+        (0..MAX_STRIKERS).min_by_key(rank).unwrap_or(0)
     }
 
-    /// Works out what the body tells striker `i` and the others of each other.
+    /// A striker leaves with what it holds.
+    fn leave(&mut self, i: usize) {
+        self.departed_energy += self.energy_of(i);
+        self.touchers[i].present = false;
+        self.points[points_of(i)].iter_mut().for_each(|point| point.present = false);
+    }
+
+    /// Energy of a toucher and its contacts, J.
+    fn energy_of(&self, toucher: usize) -> f64 {
+        let points = self.points[points_of(toucher)].iter().filter(|point| point.present);
+        self.touchers[toucher].energy() + points.map(TouchPoint::energy).sum::<f64>()
+    }
+
+    /// Lists the points present.
+    fn list(&mut self) {
+        self.live_count = 0;
+        for (i, _) in self.points.iter().enumerate().filter(|(_, point)| point.present) {
+            self.live[self.live_count] = i;
+            self.live_count += 1;
+        }
+    }
+
+    /// Works out what the body tells point `i` and the others of each other.
     fn connect(&mut self, i: usize) {
-        self.body.connect(&mut self.strikers[i].port);
-        let port = &self.strikers[i].port;
+        self.body.connect(&mut self.points[i].port);
+        let port = &self.points[i].port;
         self.coupling[i] = self.beyond.as_ref().map_or(0.0, |force| force.coupling(&self.body, port));
-        self.strikers[i].direct = self.pickup.direct_at(&self.body, &self.strikers[i].port);
-        for j in 0..MAX_STRIKERS {
-            if self.strikers[j].present {
-                let mutual = self.body.compliance(&self.strikers[j].port, &self.strikers[i].port);
-                self.compliance[i][j] = mutual;
-                self.compliance[j][i] = mutual;
+        self.points[i].direct = self.pickup.direct_at(&self.body, &self.points[i].port);
+        for &j in &self.live[..self.live_count] {
+            let mut mutual = self.body.compliance(&self.points[j].port, &self.points[i].port);
+            if owner(i) == owner(j) {
+                mutual +=
+                    self.touchers[owner(i)].compliance(&self.points[i].weights, &self.points[j].weights);
             }
+            self.compliance[i][j] = mutual;
+            self.compliance[j][i] = mutual;
         }
     }
 
@@ -263,11 +446,11 @@ impl Surface {
     /// [`MAX_RUN`](crate::modal::simd::MAX_RUN) samples.
     ///
     /// # Real-time
-    /// Linear in modes times samples; a few times dearer while a striker is about, and by the cost
+    /// Linear in modes times samples; a few times dearer while something touches, and by the cost
     /// of the potential while that acts.
     pub fn render(&mut self, out: &mut [f32]) {
         let mut done = 0;
-        while self.any_present && done < out.len() {
+        while self.live_count > 0 && done < out.len() {
             out[done] = self.step();
             done += 1;
         }
@@ -287,45 +470,82 @@ impl Surface {
         }
     }
 
-    /// One sample with strikers about.
+    /// One sample with something about.
     fn step(&mut self) -> f32 {
         let mean = self.step_free();
         let dt = self.dt;
-        for (i, striker) in self.strikers.iter_mut().enumerate().filter(|(_, striker)| striker.present) {
-            let surface = self.body.displacement_at(&striker.port) - self.coupling[i] * mean;
-            striker.free_flight(surface, self.yielding[i][i], dt);
+        for toucher in self.touchers.iter_mut().filter(|toucher| toucher.present) {
+            toucher.step();
+        }
+        for &i in &self.live[..self.live_count] {
+            let point = &mut self.points[i];
+            let surface = self.body.displacement_at(&point.port) - self.coupling[i] * mean;
+            let position = self.touchers[owner(i)].position(&point.weights);
+            point.free_flight(position - surface - point.origin, self.yielding[i][i], dt);
         }
         self.solve();
         let mut direct = 0.0;
-        let mut forces = [0.0; MAX_STRIKERS];
-        for (force, striker) in forces.iter_mut().zip(&self.strikers) {
-            if striker.present && striker.force > 0.0 {
-                *force = striker.force;
-                self.body.push(&striker.port, striker.force as f32);
-                direct += striker.force as f32 * striker.direct;
+        let mut pressed = 0.0;
+        for &i in &self.live[..self.live_count] {
+            let point = &self.points[i];
+            let force = point.pressing();
+            if force != 0.0 {
+                self.body.push(&point.port, force as f32);
+                self.touchers[owner(i)].push(&point.weights, force);
+                direct += force as f32 * point.direct;
+                pressed += force * self.coupling[i];
             }
         }
         if let Some(beyond) = self.beyond.as_mut().filter(|beyond| beyond.is_active()) {
-            let pressed = forces.iter().zip(&self.coupling).map(|(force, p)| force * p).sum();
             direct += beyond.finish(&mut self.body, pressed);
         }
-        self.any_present = false;
-        for (i, striker) in self.strikers.iter_mut().enumerate().filter(|(_, striker)| striker.present) {
-            // Where the others' forces and its own have taken the surface.
-            let yielded: f64 = forces.iter().zip(&self.yielding[i]).map(|(force, c)| force * c).sum();
-            striker.advance(yielded, dt);
-            if striker.stroke == self.last.count {
-                striker.report(&mut self.last, dt);
-            }
-            self.any_present |= striker.present;
-            if !striker.present {
-                self.departed_energy += striker.energy();
+        for &i in &self.live[..self.live_count] {
+            let others = self.moved_by_others(i);
+            let before = self.points[i].touching;
+            self.points[i].finish(others);
+            if let Some(wires) = self.wires.as_mut().filter(|_| i >= FIRST_WIRE) {
+                wires.count(before, self.points[i].touching);
             }
         }
+        if let Some(wires) = &mut self.wires {
+            wires.age += 1;
+        }
+        self.watch_strikers();
         self.body.listen(&self.pickup) + direct
     }
 
-    /// Lets the body step without strikers; works out how it meets them. Returns what multiplies their
+    /// How far the forces of all other points have brought point `i` out of the surface, m.
+    fn moved_by_others(&self, i: usize) -> f64 {
+        let others = self.live[..self.live_count].iter().filter(|&&j| j != i);
+        others.map(|&j| self.yielding[i][j] * self.points[j].pressing()).sum()
+    }
+
+    /// Reports on the strikers, and lets go those that have left.
+    fn watch_strikers(&mut self) {
+        let mut left = false;
+        for i in 0..MAX_STRIKERS {
+            if !self.touchers[i].present {
+                continue;
+            }
+            self.touchers[i].age += 1;
+            let age = self.touchers[i].age as f64 * self.dt;
+            let points = &self.points[points_of(i)];
+            if self.touchers[i].stroke == self.last.count {
+                report(&mut self.last, &self.touchers[i], points, self.dt);
+            }
+            let mut present = points.iter().filter(|point| point.present);
+            let touching = present.clone().any(|point| point.touching);
+            if present.all(|point| point.compression < -AWAY) || (!touching && age > LIFTED_AFTER) {
+                self.leave(i);
+                left = true;
+            }
+        }
+        if left {
+            self.list();
+        }
+    }
+
+    /// Lets the body step by itself; works out how what touches meets it. Returns what multiplies their
     /// coupling to give how far the force beyond the modes has moved the surface by itself.
     fn step_free(&mut self) -> f64 {
         self.yielding = self.compliance;
@@ -333,40 +553,34 @@ impl Surface {
             self.body.step();
             return 0.0;
         };
+        let live = &self.live[..self.live_count];
         if force.begin(&mut self.body, &self.pickup) {
-            for (coupling, striker) in self.coupling.iter_mut().zip(&self.strikers) {
-                *coupling = if striker.present { force.coupling(&self.body, &striker.port) } else { 0.0 };
+            for &i in live {
+                self.coupling[i] = force.coupling(&self.body, &self.points[i].port);
             }
         }
         self.body.step();
-        for (row, a) in self.yielding.iter_mut().zip(self.coupling) {
-            for (c, b) in row.iter_mut().zip(self.coupling) {
-                *c -= a * b / force.divisor();
+        for &i in live {
+            for &j in live {
+                self.yielding[i][j] -= self.coupling[i] * self.coupling[j] / force.divisor();
             }
         }
         force.free(&self.body)
     }
 
-    /// Forces of all contacts for this sample: sweeps until none changes any more. A striker alone
+    /// Forces of all contacts for this sample: sweeps until none changes any more. A point alone
     /// is done in one.
     fn solve(&mut self) {
-        let present = self.strikers.iter().filter(|striker| striker.present).count();
-        for _ in 0..if present > 1 { MAX_SWEEPS } else { 1 } {
+        for _ in 0..if self.live_count > 1 { MAX_SWEEPS } else { 1 } {
             let mut changed = false;
-            for i in 0..MAX_STRIKERS {
-                if !self.strikers[i].present {
-                    continue;
-                }
-                // A force of zero, as of those not present, pushes nothing.
-                let others: f64 = (0..MAX_STRIKERS)
-                    .filter(|&j| j != i && self.strikers[j].present)
-                    .map(|j| self.yielding[i][j] * self.strikers[j].force)
-                    .sum();
-                let striker = &mut self.strikers[i];
-                let step = ContactStep { free: striker.step.free - others, ..striker.step };
-                let force = striker.law.force(&step);
-                changed |= (force - striker.force).abs() > SETTLED * force;
-                striker.force = force;
+            for n in 0..self.live_count {
+                let i = self.live[n];
+                let others = self.moved_by_others(i);
+                let point = &mut self.points[i];
+                let step = ContactStep { free: point.step.free - others, ..point.step };
+                let force = point.law.force(&step);
+                changed |= (force - point.force).abs() > SETTLED * force + SETTLED_N;
+                point.force = force;
             }
             if !changed {
                 break;
@@ -374,12 +588,17 @@ impl Surface {
         }
     }
 
-    /// Kinetic energy of the strikers and energy held in their contacts, J.
+    /// Energy of the strikers and of what their contacts hold, J.
     pub fn striker_energy(&self) -> f64 {
-        self.strikers.iter().filter(|striker| striker.present).map(StrikerState::energy).sum()
+        self.present(0..MAX_STRIKERS)
     }
 
-    /// Kinetic energy that strikers have taken away with them since the last reset, J.
+    /// Energy of those touchers that are there, J.
+    fn present(&self, which: std::ops::Range<usize>) -> f64 {
+        which.filter(|&i| self.touchers[i].present).map(|i| self.energy_of(i)).sum()
+    }
+
+    /// Energy that strikers have taken away with them since the last reset, J.
     pub fn departed_energy(&self) -> f64 {
         self.departed_energy
     }
@@ -392,93 +611,49 @@ impl Surface {
         self.body.flush_quiet();
         self.beyond.iter_mut().for_each(NonlinearForce::settle);
         let finite = self.body.is_finite()
-            && self.strikers.iter().all(|striker| !striker.present || striker.position.is_finite());
+            && self.live[..self.live_count].iter().all(|&i| self.points[i].compression.is_finite());
         if !finite {
             self.reset();
+        }
+        let strikers = self.touchers[..MAX_STRIKERS].iter().any(|striker| striker.present);
+        let moving = self.wires.as_ref().is_some_and(|wires| wires.on && !wires.parked);
+        if moving && !strikers && self.energy() < wires::STILL {
+            self.park_wires();
         }
         finite
     }
 
     /// Whether nothing moves and nothing is about.
     pub fn is_still(&self) -> bool {
-        !self.any_present && self.body.is_still()
+        self.live_count == 0 && self.body.is_still()
     }
 
     /// Puts everything to rest; strikers are gone.
     pub fn reset(&mut self) {
         self.body.reset();
         self.beyond.iter_mut().for_each(NonlinearForce::reset);
-        for striker in &mut self.strikers {
+        for toucher in &mut self.touchers {
             // Which place the next stroke takes hangs on all of these.
-            (striker.present, striker.touching, striker.age) = (false, false, 0);
+            (toucher.present, toucher.age) = (false, 0);
         }
-        self.any_present = false;
+        for point in &mut self.points {
+            (point.present, point.touching) = (false, false);
+        }
+        self.list();
+        self.park_wires();
         self.departed_energy = 0.0;
     }
 }
 
-impl StrikerState {
-    /// Kinetic energy and energy held in the contact, J.
-    fn energy(&self) -> f64 {
-        0.5 * self.spec.mass * self.velocity.powi(2) + self.law.potential(self.compression)
-    }
-
-    fn absent(modes: usize) -> StrikerState {
-        let spec = crate::strike::Striker::Stick.spec();
-        StrikerState {
-            present: false,
-            spec,
-            law: ContactLaw::new(&spec.tip, &Material::FILM, spec.restitution),
-            port: Port::new(modes),
-            direct: 0.0,
-            position: 0.0,
-            velocity: 0.0,
-            compression: 0.0,
-            lambda: 0.0,
-            touching: false,
-            age: 0,
-            force: 0.0,
-            step: ContactStep { before: 0.0, free: 0.0, compliance: 0.0, lambda: 0.0, dt: 1.0 },
-            stroke: 0,
+/// Adds this sample to what a stroke's contacts have measured.
+fn report(last: &mut StrikeSnapshot, toucher: &Toucher, points: &[TouchPoint], dt: f64) {
+    for point in points.iter().filter(|point| point.present && point.force > 0.0) {
+        if point.step.before <= 0.0 {
+            last.touches += 1;
         }
+        last.contact_time = (toucher.age as f64 * dt) as f32;
+        last.peak_force = last.peak_force.max(point.force as f32);
+        last.impulse += (point.force * dt) as f32;
     }
-
-    /// Prepares the sample's contact: where the striker and the surface would be without a force.
-    fn free_flight(&mut self, surface: f64, body_compliance: f64, dt: f64) {
-        self.position += self.velocity * dt;
-        let free = self.position - surface;
-        if !self.touching && free > 0.0 {
-            let approach = (free - self.compression) / dt;
-            self.lambda = self.law.lambda(approach);
-        }
-        let compliance = body_compliance + dt * dt / (2.0 * self.spec.mass);
-        self.step = ContactStep { before: self.compression, free, compliance, lambda: self.lambda, dt };
-        self.force = 0.0;
-    }
-
-    /// Applies the force; `yielded` is how far all forces have moved the surface here.
-    fn advance(&mut self, yielded: f64, dt: f64) {
-        let own = dt * dt / (2.0 * self.spec.mass);
-        self.position -= own * self.force;
-        self.velocity -= self.force * dt / self.spec.mass;
-        self.compression = self.step.free - yielded - own * self.force;
-        self.touching = self.compression > 0.0;
-        self.age += 1;
-        let gone = self.compression < -AWAY;
-        let lifted = !self.touching && self.age as f64 * dt > LIFTED_AFTER;
-        self.present = !(gone || lifted);
-    }
-
-    /// Adds this sample to what the stroke's contact has measured.
-    fn report(&self, last: &mut StrikeSnapshot, dt: f64) {
-        if self.force > 0.0 {
-            if self.step.before <= 0.0 {
-                last.touches += 1;
-            }
-            last.contact_time = (self.age as f64 * dt) as f32;
-            last.peak_force = last.peak_force.max(self.force as f32);
-            last.impulse += (self.force * dt) as f32;
-        }
-        last.leaving_speed = -self.velocity as f32;
-    }
+    last.leaving_speed = -toucher.parts[0].v as f32;
 }

@@ -114,6 +114,9 @@ fn bad_input_is_one_line_with_the_value_exit_code_2_and_no_output() {
         (&["hear", "snare", "--wav", "no/such/out.wav"], &["no/such/out.wav"]),
         (&["modes", "gong"], &["gong", "kick"]),
         (&["modes", "kick", "--set", "kick_muffle=2"], &["2", "0 to 1"]),
+        (&["realism", "timpani"], &["timpani", "kick", "splash"]),
+        (&["realism", "--speeds", "3,0"], &["'0'", "25 m/s"]),
+        (&["realism", "snare", "--speeds", "3", "--wav", "song.mid"], &["song.mid", "folder"]),
         (&["dance"], &["dance", "render"]),
     ];
     for (arguments, expected) in cases {
@@ -255,6 +258,30 @@ fn modes_prints_the_documented_json() {
 }
 
 #[test]
+fn realism_prints_the_documented_json_and_keeps_the_sounds() {
+    let folder = Folder::new("realism");
+    let arguments = ["realism", "rack-tom", "--speeds", "4,2", "--json", "--wav", "sounds"];
+    let value: Value = serde_json::from_str(&folder.succeed(&arguments)).unwrap();
+    let piece = &value["pieces"][0];
+    let row = &piece["features"][0];
+    let mut found = [keys(&value), keys(piece), keys(row)].concat();
+    found.sort_unstable();
+    found.dedup();
+    let documented: std::collections::BTreeSet<String> = documented("## realism").into_iter().collect();
+    // The manual has the ends of a range in one line.
+    found.retain(|key| *key != "high");
+    assert_eq!(found, documented.iter().map(String::as_str).collect::<Vec<_>>());
+    assert_eq!(value["speeds_m_s"].as_array().unwrap().len(), 2);
+    assert_eq!(row["values"].as_array().unwrap().len(), 2);
+    let mut sounds: Vec<_> = fs::read_dir(folder.0.join("sounds"))
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    sounds.sort();
+    assert_eq!(sounds, ["rack-tom-2.wav", "rack-tom-4.wav"]);
+}
+
+#[test]
 fn the_commands_of_the_readme_and_the_manual_exist() {
     let folder = Folder::new("help");
     let help = folder.succeed(&["--help"]);
@@ -276,7 +303,7 @@ fn the_commands_of_the_readme_and_the_manual_exist() {
 fn every_option_of_the_manual_exists() {
     let folder = Folder::new("options");
     let docs = fs::read_to_string(root().join("docs/commands.md")).unwrap();
-    for command in ["render", "hear", "modes"] {
+    for command in ["render", "hear", "modes", "realism"] {
         let help = folder.succeed(&[command, "--help"]);
         let section = docs.split(&format!("\n## {command}")).nth(1).unwrap();
         let section = section.split("\n## ").next().unwrap();

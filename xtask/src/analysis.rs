@@ -4,11 +4,18 @@
 //! sound does not support is `None`, never a guess.
 
 pub mod decay;
+pub mod density;
+pub mod envelope;
 pub mod glide;
 pub mod level;
+pub mod one_shot;
+pub mod partials;
 pub mod spectrum;
+pub mod transform;
 
-pub use decay::{OCTAVES, octave_decays};
+pub use decay::{OCTAVES, broadband_decays, octave_decays};
 pub use glide::{Motion, glide_cents};
 pub use level::{mean, peak, rms, to_dbfs};
+pub use one_shot::OneShot;
 pub use spectrum::Spectrum;
+pub use transform::Transform;

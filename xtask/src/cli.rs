@@ -14,8 +14,8 @@ use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser};
 use overhear_engine::piece::BuildOptions;
 
-use crate::{bundle, demo, error, groove, hear, modes, output, render, settings, suite};
-use arguments::{HearArguments, ModesArguments, RenderArguments, Task};
+use crate::{bundle, demo, error, groove, hear, modes, output, realism, render, settings, suite};
+use arguments::{HearArguments, ModesArguments, RealismArguments, RenderArguments, Task};
 
 /// Developer and user commands of Overhear.
 #[derive(Debug, Parser)]
@@ -83,6 +83,7 @@ fn dispatch(task: Task) -> Result<()> {
         Task::Render(arguments) => render(arguments),
         Task::Hear(arguments) => hear(arguments),
         Task::Modes(arguments) => modes(arguments),
+        Task::Realism(arguments) => realism(arguments),
         Task::Groove { output } => output::write(&output, &groove::file()),
     }
 }
@@ -104,6 +105,12 @@ fn hear(arguments: HearArguments) -> Result<()> {
     let (json, request) = (arguments.json, arguments.into_request()?);
     let measurement = hear::run(&request)?;
     say(&if json { serde_json::to_string(&measurement)? + "\n" } else { measurement.to_string() })
+}
+
+fn realism(arguments: RealismArguments) -> Result<()> {
+    let (json, request) = (arguments.json, arguments.into_request()?);
+    let report = realism::run(&request)?;
+    say(&if json { serde_json::to_string(&report)? + "\n" } else { report.to_string() })
 }
 
 fn modes(arguments: ModesArguments) -> Result<()> {

@@ -3,8 +3,8 @@
 //! In reading order: [`cli`] says which commands there are and what they take. `render`
 //! ([`render`]) turns a MIDI file ([`song`]) into sound through a [`player`], which is either the
 //! engine itself or the built plugin in an embedded [`host`]; [`wav`] and [`output`] put it on
-//! disk. `hear` ([`hear`]) strikes one piece and measures it ([`analysis`]); `modes` ([`modes`])
-//! lists what vibrates. [`demo`] plays the [`groove`] and draws a [`picture`] of it. [`bundle`]
+//! disk. `hear` ([`hear`]) strikes one piece and measures it ([`analysis`]); `realism`
+//! ([`realism`]) sets every piece beside recordings; `modes` ([`modes`]) lists what vibrates. [`demo`] plays the [`groove`] and draws a [`picture`] of it. [`bundle`]
 //! and [`suite`] build and test.
 #![deny(unsafe_op_in_unsafe_fn)]
 
@@ -21,6 +21,7 @@ pub mod output;
 pub mod picture;
 pub mod player;
 pub mod progress;
+pub mod realism;
 pub mod render;
 pub mod settings;
 pub mod song;

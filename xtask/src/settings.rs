@@ -99,6 +99,12 @@ pub fn parse_for_piece(id: PieceId, assignments: &[String]) -> Result<Vec<PieceS
         .collect()
 }
 
+/// Muffling that a piece has in the kit unless it is moved, 0 to 1.
+pub fn default_muffling(id: PieceId) -> f64 {
+    let [_, muffle] = piece_parameters(id);
+    f64::from(muffle.default)
+}
+
 /// Tuning and muffling of a piece.
 fn piece_parameters(id: PieceId) -> [Parameter; 2] {
     let find = |name: &str| PARAMETERS.iter().copied().find(|parameter| parameter.name == name);

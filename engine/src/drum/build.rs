@@ -3,18 +3,19 @@
 
 use std::f64::consts::TAU;
 
-use crate::air::SPEED_OF_SOUND;
+use crate::air::{DENSITY, SPEED_OF_SOUND};
 use crate::cavity::{CavityOrder, HeadShape};
 use crate::drum::coupled::{CoupledMode, OrderProblem, Outside, Stretched};
 use crate::drum::shadow;
 use crate::drum::spec::{DrumSpec, HeadSpec};
-use crate::drum::tuned::{self, PITCHES, PitchScale, TunedMode};
+use crate::drum::tuned::{self, PITCHES, PitchScale, Place, TunedMode};
 use crate::error::SpecError;
 use crate::listening::{Radiator, Rayleigh};
 use crate::math::bessel::{self, JTable};
 use crate::membrane::{self, Membrane, ModeRange, Surroundings};
 use crate::shapes::{ShapeIndex, ShapeTable};
 use crate::split::Splitting;
+use crate::surface::patch::Film;
 
 /// Modes of the enclosed air up to this are kept as modes, Hz; above, air only rides along.
 const CAVITY_LIMIT_HZ: f64 = 2500.0;
@@ -66,6 +67,18 @@ impl TunedHead {
         let membrane = Membrane::new(spec.membrane, Surroundings::Air, &range)?.by_order();
         let tensions = pitches.map(|hz| membrane.tension_for(m, n, hz).unwrap_or_else(|| tension(hz)));
         Ok(TunedHead { membrane, tensions })
+    }
+
+    /// The head as a tip feels it from near, at a place of the scale; its modes reach `limit_hz` at the
+    /// default pitch `at_default`.
+    pub fn film(&self, place: &Place, at_default: &Place, limit_hz: f64) -> Film {
+        let tension = |place: &Place| place.blend(|i| self.tensions[i].ln()).exp();
+        let (spec, now) = (self.membrane.spec(), tension(place));
+        let reached = TAU * limit_hz * (now / tension(at_default)).sqrt();
+        // Waves that fine move the air within their own length only: rho / k on either face.
+        let bare = spec.area_density();
+        let air = 2.0 * DENSITY * (now / bare).sqrt() / reached;
+        Film { radius: spec.radius, tension: now, density: bare + air, reached }
     }
 
     fn stretched(&self, pitch: usize) -> Stretched<'_> {
@@ -172,7 +185,8 @@ impl Blueprint {
             let members = Splitting::ROUND.members(mode.m, 0);
             index.extend(members.map(|(member, _)| ShapeIndex { radial, rows, m: mode.m, member, axis }));
         }
-        ShapeTable::new(&head.membrane.radial_shapes(&ShapeTable::radii()), index)
+        let waves = head.membrane.modes().iter().map(|mode| mode.zero);
+        ShapeTable::new(&head.membrane.radial_shapes(&ShapeTable::radii()), index).with_waves(waves)
     }
 
     /// How each mode of the body is heard at the listening point at a pitch (Hz), `[mode]`, pairs as two.

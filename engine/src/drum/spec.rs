@@ -49,6 +49,8 @@ pub struct DrumSpec {
     pub splitting: Splitting,
     /// Where it is heard from.
     pub listening_point: ListeningPoint,
+    /// Whether snare wires lie against the resonant head.
+    pub wires: bool,
 }
 
 const INCH: f64 = 0.0254;
@@ -90,6 +92,7 @@ impl DrumSpec {
             muffler: gel(30.0),
             splitting: Splitting::DRUM,
             listening_point: ListeningPoint { distance: 0.5, inclination: 0.6, azimuth: 0.4 },
+            wires: false,
         }
     }
 
@@ -109,12 +112,16 @@ impl DrumSpec {
         }
     }
 
-    /// 14 x 5.5 in snare drum; its wires are elsewhere.
+    /// 14 x 5.5 in snare drum.
     pub fn snare() -> DrumSpec {
         let batter = (0.25e-3, LossLaw { constant: 4.0, per_khz: 6.0 });
         let loss = LossLaw { constant: 3.0, per_khz: 3.0 };
         let side = ResonantSpec { head: head(7.0 * INCH, 0.076e-3, loss, BATTER_LIMIT), pitch_ratio: 1.50 };
-        DrumSpec { pitch_hz: (140.0, 220.0, 360.0), ..DrumSpec::two_headed(14.0, 5.5, batter, side) }
+        DrumSpec {
+            pitch_hz: (140.0, 220.0, 360.0),
+            wires: true,
+            ..DrumSpec::two_headed(14.0, 5.5, batter, side)
+        }
     }
 
     /// Toms: two-ply batter, single-ply resonant head.
@@ -152,7 +159,7 @@ impl DrumSpec {
 
     /// The drum's batter on its own, with air on both faces: no shell, no other head.
     pub fn head_alone(self) -> DrumSpec {
-        DrumSpec { resonant: None, cavity: None, outside: Outside::Baffle, ..self }
+        DrumSpec { resonant: None, cavity: None, outside: Outside::Baffle, wires: false, ..self }
     }
 
     /// Checks every number.

@@ -3,19 +3,22 @@
 //! A band is cut out by multiplying the spectrum of the whole sound with a window that is flat
 //! inside the octave and has raised-cosine edges, which shifts no energy in time. Schroeder's
 //! backward integral (JASA 1965) of its square is fitted by a straight line from -5 to -25 dB, and
-//! the slope extended to 60 dB, as ISO 3382 has it for T20. The energy that would have come after
+//! the slope extended to 60 dB, as ISO 3382 has it for T20; its early decay time is fitted from 0
+//! to -10 dB. The energy that would have come after
 //! the end of the sound is estimated from the slope and added, until the slope stays.
 
-use realfft::RealFftPlanner;
+use std::ops::Range;
+
+use super::transform::{self, Transform};
 
 /// Centres of the bands, Hz.
 pub const OCTAVES: [f64; 10] = [31.5, 63.0, 125.0, 250.0, 500.0, 1000.0, 2000.0, 4000.0, 8000.0, 16_000.0];
 
-/// Start of the fitted stretch, dB below the whole.
-const FROM_DB: f64 = -5.0;
+/// The fitted stretch of a decay, dB below the whole: last to first.
+const LATE: Range<f64> = -25.0..-5.0;
 
-/// End of the fitted stretch, dB below the whole.
-const TO_DB: f64 = -25.0;
+/// The stretch of the early decay.
+const EARLY: Range<f64> = -10.0..0.0;
 
 /// A band with less than this share of the sound's energy holds its neighbours' skirts.
 const LEAST_SHARE: f64 = 1e-8;
@@ -29,39 +32,35 @@ const LEAST_T60: f64 = 0.005;
 /// Decay time by 60 dB of each of [`OCTAVES`], s; nothing where the band holds too little or has
 /// not decayed far enough when the sound ends.
 pub fn octave_decays(samples: &[f32], rate: f64) -> [Option<f64>; OCTAVES.len()] {
-    let size = (2 * samples.len()).max(16).next_power_of_two();
-    let mut planner = RealFftPlanner::<f64>::new();
-    let (forward, inverse) = (planner.plan_fft_forward(size), planner.plan_fft_inverse(size));
-    let mut input = forward.make_input_vec();
-    for (place, &sample) in input.iter_mut().zip(samples) {
-        *place = f64::from(sample);
-    }
-    let total: f64 = input.iter().map(|sample| sample * sample).sum();
-    let mut spectrum = forward.make_output_vec();
-    if forward.process(&mut input, &mut spectrum).is_err() || total <= 0.0 || !total.is_finite() {
+    let Some(transform) = Transform::new(samples, rate) else {
         return [None; OCTAVES.len()];
-    }
+    };
+    let total: f64 = samples.iter().map(|&sample| f64::from(sample).powi(2)).sum();
     OCTAVES.map(|centre| {
         // A band cut by the end of the spectrum is not that octave.
         if centre * std::f64::consts::SQRT_2 > rate / 2.0 {
             return None;
         }
-        let mut band = inverse.make_input_vec();
-        for (bin, (place, &value)) in band.iter_mut().zip(&spectrum).enumerate() {
-            *place = value * octave_window(bin as f64 * rate / size as f64 / centre);
-        }
-        let mut output = inverse.make_output_vec();
-        inverse.process(&mut band, &mut output).ok()?;
-        let scale = 1.0 / size as f64;
-        let energy: Vec<f64> =
-            output[..samples.len()].iter().map(|sample| (sample * scale).powi(2)).collect();
+        let mut energy = transform.filtered(|hz| octave_window(hz / centre))?;
+        energy.iter_mut().for_each(|sample| *sample *= *sample);
         if energy.iter().sum::<f64>() < LEAST_SHARE * total {
             return None;
         }
-        let t60 = decay_time(&energy, rate)?;
+        let t60 = decay_time(&energy, rate, LATE)?;
         let bandwidth = centre / std::f64::consts::SQRT_2;
         (t60 >= LEAST_T60.max(LEAST_BANDWIDTH_TIMES_T60 / bandwidth)).then_some(t60)
     })
+}
+
+/// Decay times of the whole sound, s: the early one, of its first 10 dB, and the late one. Both
+/// are extended to 60 dB.
+pub fn broadband_decays(samples: &[f32], rate: f64) -> [Option<f64>; 2] {
+    let energy: Vec<f64> = samples.iter().map(|&sample| f64::from(sample).powi(2)).collect();
+    let total: f64 = energy.iter().sum();
+    if total <= 0.0 || !total.is_finite() {
+        return [None; 2];
+    }
+    [EARLY, LATE].map(|levels| decay_time(&energy, rate, levels))
 }
 
 /// Transmission at a frequency given as a ratio to the band's centre: half at the octave's edges.
@@ -70,12 +69,11 @@ fn octave_window(ratio: f64) -> f64 {
         return 0.0;
     }
     // A third of an octave of slope on either side of each edge.
-    let beyond_edge = (ratio.log2().abs() - 0.5) * 3.0;
-    0.5 - 0.5 * (std::f64::consts::FRAC_PI_2 * beyond_edge.clamp(-1.0, 1.0)).sin()
+    transform::slope((0.5 - ratio.log2().abs()) * 3.0)
 }
 
 /// Decay time of a band's instantaneous energy.
-fn decay_time(energy: &[f64], rate: f64) -> Option<f64> {
+fn decay_time(energy: &[f64], rate: f64, levels: Range<f64>) -> Option<f64> {
     let mut remaining = energy.to_vec();
     let mut sum = 0.0;
     for value in remaining.iter_mut().rev() {
@@ -88,26 +86,26 @@ fn decay_time(energy: &[f64], rate: f64) -> Option<f64> {
     let mut lost = 0.0;
     let mut t60 = None;
     for _ in 0..8 {
-        t60 = Some(slope(&remaining, lost, rate)?);
+        t60 = Some(slope(&remaining, lost, rate, &levels)?);
         let sigma = 6.9078 / t60?;
         // An exponential of that power goes on for 1 / (2 sigma).
         lost = end_power * rate / (2.0 * sigma);
     }
     // What is missing must lie below what was fitted.
-    let floor = 10f64.powf(TO_DB / 10.0);
+    let floor = 10f64.powf(levels.start / 10.0);
     (lost < floor * (remaining[0] + lost)).then_some(t60?)
 }
 
 /// Decay time from the line through the remaining energy between the two levels.
-fn slope(remaining: &[f64], lost: f64, rate: f64) -> Option<f64> {
+fn slope(remaining: &[f64], lost: f64, rate: f64, levels: &Range<f64>) -> Option<f64> {
     let whole = remaining.first()? + lost;
     let (mut n, mut x, mut y, mut xx, mut xy) = (0.0, 0.0, 0.0, 0.0, 0.0);
     for (index, &energy) in remaining.iter().enumerate() {
         let level = 10.0 * ((energy + lost) / whole).log10();
-        if level > FROM_DB {
+        if level > levels.end {
             continue;
         }
-        if level < TO_DB {
+        if level < levels.start {
             let slope = (n * xy - x * y) / (n * xx - x * x);
             return (n >= 8.0 && slope < 0.0).then(|| -60.0 / slope);
         }
@@ -158,6 +156,19 @@ mod tests {
         assert!((cut(2.0).unwrap() / 3.0 - 1.0).abs() < 0.02);
         // 20 dB of 60 heard.
         assert_eq!(cut(1.0), None);
+    }
+
+    #[test]
+    fn a_bend_in_the_decay_parts_early_from_late() {
+        // 20 dB down a slow partial takes over.
+        let fast = ringing(&[(200.0, 0.3)], 4.0);
+        let slow = ringing(&[(300.0, 3.0)], 4.0);
+        let both: Vec<f32> = std::iter::zip(&fast, &slow).map(|(fast, slow)| fast + 0.1 * slow).collect();
+        let [early, late] = broadband_decays(&both, RATE).map(Option::unwrap);
+        assert!((0.3..0.6).contains(&early) && late > 2.0, "{early} {late}");
+        let [early, late] = broadband_decays(&fast, RATE).map(Option::unwrap);
+        assert!((early / 0.3 - 1.0).abs() < 0.03 && (late / 0.3 - 1.0).abs() < 0.03, "{early} {late}");
+        assert_eq!(broadband_decays(&[0.0; 100], RATE), [None; 2]);
     }
 
     #[test]

@@ -74,6 +74,36 @@ impl Spectrum {
         if curvature < 0.0 { (0.5 * (before - after) / curvature).clamp(-0.5, 0.5) } else { 0.0 }
     }
 
+    /// Level at a frequency (Hz), dB, in no particular unit; nothing in silence.
+    pub fn level_db(&self, hz: f64) -> Option<f64> {
+        let magnitude = *self.magnitudes.get((hz / self.spacing).round() as usize)?;
+        (magnitude > 0.0).then(|| 20.0 * magnitude.log10())
+    }
+
+    /// Peaks between two frequencies (Hz) that stand out by `prominence_db` from the deepest bin on
+    /// either side of them up to the next higher peak: frequency (Hz) and level (dB).
+    pub fn peaks(&self, [from, to]: [f64; 2], prominence_db: f64) -> Vec<(f64, f64)> {
+        let step = 10f64.powf(prominence_db / 20.0);
+        let (mut peaks, mut valley, mut top) = (Vec::new(), f64::INFINITY, None);
+        for bin in self.bins(from, to) {
+            let magnitude = self.magnitudes[bin];
+            match top {
+                None => {
+                    valley = magnitude.min(valley);
+                    top = (magnitude > step * valley).then_some(bin);
+                }
+                Some(peak) if magnitude > self.magnitudes[peak] => top = Some(bin),
+                Some(peak) if magnitude * step < self.magnitudes[peak] => {
+                    let hz = (peak as f64 + self.peak_offset(peak)) * self.spacing;
+                    peaks.push((hz, 20.0 * self.magnitudes[peak].log10()));
+                    (top, valley) = (None, magnitude);
+                }
+                Some(_) => {}
+            }
+        }
+        peaks
+    }
+
     /// Frequency of the strongest audible peak, Hz.
     pub fn strongest(&self) -> Option<f64> {
         self.strongest_between(LOWEST_HZ, HIGHEST_HZ)

@@ -9,7 +9,7 @@ use overhear_engine::strike::Strike;
 
 use crate::player::{Blocks, Source};
 use crate::wav::Bits;
-use crate::{hear, render, settings};
+use crate::{hear, realism, render, settings};
 
 /// Sample rates that the engine builds for, Hz.
 const RATES: std::ops::RangeInclusive<i64> = 22_050..=768_000;
@@ -34,6 +34,8 @@ pub enum Task {
     Hear(HearArguments),
     /// List everything that vibrates in a piece
     Modes(ModesArguments),
+    /// Measure every piece beside recordings of real kits
+    Realism(RealismArguments),
     /// Write the demonstration groove (assets/groove.mid) anew
     #[command(hide = true)]
     Groove {
@@ -225,6 +227,37 @@ pub struct ModesArguments {
     /// Sample rate, Hz
     #[arg(long, value_name = "HZ", default_value = "48000", value_parser = rate)]
     pub rate: u32,
+}
+
+/// Arguments of `realism`.
+#[derive(Debug, Args)]
+pub struct RealismArguments {
+    /// kick, snare, rack-tom, floor-tom, crash, ride or splash; all if not given
+    #[arg(value_name = "PIECE")]
+    pieces: Vec<String>,
+    /// Speeds of the strokes, m/s, up to 25
+    #[arg(long, value_name = "M/S,M/S,...", value_delimiter = ',', value_parser = speed,
+          default_values_t = realism::SPEEDS)]
+    speeds: Vec<f64>,
+    /// Print one JSON object (see docs/commands.md)
+    #[arg(long)]
+    pub json: bool,
+    /// Keep the sounds in this folder, as 32-bit float, 20 Pa being full scale
+    #[arg(long, value_name = "DIR")]
+    wav: Option<PathBuf>,
+}
+
+impl RealismArguments {
+    /// What is asked for.
+    ///
+    /// # Errors
+    /// [`BadInput`](crate::error::BadInput) for a piece that was not recorded.
+    pub fn into_request(self) -> Result<realism::Request> {
+        let mut speeds = self.speeds;
+        speeds.sort_by(f64::total_cmp);
+        speeds.dedup();
+        Ok(realism::Request { pieces: realism::pieces(&self.pieces)?, speeds, wav: self.wav })
+    }
 }
 
 fn rate(text: &str) -> Result<u32, String> {

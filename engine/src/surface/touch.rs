@@ -1,0 +1,218 @@
+//! Something that touches a surface: what moves it, and the points it touches with.
+//!
+//! A striker is a free mass behind a tip, a stick also bends and may meet the rim with its shaft; a
+//! group of snare wires is a mass on a spring that a preload presses on. All are a few
+//! [oscillators](super::oscillator), of which every point feels a weighted sum, and all meet the
+//! surface by the one [contact law](crate::contact).
+//!
+//! Preloaded points are measured from where the preload alone holds them: displacements are those
+//! beyond this equilibrium, and only what a force is beyond the preload acts.
+
+use crate::contact::{ContactLaw, ContactStep, Material};
+use crate::modal::Port;
+use crate::strike::{Striker, StrikerSpec};
+
+use super::oscillator::Oscillator;
+use super::patch::BANDS;
+
+/// Oscillators of one toucher: two of a rigid stick, three of its bending.
+pub const PARTS: usize = 5;
+
+/// What a point touches.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    /// The surface itself.
+    Surface,
+    /// Its rim.
+    Rim,
+}
+
+/// A point of contact.
+pub struct TouchPoint {
+    /// Whether there is one.
+    pub present: bool,
+    /// What it touches.
+    pub side: Side,
+    /// By which law.
+    pub law: ContactLaw,
+    /// Where it touches.
+    pub port: Port,
+    /// Pressure at the pickup at once per unit force, Pa/N.
+    pub direct: f32,
+    /// How much it feels of each part of its toucher.
+    pub weights: [f64; PARTS],
+    /// The head right under it, so many bands of it.
+    pub bands: [Oscillator; BANDS],
+    /// Bands in use.
+    pub band_count: usize,
+    /// Where it would be if the surface were at rest, against its toucher's parts, m.
+    pub origin: f64,
+    /// Force that holds it in equilibrium, N.
+    pub preload: f64,
+    /// Compression in equilibrium, m.
+    pub seat: f64,
+    /// Overlap with the surface now, m.
+    pub compression: f64,
+    /// Loss of the present touch, s/m.
+    pub lambda: f64,
+    /// Whether it did at the end of the latest sample.
+    pub touching: bool,
+    /// Force of the present sample, N, preload and all.
+    pub force: f64,
+    /// What the sample is solved from.
+    pub step: ContactStep,
+}
+
+impl TouchPoint {
+    /// No point yet, on a body of so many modes. Allocates.
+    pub fn absent(modes: usize, dt: f64) -> TouchPoint {
+        let spec = Striker::Stick.spec();
+        TouchPoint {
+            present: false,
+            side: Side::Surface,
+            law: ContactLaw::new(&spec.tip, &Material::FILM, spec.restitution),
+            port: Port::new(modes),
+            direct: 0.0,
+            weights: [0.0; PARTS],
+            bands: [Oscillator::free(1.0, dt); BANDS],
+            band_count: 0,
+            origin: 0.0,
+            preload: 0.0,
+            seat: 0.0,
+            compression: 0.0,
+            lambda: 0.0,
+            touching: false,
+            force: 0.0,
+            step: ContactStep { before: 0.0, free: 0.0, compliance: 0.0, lambda: 0.0, dt },
+        }
+    }
+
+    /// A point just about to touch.
+    pub fn arrive(&mut self, side: Side, law: ContactLaw, weights: [f64; PARTS]) {
+        self.present = true;
+        (self.side, self.law, self.weights) = (side, law, weights);
+        (self.preload, self.seat, self.compression, self.force) = (0.0, 0.0, 0.0, 0.0);
+        self.touching = false;
+        self.band_count = 0;
+    }
+
+    /// Force beyond the preload, N.
+    pub fn pressing(&self) -> f64 {
+        self.force - self.preload
+    }
+
+    /// Prepares the sample's contact. `apart` is how far the toucher would be in the surface, both left
+    /// alone, measured from equilibrium; `compliance` that of the surface's modes and the toucher.
+    pub fn free_flight(&mut self, apart: f64, compliance: f64, dt: f64) {
+        let mut yielding = compliance;
+        let mut gap = apart;
+        for band in &mut self.bands[..self.band_count] {
+            band.step();
+            gap -= band.q;
+            yielding += band.compliance();
+        }
+        // The law wants the whole force: what the preload does is put back.
+        let free = self.seat + gap + yielding * self.preload;
+        if !self.touching && free > 0.0 {
+            self.lambda = self.law.lambda((free - self.compression) / dt);
+        }
+        self.step =
+            ContactStep { before: self.compression, free, compliance: yielding, lambda: self.lambda, dt };
+        self.force = 0.0;
+    }
+
+    /// Applies the force of the sample; `others` is how far those of all other points have parted the two, m.
+    pub fn finish(&mut self, others: f64) {
+        self.compression = self.step.free - others - self.step.compliance * self.force;
+        self.touching = self.compression > 0.0;
+        let pressing = self.force - self.preload;
+        for band in &mut self.bands[..self.band_count] {
+            band.push(pressing);
+        }
+    }
+
+    /// How far the head right under it is bent, m.
+    pub fn bands_bent(&self) -> f64 {
+        self.bands[..self.band_count].iter().map(|band| band.q).sum()
+    }
+
+    /// Energy held in the contact and right under it beyond that of equilibrium, J.
+    pub fn energy(&self) -> f64 {
+        let bands: f64 = self.bands[..self.band_count].iter().map(Oscillator::energy).sum();
+        let held = self.law.potential(self.compression) - self.law.potential(self.seat);
+        bands + held - self.preload * (self.compression - self.seat)
+    }
+}
+
+/// Something with one or two points of contact.
+pub struct Toucher {
+    /// Whether there is one.
+    pub present: bool,
+    /// What moves.
+    pub parts: [Oscillator; PARTS],
+    /// Parts in use.
+    pub part_count: usize,
+    /// Samples since it arrived.
+    pub age: u64,
+    /// Which stroke of the surface this was.
+    pub stroke: u32,
+}
+
+impl Toucher {
+    /// None yet.
+    pub fn absent(dt: f64) -> Toucher {
+        Toucher {
+            present: false,
+            parts: [Oscillator::free(1.0, dt); PARTS],
+            part_count: 0,
+            age: 0,
+            stroke: 0,
+        }
+    }
+
+    /// Becomes a striker at `speed` (m/s), its tip first; returns what its tip feels of its parts. One that
+    /// is not `lossy` bends without loss.
+    pub fn take(&mut self, spec: &StrikerSpec, speed: f64, lossy: bool, dt: f64) -> [f64; PARTS] {
+        let mut weights = [0.0; PARTS];
+        (self.parts[0], weights[0]) = (Oscillator::free(spec.mass, dt), 1.0);
+        self.parts[0].v = speed;
+        self.part_count = 1;
+        if let Some(stick) = spec.stick {
+            for (n, mode) in stick.bending().enumerate() {
+                let sigma = if lossy { mode.omega / (2.0 * stick.q) } else { 0.0 };
+                self.parts[1 + n] = Oscillator::sprung(stick.mass(), mode.omega, sigma, dt);
+                weights[1 + n] = mode.shape(stick.place);
+                self.part_count = 2 + n;
+            }
+        }
+        weights
+    }
+
+    /// Advances a sample without force.
+    pub fn step(&mut self) {
+        self.parts[..self.part_count].iter_mut().for_each(Oscillator::step);
+    }
+
+    /// Where a point of it is, m.
+    pub fn position(&self, weights: &[f64; PARTS]) -> f64 {
+        self.parts[..self.part_count].iter().zip(weights).map(|(part, weight)| weight * part.q).sum()
+    }
+
+    /// How far a unit force held at one point moves another by the end of the sample, m/N.
+    pub fn compliance(&self, a: &[f64; PARTS], b: &[f64; PARTS]) -> f64 {
+        let parts = self.parts[..self.part_count].iter().zip(a).zip(b);
+        parts.map(|((part, a), b)| a * b * part.compliance()).sum()
+    }
+
+    /// Applies the force (N, against it) held over the sample at a point.
+    pub fn push(&mut self, weights: &[f64; PARTS], force: f64) {
+        for (part, weight) in self.parts[..self.part_count].iter_mut().zip(weights) {
+            part.push(-weight * force);
+        }
+    }
+
+    /// Energy of its motion, J.
+    pub fn energy(&self) -> f64 {
+        self.parts[..self.part_count].iter().map(Oscillator::energy).sum()
+    }
+}

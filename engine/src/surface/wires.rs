@@ -1,0 +1,115 @@
+//! Snare wires: groups of strands that lie against the far head, fly off it and land again.
+//!
+//! Model: the twenty strands move as [`GROUPS`] masses, each on a soft spring with a little damping, pressed
+//! against the head by its share of the strainer's force; steel on film, the law of every contact. Where the
+//! head falls back faster than the preload can follow, a group flies, and each landing is an impact.
+//!
+//! Displacements are measured from where the preload alone holds head and wires, so that a drum at rest is
+//! at rest exactly, whatever the preload.
+//!
+//! Neglected: motion of the strands against each other, their own bending waves, their weight.
+
+use crate::contact::{ContactLaw, Material, Tip};
+use crate::snapshot::WireSnapshot;
+
+use super::oscillator::Oscillator;
+
+/// Groups of strands.
+pub const GROUPS: usize = 8;
+
+/// Where they lie on the head, shares of its radius: two rows of four across it.
+pub const PLACES: [[f64; 2]; GROUPS] = [
+    [-0.56, -0.105],
+    [-0.19, -0.105],
+    [0.19, -0.105],
+    [0.56, -0.105],
+    [-0.56, 0.105],
+    [-0.19, 0.105],
+    [0.19, 0.105],
+    [0.56, 0.105],
+];
+
+/// Least, default and greatest force of the strainer on all groups, N.
+pub const PRELOAD: (f64, f64, f64) = (0.03, 0.15, 1.5);
+
+/// Mass of all groups, kg.
+const MASS: f64 = 6e-3;
+/// Stiffness (N/m) and quality factor of a group's spring.
+const STIFFNESS: f64 = 150.0;
+const QUALITY: f64 = 4.0;
+/// Radius of a wire, m, and restitution.
+const RADIUS: f64 = 0.8e-3;
+const RESTITUTION: f64 = 0.35;
+/// Radius of the disc that feels like a group's length, m. *By ear*: strands touch along some centimetres.
+pub const PATCH: f64 = 0.008;
+
+/// The speed of landing that a touch without one, as of wires at rest, is as lossy as, m/s. *Derived*: what a
+/// group falling back by the preload reaches in a millisecond.
+const RESTING_SPEED: f64 = 0.02;
+
+/// Energy of the drum under which the wires lie still, J: nothing is heard of them.
+pub const STILL: f64 = 1e-10;
+
+/// All groups of one drum.
+pub struct SnareWires {
+    /// Whether they lie against the head.
+    pub on: bool,
+    /// Whether they and the head lie still together.
+    pub parked: bool,
+    /// Force of the strainer, N.
+    pub preload: f64,
+    /// The law of every group.
+    pub law: ContactLaw,
+    /// Samples since the latest stroke.
+    pub age: u64,
+    landings: u32,
+    last_lift: u64,
+    dt: f64,
+}
+
+impl SnareWires {
+    /// Wires against a head of that material, at rest.
+    pub fn new(head: &Material, lossless: bool, dt: f64) -> SnareWires {
+        let tip = Tip::Solid { material: Material::STEEL, radius: RADIUS };
+        let law = ContactLaw::new(&tip, head, if lossless { 1.0 } else { RESTITUTION });
+        SnareWires { on: true, parked: true, preload: PRELOAD.1, law, age: 0, landings: 0, last_lift: 0, dt }
+    }
+
+    /// A group on its spring.
+    pub fn group(&self, lossless: bool) -> Oscillator {
+        let mass = MASS / GROUPS as f64;
+        let omega = (STIFFNESS / mass).sqrt();
+        let sigma = if lossless { 0.0 } else { omega / (2.0 * QUALITY) };
+        Oscillator::sprung(mass, omega, sigma, self.dt)
+    }
+
+    /// Each group's share of the preload (N), and the compression (m) it holds.
+    pub fn seat(&self) -> (f64, f64) {
+        let share = self.preload / GROUPS as f64;
+        (share, (share / self.law.stiffness).powf(1.0 / self.law.exponent))
+    }
+
+    /// Loss of a touch that began at rest, s/m.
+    pub fn resting_lambda(&self) -> f64 {
+        self.law.lambda(RESTING_SPEED)
+    }
+
+    /// Counts anew from a stroke on.
+    pub fn begin_count(&mut self) {
+        (self.age, self.landings, self.last_lift) = (0, 0, 0);
+    }
+
+    /// Counts a group that was or was not touching and now is or is not.
+    pub fn count(&mut self, before: bool, now: bool) {
+        match (before, now) {
+            (false, true) => self.landings = self.landings.saturating_add(1),
+            (true, false) => self.last_lift = self.age,
+            _ => {}
+        }
+    }
+
+    /// What is to be seen of them; `aloft` groups are off the head.
+    pub fn snapshot(&self, aloft: u32) -> WireSnapshot {
+        WireSnapshot { landings: self.landings, aloft, last_lift: (self.last_lift as f64 * self.dt) as f32 }
+    }
+}

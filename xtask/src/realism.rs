@@ -1,0 +1,160 @@
+//! `realism`: every piece by itself, struck softly to hard, beside recordings of real ones.
+//!
+//! Each piece is rendered as `hear` renders it, with the stroke its ordinary note gives it and the
+//! kit's default muffling; the [`features`] are measured and set beside the [`reference`]. What is
+//! heard is the piece's own listening point: no neighbours, no room, no mix.
+
+pub mod features;
+pub mod reference;
+mod report;
+mod table;
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+use std::thread;
+
+use anyhow::Result;
+use overhear_engine::piece::{BuildOptions, PieceId};
+
+use crate::bad_input;
+use crate::hear;
+use crate::output::Folder;
+use crate::progress::Progress;
+use crate::settings::{self, PieceSetting};
+use crate::wav::{Bits, WavFile};
+
+pub use report::{PieceReport, Report, Stroke};
+
+/// Pieces there are recordings of, in the order of the report.
+pub const PIECES: [PieceId; 7] = [
+    PieceId::Kick,
+    PieceId::Snare,
+    PieceId::RackTom,
+    PieceId::FloorTom,
+    PieceId::Crash,
+    PieceId::Ride,
+    PieceId::Splash,
+];
+
+/// Speeds of the strokes unless told otherwise, m/s: soft, medium, hard.
+pub const SPEEDS: [f64; 3] = [1.5, 3.0, 5.0];
+
+/// Sample rate, Hz.
+const RATE: f64 = 48_000.0;
+
+/// How long drums and cymbals are heard, s: until each octave has fallen by more than 25 dB.
+const DRUM_SECONDS: f64 = 4.0;
+const CYMBAL_SECONDS: f64 = 8.0;
+
+/// What to measure.
+#[derive(Debug, Clone)]
+pub struct Request {
+    /// The pieces.
+    pub pieces: Vec<PieceId>,
+    /// Speeds of the strokes, m/s, ascending.
+    pub speeds: Vec<f64>,
+    /// A folder to keep the sounds in.
+    pub wav: Option<PathBuf>,
+}
+
+/// The pieces of those names; all there are recordings of for none.
+///
+/// # Errors
+/// [`BadInput`](crate::error::BadInput) naming the pieces.
+pub fn pieces(names: &[String]) -> Result<Vec<PieceId>> {
+    if names.is_empty() {
+        return Ok(PIECES.to_vec());
+    }
+    let known = |name: &String| {
+        PIECES.into_iter().find(|piece| piece.name() == name).ok_or_else(|| {
+            let accepted = PIECES.map(PieceId::name).join(", ");
+            bad_input!("there are no recordings of `{name}`, accepted: {accepted}")
+        })
+    };
+    names.iter().map(known).collect()
+}
+
+/// Renders and measures everything, on as many threads as there are cores.
+///
+/// # Errors
+/// [`BadInput`](crate::error::BadInput) if a sound cannot be written.
+pub fn run(request: &Request) -> Result<Report> {
+    let _folder = request.wav.as_deref().map(Folder::new).transpose()?;
+    let jobs: Vec<(PieceId, f64)> = request
+        .pieces
+        .iter()
+        .flat_map(|&piece| request.speeds.iter().map(move |&speed| (piece, speed)))
+        .collect();
+    let next = AtomicUsize::new(0);
+    let done: Mutex<Vec<Option<Result<Stroke>>>> = Mutex::new(jobs.iter().map(|_| None).collect());
+    let progress = Mutex::new(Progress::new("realism", jobs.len() as u64));
+    let work = || {
+        loop {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            let Some(&(piece, speed)) = jobs.get(index) else {
+                return;
+            };
+            let result = stroke(piece, speed, request.wav.as_deref());
+            progress.lock().unwrap_or_else(PoisonError::into_inner).advance(1);
+            done.lock().unwrap_or_else(PoisonError::into_inner)[index] = Some(result);
+        }
+    };
+    let cores = thread::available_parallelism().map_or(1, usize::from);
+    thread::scope(|scope| (0..cores.min(jobs.len())).for_each(|_| drop(scope.spawn(work))));
+    let done = done.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let strokes = done.into_iter().flatten().collect::<Result<Vec<Stroke>>>()?;
+    let per_piece = request.pieces.iter().zip(strokes.chunks(request.speeds.len().max(1)));
+    let pieces = per_piece.map(|(&piece, strokes)| PieceReport::new(piece, strokes)).collect();
+    Ok(Report::new(RATE, request.speeds.clone(), pieces))
+}
+
+/// Renders one stroke, keeps it if asked to, and measures it.
+fn stroke(piece: PieceId, speed: f64, folder: Option<&Path>) -> Result<Stroke> {
+    let mut strike = hear::default_strike(piece);
+    strike.speed = speed;
+    let muffling = settings::default_muffling(piece);
+    let seconds = if piece.is_drum() { DRUM_SECONDS } else { CYMBAL_SECONDS };
+    let request = hear::Request {
+        piece,
+        strike,
+        settings: if muffling > 0.0 { vec![PieceSetting::Muffling(muffling)] } else { Vec::new() },
+        options: BuildOptions::new(RATE),
+        seconds,
+        wav: None,
+    };
+    let sound = hear::render(&request)?;
+    if let Some(folder) = folder {
+        let path = folder.join(format!("{}-{speed}.wav", piece.name()));
+        let mut file = WavFile::create(&path, Bits::Float32, RATE as u32, 1, sound.samples.len() as u64)?;
+        file.write(&[&sound.samples])?;
+        file.finish()?;
+    }
+    let samples = &sound.samples;
+    Ok(Stroke { features: features::measure(samples, RATE), level_db: features::level_db(samples, RATE) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_piece_of_the_report_has_a_reference() {
+        for piece in PIECES {
+            assert!(reference::figures(piece).len() > 10, "{piece:?}");
+        }
+        assert_eq!(pieces(&[]).unwrap(), PIECES);
+        assert!(pieces(&["timpani".to_owned()]).unwrap_err().to_string().contains("accepted: kick, snare"));
+    }
+
+    #[test]
+    fn a_stroke_has_every_figure_that_is_compared_or_says_it_has_not() {
+        let report = run(&Request { pieces: vec![PieceId::RackTom], speeds: vec![2.0, 4.0], wav: None });
+        let report = report.unwrap();
+        let piece = &report.pieces[0];
+        assert_eq!(piece.features.len(), reference::figures(PieceId::RackTom).len());
+        assert!(piece.features.iter().all(|row| row.values.len() == 2));
+        assert!(piece.features.iter().filter(|row| row.values[0].is_some()).count() > 12);
+        assert!(report.to_string().contains("rack-tom"));
+    }
+}
