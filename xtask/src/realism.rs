@@ -15,7 +15,7 @@ use std::sync::{Mutex, PoisonError};
 use std::thread;
 
 use anyhow::Result;
-use overhear_engine::piece::{BuildOptions, PieceId};
+use overhear_engine::piece::{BuildOptions, PieceId, Quality};
 
 use crate::bad_input;
 use crate::hear;
@@ -119,7 +119,8 @@ fn stroke(piece: PieceId, speed: f64, folder: Option<&Path>) -> Result<Stroke> {
         piece,
         strike,
         settings: if muffling > 0.0 { vec![PieceSetting::Muffling(muffling)] } else { Vec::new() },
-        options: BuildOptions::new(RATE),
+        // Nobody waits for it: what a bounce sounds like.
+        options: BuildOptions { quality: Quality::Offline, ..BuildOptions::new(RATE) },
         seconds,
         wav: None,
     };
