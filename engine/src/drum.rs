@@ -8,6 +8,7 @@ use std::f64::consts::TAU;
 
 pub mod build;
 pub mod coupled;
+pub mod high_band;
 pub mod shadow;
 pub mod spec;
 pub mod stretch;
@@ -25,6 +26,7 @@ use crate::surface::wires::PRELOAD;
 use crate::surface::{Surface, SurfaceParts};
 
 use build::Blueprint;
+use high_band::{HighBand, HighMuffling};
 pub use spec::DrumSpec;
 use stretch::Stretch;
 use tuned::{Place, Rung};
@@ -43,10 +45,19 @@ struct BodyMode {
 /// What muffling takes from the modes.
 #[derive(Debug, Clone, PartialEq)]
 enum MufflerCoefs {
-    /// Decay rate of the batter's own motion at full amount, 1/s.
-    Pillow(f64),
-    /// Dashpot at full amount, kg/s, and the batter's radial functions where it lies, `[batter mode]`.
-    Gel(f64, Vec<f64>),
+    /// Decay rates of the batter's own motion and of the air's along the drum at full amount, 1/s.
+    Pillow(f64, f64),
+    /// A pad.
+    Gel {
+        /// Decay rate of a mode of unit square there at full amount, 1/s.
+        sigma: f64,
+        /// Where it lies, share of the radius.
+        radius: f64,
+        /// The dashpot that is at full amount, kg/s.
+        dashpot: f64,
+        /// The batter's radial functions there, `[batter mode]`.
+        radial: Vec<f64>,
+    },
 }
 
 /// A drum that can be struck.
@@ -115,6 +126,11 @@ impl Drum {
             shapes_stale: true,
             rungs,
         };
+        if options.high_band {
+            let near = HighBand::new(&drum.blueprint.high_band(&spec, options, pitch));
+            let far = drum.blueprint.far_high_band(&spec, options, pitch).filter(|_| spec.wires);
+            drum.surface.set_high_bands(near, far.as_ref().map(HighBand::new));
+        }
         drum.follow_controls();
         if let (Some(resonant), true) = (spec.resonant, spec.wires) {
             drum.surface.set_wires(&resonant.head.membrane.material);
@@ -200,6 +216,13 @@ impl Drum {
             let sigma = if lossless { 0.0 } else { rung.sigma + muffled };
             Mode { omega: rung.omega * mode.detuning, sigma, mass: rung.mass }
         });
+        let [near, far] = self.surface.high_bands_mut();
+        if let Some(near) = near {
+            near.retune(self.blueprint.batter.tension(&place), &self.muffler.above(amount));
+        }
+        if let (Some(far), Some(head)) = (far, &self.blueprint.resonant) {
+            far.retune(head.tension(&place), &HighMuffling::NONE);
+        }
     }
 
     /// Brings the shapes to where the pitch is; only strokes need them.
@@ -246,14 +269,13 @@ impl Drum {
         let place = self.blueprint.scale.place(self.pitch.value());
         let heads =
             [("batter", Some(&self.blueprint.batter)), ("resonant", self.blueprint.resonant.as_ref())];
-        let tension = |head: &build::TunedHead| place.blend(|i| head.tensions[i].ln()).exp();
-        heads.into_iter().filter_map(|(name, head)| Some((name, tension(head?)))).collect()
+        heads.into_iter().filter_map(|(name, head)| Some((name, head?.tension(&place)))).collect()
     }
 
     /// Every mode as it is now.
     pub fn modes(&self) -> Vec<ModeInfo> {
         let rows = self.surface.body().modes().iter().zip(&self.modes);
-        rows.map(|(mode, row)| {
+        let complete = rows.map(|(mode, row)| {
             let tuned = &self.blueprint.modes[row.pair];
             let (body, n, kind) = describe(&self.blueprint, tuned);
             ModeInfo {
@@ -267,8 +289,24 @@ impl Drum {
                 radiation: tuned.reference.monopole_area * mode.mass.sqrt(),
                 kind,
             }
-        })
-        .collect()
+        });
+        let slices = self.surface.high_band().into_iter().flat_map(HighBand::slices);
+        complete.chain(slices.map(sampled)).collect()
+    }
+}
+
+/// A slice of the high band as a mode of the batter; it has no nodes of its own.
+fn sampled(slice: high_band::SliceInfo) -> ModeInfo {
+    ModeInfo {
+        body: "batter",
+        m: 0,
+        n: 0,
+        member: Member::Cosine,
+        frequency_hz: slice.omega / TAU,
+        t60: SIGMA_T60 / slice.sigma,
+        modal_mass: slice.mass,
+        radiation: slice.monopole_area,
+        kind: ModeKind::Sampled,
     }
 }
 
@@ -312,10 +350,21 @@ fn lay_out(spec: &DrumSpec, blueprint: &Blueprint, options: &BuildOptions) -> Ve
 impl MufflerCoefs {
     fn new(spec: &DrumSpec, blueprint: &Blueprint) -> MufflerCoefs {
         match spec.muffler {
-            Muffler::Pillow { sigma } => MufflerCoefs::Pillow(sigma),
+            Muffler::Pillow { sigma, flow } => MufflerCoefs::Pillow(sigma, flow),
             Muffler::Gel { sigma, radius, .. } => {
                 let film = spec.batter.membrane.area_density() * spec.batter.membrane.area();
-                MufflerCoefs::Gel(2.0 * film * sigma, blueprint.batter.membrane.radial_shapes(&[radius]))
+                let radial = blueprint.batter.membrane.radial_shapes(&[radius]);
+                MufflerCoefs::Gel { sigma, radius, dashpot: 2.0 * film * sigma, radial }
+            }
+        }
+    }
+
+    /// What some of it takes from the high band.
+    fn above(&self, amount: f64) -> HighMuffling {
+        match *self {
+            MufflerCoefs::Pillow(sigma, _) => HighMuffling { even: amount * sigma, ..HighMuffling::NONE },
+            MufflerCoefs::Gel { sigma, radius, .. } => {
+                HighMuffling { pad: (amount * sigma, radius), ..HighMuffling::NONE }
             }
         }
     }
@@ -323,8 +372,8 @@ impl MufflerCoefs {
     /// Decay rate that full muffling adds to a mode, 1/s.
     fn sigma(&self, mode: &BodyMode, rung: &Rung, blueprint: &Blueprint, place: &Place) -> f64 {
         match self {
-            MufflerCoefs::Pillow(sigma) => sigma * rung.batter,
-            MufflerCoefs::Gel(dashpot, radial) => {
+            MufflerCoefs::Pillow(sigma, flow) => sigma * rung.batter + flow * rung.flow,
+            MufflerCoefs::Gel { dashpot, radial, .. } => {
                 let tuned = &blueprint.modes[mode.pair];
                 let (first, count) = blueprint.batter.order(tuned.m);
                 let shape: f64 = (0..count).map(|i| tuned.share(i, place) * radial[first + i]).sum();

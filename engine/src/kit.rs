@@ -13,6 +13,7 @@ use crate::layout::Placement;
 use crate::piece::{Piece, PieceId};
 use crate::snapshot::KitSnapshot;
 use crate::strike::Strike;
+use crate::surface::wires::PRELOAD;
 
 /// Longest stretch a piece renders at once, samples.
 pub const BLOCK: usize = 32;
@@ -27,6 +28,10 @@ pub enum Control {
     Tuning(PieceId),
     /// Muffling of a piece, 0 to 1.
     Muffling(PieceId),
+    /// Force that presses the snare wires on, N.
+    SnarePreload,
+    /// Whether the snare wires lie against the head: below one half they are off.
+    SnareWires,
     /// Level of a piece in the mix, dB; at or below [`SILENT_DB`] the piece is silent.
     Level(PieceId),
     /// Level of the whole mix, dB.
@@ -78,6 +83,8 @@ struct Slot {
     piece: Option<Box<Piece>>,
     tuning: f64,
     muffling: f64,
+    preload: f64,
+    wires: bool,
     level: Gain,
     pan: [f32; 2],
     /// Largest share in the mix since the last snapshot.
@@ -100,6 +107,8 @@ impl Kit {
             piece: None,
             tuning: Piece::tuning_range(id).1,
             muffling: 0.0,
+            preload: PRELOAD.1,
+            wires: true,
             level: Gain::new(sample_rate),
             pan: Placement::of(id).pan(),
             peak: 0.0,
@@ -121,6 +130,8 @@ impl Kit {
         let slot = &mut self.slots[slot];
         piece.set_tuning(slot.tuning);
         piece.set_muffling(slot.muffling);
+        piece.set_preload(slot.preload);
+        piece.throw_wires(slot.wires);
         piece.finish_controls();
         piece.align((self.clock % BLOCK as u64) as usize);
         slot.piece.replace(piece)
@@ -161,6 +172,18 @@ impl Kit {
             Control::Level(id) => {
                 if let Some(slot) = id.slot() {
                     self.slots[slot].level.set_db(value);
+                }
+            }
+            Control::SnarePreload => {
+                if let Some(slot) = PieceId::Snare.slot().map(|slot| &mut self.slots[slot]) {
+                    slot.preload = value;
+                    slot.piece.iter_mut().for_each(|piece| piece.set_preload(value));
+                }
+            }
+            Control::SnareWires => {
+                if let Some(slot) = PieceId::Snare.slot().map(|slot| &mut self.slots[slot]) {
+                    slot.wires = value >= 0.5;
+                    slot.piece.iter_mut().for_each(|piece| piece.throw_wires(slot.wires));
                 }
             }
             Control::Tuning(id) => {

@@ -43,6 +43,25 @@ impl ListeningPoint {
 }
 
 impl ListeningPoint {
+    /// How much of the half-space a disc of that radius (m) fills, seen from the point.
+    pub fn fills(&self, radius: f64) -> f64 {
+        1.0 - self.distance / self.distance.hypot(radius)
+    }
+
+    /// Distance to a place on the disc, `radius` (m) from its centre in direction `angle` (rad), m.
+    pub fn distance_to(&self, radius: f64, angle: f64) -> f64 {
+        let offset = self.distance * self.inclination.sin();
+        let across = 2.0 * offset * radius * (angle - self.azimuth).cos();
+        (self.distance * self.distance + radius * radius - across).sqrt()
+    }
+
+    /// Root mean square of one over the distance to the rim of a disc of that radius (m), 1/m.
+    pub fn rim_nearness(&self, radius: f64) -> f64 {
+        let offset = self.distance * self.inclination.sin();
+        let mean = self.distance * self.distance + radius * radius;
+        (mean * mean - 4.0 * (offset * radius).powi(2)).sqrt().sqrt().recip()
+    }
+
     /// What a member whose pair's axes lie at `axis` (rad) shows of itself toward the point, -1 to 1.
     pub fn toward(&self, m: u32, member: Member, axis: f64) -> f64 {
         let (sin, cos) = (f64::from(m) * (self.azimuth - axis)).sin_cos();

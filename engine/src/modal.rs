@@ -25,7 +25,11 @@ pub mod simd;
 
 use aligned_vec::{AVec, ConstAlign};
 
+use simd::driven::Drive;
 use simd::{Kernels, LANES};
+
+/// Forces that one call of [`ModalBody::ring_driven`] takes.
+pub const MAX_DRIVES: usize = 16;
 
 /// A row of one `f32` per mode, aligned and padded with zeros to whole SIMD lanes.
 pub type Row = AVec<f32, ConstAlign<64>>;
@@ -120,6 +124,11 @@ impl Pickup {
             direct: zero_row(modes),
             slow: zero_row(modes),
         }
+    }
+
+    /// The transfer from each mode's acceleration, `[mode]`; call [`ModalBody::tune`] after a change.
+    pub fn transfer_mut(&mut self) -> &mut [[f64; 2]] {
+        &mut self.transfer
     }
 
     /// Pressure at once per unit force at a port, Pa/N.
@@ -338,6 +347,35 @@ impl ModalBody {
             weight_im: &pickup.weight_im[first..],
             out,
         });
+    }
+
+    /// [`ring`](Self::ring) of all modes under forces at ports, each held over its sample (N, as many as
+    /// `out` has); what follows a force at once is not in `out`.
+    ///
+    /// # Real-time
+    /// Linear in modes times samples times forces. At most [`simd::MAX_RUN`] samples and [`MAX_DRIVES`] forces.
+    pub fn ring_driven<'a>(
+        &mut self,
+        drives: impl Iterator<Item = (&'a Port, &'a [f32])>,
+        pickup: &Pickup,
+        out: &mut [f32],
+    ) {
+        let mut held = [Drive { gain_re: &[], gain_im: &[], forces: &[] }; MAX_DRIVES];
+        let mut count = 0;
+        for (held, (port, forces)) in held.iter_mut().zip(drives) {
+            *held = Drive { gain_re: &port.gain_re, gain_im: &port.gain_im, forces };
+            count += 1;
+        }
+        let mut ring = simd::Ring {
+            re: &mut self.state.re,
+            im: &mut self.state.im,
+            turn_re: &self.coefs.turn_re,
+            turn_im: &self.coefs.turn_im,
+            weight_re: &pickup.weight_re,
+            weight_im: &pickup.weight_im,
+            out,
+        };
+        self.kernels.ring_driven(&mut ring, &held[..count]);
     }
 
     /// Vibration energy, J.

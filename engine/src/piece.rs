@@ -4,7 +4,7 @@ use crate::cymbal::{Cymbal, CymbalSpec};
 use crate::drum::{Drum, DrumSpec};
 use crate::error::SpecError;
 use crate::kit::BLOCK;
-use crate::snapshot::{FieldShapes, PieceSnapshot, StrikeSnapshot};
+use crate::snapshot::{FieldShapes, PieceSnapshot, StrikeSnapshot, WireSnapshot};
 use crate::strike::Strike;
 use crate::surface::Surface;
 
@@ -140,6 +140,8 @@ pub struct BuildOptions {
     pub linear: bool,
     /// How far up a cymbal's modes are coupled.
     pub quality: Quality,
+    /// Heads sound above their complete sets of modes; see [`high_band`](crate::drum::high_band).
+    pub high_band: bool,
 }
 
 impl BuildOptions {
@@ -151,6 +153,7 @@ impl BuildOptions {
             unsplit: false,
             linear: false,
             quality: Quality::Standard,
+            high_band: true,
         }
     }
 }
@@ -312,6 +315,35 @@ impl Piece {
         }
     }
 
+    /// Throws snare wires on (from where the head is now) or off, at the next sample. Pieces without wires
+    /// have none to throw.
+    ///
+    /// # Real-time
+    /// No allocation, no lock; linear in the number of modes.
+    pub fn throw_wires(&mut self, on: bool) {
+        self.glide();
+        if let Voice::Drum(drum) = &mut self.voice {
+            drum.throw_wires(on);
+        }
+    }
+
+    /// Asks for a force that presses the snare wires on, all of them together, N; see
+    /// [`PRELOAD`](crate::surface::wires::PRELOAD) for the range. Acts while they buzz, gliding.
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn set_preload(&mut self, newtons: f64) {
+        self.glide();
+        if let Voice::Drum(drum) = &mut self.voice {
+            drum.set_preload(newtons);
+        }
+    }
+
+    /// What the snare wires have done since the latest stroke.
+    pub fn wires(&self) -> WireSnapshot {
+        self.voice.surface().wires()
+    }
+
     /// Lets tuning and muffling arrive at once instead of gliding.
     ///
     /// # Real-time
@@ -464,7 +496,7 @@ impl Piece {
         into.ready = true;
         into.energy = self.energy() as f32;
         into.strike = self.last_strike();
-        into.wires = self.voice.surface().wires();
+        into.wires = self.wires();
         into.quarantines = self.quarantines;
         for (k, q) in into.displacement.iter_mut().enumerate() {
             *q = if k < body.len() { body.displacement(k) } else { 0.0 };

@@ -43,7 +43,7 @@ impl Splitting {
 }
 
 /// A number in 0..1 that looks drawn by chance (the finalizer of MurmurHash3).
-fn hash(seed: u32, m: u32, n: u32, what: u32) -> f64 {
+pub fn hash(seed: u32, m: u32, n: u32, what: u32) -> f64 {
     let mut x = u64::from(seed) << 48 ^ u64::from(m) << 32 ^ u64::from(n) << 8 ^ u64::from(what);
     x = (x ^ x >> 33).wrapping_mul(0xff51_afd7_ed55_8ccd);
     x = (x ^ x >> 33).wrapping_mul(0xc4ce_b9fe_1a85_ec53);

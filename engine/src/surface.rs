@@ -18,6 +18,7 @@ pub mod touch;
 pub mod wires;
 
 use crate::contact::{ContactLaw, ContactStep, Material};
+use crate::drum::high_band::HighBand;
 use crate::modal::{ModalBody, Mode, Pickup};
 use crate::potential::{NonlinearForce, Potential};
 use crate::shapes::ShapeTable;
@@ -34,8 +35,11 @@ pub const MAX_STRIKERS: usize = 4;
 /// Points a striker has: its tip and its shaft.
 const STRIKER_POINTS: usize = 2;
 
+/// Points of all strikers: the places of the [high band](HighBand) that listens to them.
+pub const STRIKER_PLACES: usize = STRIKER_POINTS * MAX_STRIKERS;
+
 /// Where the wires' points begin, and how many points there are at most.
-const FIRST_WIRE: usize = STRIKER_POINTS * MAX_STRIKERS;
+const FIRST_WIRE: usize = STRIKER_PLACES;
 const MAX_POINTS: usize = FIRST_WIRE + wires::GROUPS;
 
 /// A striker farther off than this has left for good, m. *By ear*: no head comes up so far.
@@ -89,6 +93,9 @@ pub struct Surface {
     live_count: usize,
     /// What the body does beyond its modes.
     beyond: Option<NonlinearForce>,
+    /// What it and the far head do above their modes; a place for each striker's point and each wire's.
+    high: Option<HighBand>,
+    far_high: Option<HighBand>,
     /// Between present points: one-sample compliance of the modes and of what touches, m/N.
     compliance: Matrix,
     /// Each present point's coupling with the force beyond the modes.
@@ -104,6 +111,15 @@ pub struct Surface {
 /// Whose point it is.
 const fn owner(point: usize) -> usize {
     if point < FIRST_WIRE { point / STRIKER_POINTS } else { MAX_STRIKERS + point - FIRST_WIRE }
+}
+
+/// The high band that listens to a point, of the near and the far one, and the point's place in it.
+fn above<'a>(
+    point: usize,
+    near: &'a mut Option<HighBand>,
+    far: &'a mut Option<HighBand>,
+) -> (&'a mut Option<HighBand>, usize) {
+    if point < FIRST_WIRE { (near, point) } else { (far, point - FIRST_WIRE) }
 }
 
 /// The points of a toucher.
@@ -137,6 +153,8 @@ impl Surface {
             live: [0; MAX_POINTS],
             live_count: 0,
             beyond: None,
+            high: None,
+            far_high: None,
             compliance: [[0.0; MAX_POINTS]; MAX_POINTS],
             coupling: [0.0; MAX_POINTS],
             yielding: [[0.0; MAX_POINTS]; MAX_POINTS],
@@ -150,6 +168,21 @@ impl Surface {
     pub fn set_potential(&mut self, potential: Box<dyn Potential>, modes: usize, stride: u32) {
         let force = NonlinearForce::new(potential, modes, stride, (&self.body, &self.pickup), 1.0 / self.dt);
         self.beyond = Some(force);
+    }
+
+    /// Lets high bands listen: the near one to strikers, the far one to wires.
+    pub fn set_high_bands(&mut self, near: HighBand, far: Option<HighBand>) {
+        (self.high, self.far_high) = (Some(near), far);
+    }
+
+    /// What the body does above its modes.
+    pub fn high_band(&self) -> Option<&HighBand> {
+        self.high.as_ref()
+    }
+
+    /// What the body and the far head do above their modes, to be retuned with them.
+    pub fn high_bands_mut(&mut self) -> [Option<&mut HighBand>; 2] {
+        [self.high.as_mut(), self.far_high.as_mut()]
     }
 
     /// Makes the surface a head that yields under a tip beyond its modes, and so the far one under wires;
@@ -185,6 +218,11 @@ impl Surface {
             far.fill_pressed(x.hypot(y), x.atan2(-y), disc, shape);
             // They lie on the other side: their way into the head is against the stroke.
             shape.iter_mut().for_each(|shape| *shape = -*shape);
+        }
+        if let Some(high) = &mut self.far_high {
+            for (i, [x, y]) in wires::PLACES.into_iter().enumerate() {
+                high.put(i, x.hypot(y), x.atan2(-y), wires::PATCH);
+            }
         }
         for i in FIRST_WIRE..self.points.len() {
             let position = self.touchers[owner(i)].position(&self.points[i].weights);
@@ -381,6 +419,7 @@ impl Surface {
         point.arrive(Side::Surface, law, weights);
         let disc = self.film.map_or(0.0, |film| spec.patch / film.radius);
         self.shapes.fill_pressed(radius, strike.angle, disc, point.port.shape_mut());
+        self.high.iter_mut().for_each(|high| high.put(tip, radius, strike.angle, spec.patch));
         if let Some(film) = self.film {
             (point.bands, point.band_count) = film.bands(radius, spec.patch, !self.lossless, self.dt);
         }
@@ -431,6 +470,8 @@ impl Surface {
         let port = &self.points[i].port;
         self.coupling[i] = self.beyond.as_ref().map_or(0.0, |force| force.coupling(&self.body, port));
         self.points[i].direct = self.pickup.direct_at(&self.body, &self.points[i].port);
+        let (high, place) = above(i, &mut self.high, &mut self.far_high);
+        high.iter_mut().for_each(|high| high.complete(place, self.points[i].direct));
         for &j in &self.live[..self.live_count] {
             let mut mutual = self.body.compliance(&self.points[j].port, &self.points[i].port);
             if owner(i) == owner(j) {
@@ -451,7 +492,7 @@ impl Surface {
     pub fn render(&mut self, out: &mut [f32]) {
         let mut done = 0;
         while self.live_count > 0 && done < out.len() {
-            out[done] = self.step();
+            out[done] = self.step(done);
             done += 1;
         }
         let rest = &mut out[done..];
@@ -468,10 +509,11 @@ impl Surface {
             }
             _ => body.ring(0, pickup, rest),
         }
+        self.high.iter_mut().chain(&mut self.far_high).for_each(|high| high.render(out));
     }
 
-    /// One sample with something about.
-    fn step(&mut self) -> f32 {
+    /// One sample with something about; which of the run.
+    fn step(&mut self, sample: usize) -> f32 {
         let mean = self.step_free();
         let dt = self.dt;
         for toucher in self.touchers.iter_mut().filter(|toucher| toucher.present) {
@@ -494,6 +536,8 @@ impl Surface {
                 self.touchers[owner(i)].push(&point.weights, force);
                 direct += force as f32 * point.direct;
                 pressed += force * self.coupling[i];
+                let (high, place) = above(i, &mut self.high, &mut self.far_high);
+                high.iter_mut().for_each(|high| high.push(place, sample, force as f32));
             }
         }
         if let Some(beyond) = self.beyond.as_mut().filter(|beyond| beyond.is_active()) {
@@ -610,7 +654,9 @@ impl Surface {
     pub fn settle(&mut self) -> bool {
         self.body.flush_quiet();
         self.beyond.iter_mut().for_each(NonlinearForce::settle);
-        let finite = self.body.is_finite()
+        let high = self.high.iter_mut().chain(&mut self.far_high).all(HighBand::settle);
+        let finite = high
+            && self.body.is_finite()
             && self.live[..self.live_count].iter().all(|&i| self.points[i].compression.is_finite());
         if !finite {
             self.reset();
@@ -625,13 +671,15 @@ impl Surface {
 
     /// Whether nothing moves and nothing is about.
     pub fn is_still(&self) -> bool {
-        self.live_count == 0 && self.body.is_still()
+        let high = self.high.iter().chain(&self.far_high).all(HighBand::is_still);
+        high && self.live_count == 0 && self.body.is_still()
     }
 
     /// Puts everything to rest; strikers are gone.
     pub fn reset(&mut self) {
         self.body.reset();
         self.beyond.iter_mut().for_each(NonlinearForce::reset);
+        self.high.iter_mut().chain(&mut self.far_high).for_each(HighBand::reset);
         for toucher in &mut self.touchers {
             // Which place the next stroke takes hangs on all of these.
             (toucher.present, toucher.age) = (false, 0);

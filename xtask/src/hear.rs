@@ -12,7 +12,7 @@ use anyhow::Result;
 use overhear::midi_map;
 use overhear_engine::kit::BLOCK;
 use overhear_engine::piece::{BuildOptions, Piece, PieceId};
-use overhear_engine::snapshot::{FIELD_MODES, PieceSnapshot, StrikeSnapshot};
+use overhear_engine::snapshot::{FIELD_MODES, PieceSnapshot, StrikeSnapshot, WireSnapshot};
 use overhear_engine::strike::{Strike, Striker};
 
 use crate::analysis::Motion;
@@ -98,6 +98,8 @@ pub struct Sound {
     pub energy_end: f64,
     /// What the contact measured.
     pub contact: StrikeSnapshot,
+    /// What the snare wires did.
+    pub wires: WireSnapshot,
 }
 
 /// Strikes and renders, block by block.
@@ -131,8 +133,8 @@ pub fn render(request: &Request) -> Result<Sound> {
     for sample in &mut samples {
         *sample /= FULL_SCALE_PA;
     }
-    let (energy_end, contact) = (piece.energy(), piece.last_strike());
-    Ok(Sound { samples, motion, striker_energy, energy_peak, energy_end, contact })
+    let (energy_end, contact, wires) = (piece.energy(), piece.last_strike(), piece.wires());
+    Ok(Sound { samples, motion, striker_energy, energy_peak, energy_end, contact, wires })
 }
 
 /// Lets the tuning and the muffling glide to where they were set, at rest.

@@ -15,6 +15,7 @@ use std::sync::{Mutex, PoisonError};
 use std::thread;
 
 use anyhow::Result;
+use overhear_engine::kit::Control;
 use overhear_engine::piece::{BuildOptions, PieceId, Quality};
 
 use crate::bad_input;
@@ -118,7 +119,11 @@ fn stroke(piece: PieceId, speed: f64, folder: Option<&Path>) -> Result<Stroke> {
     let request = hear::Request {
         piece,
         strike,
-        settings: if muffling > 0.0 { vec![PieceSetting::Muffling(muffling)] } else { Vec::new() },
+        settings: if muffling > 0.0 {
+            vec![PieceSetting { control: Control::Muffling(piece), value: muffling }]
+        } else {
+            Vec::new()
+        },
         // Nobody waits for it: what a bounce sounds like.
         options: BuildOptions { quality: Quality::Offline, ..BuildOptions::new(RATE) },
         seconds,

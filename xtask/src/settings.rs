@@ -1,7 +1,8 @@
 //! `--set name=value` and `--preset`: the parameters a command moves.
 
 use anyhow::Result;
-use overhear::parameters::{PARAMETERS, Parameter, parse_assignment};
+use overhear::parameters::{Drives, PARAMETERS, Parameter, parse_assignment};
+use overhear_engine::kit::Control;
 use overhear_engine::piece::{Piece, PieceId};
 
 use crate::bad_input;
@@ -43,26 +44,30 @@ pub fn piece(name: &str) -> Result<PieceId> {
     })
 }
 
-/// A setting of a piece on its own, in the engine's units.
+/// A setting of a piece on its own: a control of the kit, in the engine's units.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum PieceSetting {
-    /// For [`Piece::set_tuning`].
-    Tuning(f64),
-    /// For [`Piece::set_muffling`].
-    Muffling(f64),
+pub struct PieceSetting {
+    /// Which.
+    pub control: Control,
+    /// In the control's own unit.
+    pub value: f64,
 }
 
 impl PieceSetting {
     /// Moves it on a piece.
     pub fn apply(self, piece: &mut Piece) {
-        match self {
-            PieceSetting::Tuning(tuning) => piece.set_tuning(tuning),
-            PieceSetting::Muffling(amount) => piece.set_muffling(amount),
+        match self.control {
+            Control::Tuning(_) => piece.set_tuning(self.value),
+            Control::Muffling(_) => piece.set_muffling(self.value),
+            Control::SnarePreload => piece.set_preload(self.value),
+            Control::SnareWires => piece.throw_wires(self.value >= 0.5),
+            // A piece by itself has no mix.
+            Control::Level(_) | Control::Master => {}
         }
     }
 }
 
-/// Reads the values of `--set` for one piece on its own, which knows tuning and muffling only.
+/// Reads the values of `--set` for one piece on its own.
 ///
 /// # Errors
 /// [`BadInput`](crate::error::BadInput) with the value and what is accepted.
@@ -74,26 +79,20 @@ pub fn parse_for_piece(id: PieceId, assignments: &[String]) -> Result<Vec<PieceS
             let Some((name, value)) = text.split_once('=') else {
                 return Err(bad_input!("`{text}` is not of the form name=value, as in kick_tune=60"));
             };
-            let [tune, muffle] = &accepted;
             let name = name.trim();
-            let parameter = accepted.iter().find(|parameter| parameter.name == name);
-            let Some(parameter) = parameter else {
-                return Err(bad_input!(
-                    "`{name}` does not act on the {} alone, accepted: {}, {}",
-                    id.name(),
-                    tune.name,
-                    muffle.name,
-                ));
+            let Some(parameter) = accepted.iter().find(|parameter| parameter.name == name) else {
+                let names: Vec<_> = accepted.iter().map(|parameter| parameter.name).collect();
+                let (piece, names) = (id.name(), names.join(", "));
+                return Err(bad_input!("`{name}` does not act on the {piece} alone, accepted: {names}"));
             };
-            let value = parameter.parse(value).map_err(|error| bad_input!("{error}"))?;
-            let value = f64::from(value);
-            Ok(if parameter.name == muffle.name {
-                PieceSetting::Muffling(value)
-            } else if id.is_drum() {
-                PieceSetting::Tuning(value)
-            } else {
+            let value = f64::from(parameter.parse(value).map_err(|error| bad_input!("{error}"))?);
+            Ok(match parameter.drives {
                 // Semitones to a ratio, as the performer has it.
-                PieceSetting::Tuning((value / 12.0).exp2())
+                Drives::Semitones(id) => {
+                    PieceSetting { control: Control::Tuning(id), value: (value / 12.0).exp2() }
+                }
+                Drives::Control(control) => PieceSetting { control, value },
+                Drives::Dynamics => PieceSetting { control: Control::Master, value },
             })
         })
         .collect()
@@ -101,31 +100,37 @@ pub fn parse_for_piece(id: PieceId, assignments: &[String]) -> Result<Vec<PieceS
 
 /// Muffling that a piece has in the kit unless it is moved, 0 to 1.
 pub fn default_muffling(id: PieceId) -> f64 {
-    let [_, muffle] = piece_parameters(id);
-    f64::from(muffle.default)
+    let muffle = piece_parameters(id).into_iter().find(|parameter| parameter.name.ends_with("_muffle"));
+    muffle.map_or(0.0, |muffle| f64::from(muffle.default))
 }
 
-/// Tuning and muffling of a piece.
-fn piece_parameters(id: PieceId) -> [Parameter; 2] {
-    let find = |name: &str| PARAMETERS.iter().copied().find(|parameter| parameter.name == name);
-    let prefix = id.name().replace('-', "_");
-    let named = |what: &str| find(&format!("{prefix}_{what}"));
-    match (named("tune"), named("muffle")) {
-        (Some(tune), Some(muffle)) => [tune, muffle],
-        // The timpani can be built and struck but is not in the kit: it has the kick's controls
-        // under its own name and with its own range.
-        _ => timpani_parameters(),
+/// What can be set of a piece by itself: all that acts on it but its place in the mix.
+fn piece_parameters(id: PieceId) -> Vec<Parameter> {
+    if id.slot().is_none() {
+        return timpani_parameters();
     }
+    let acts = |parameter: &&Parameter| match parameter.drives {
+        Drives::Control(Control::Tuning(piece) | Control::Muffling(piece)) | Drives::Semitones(piece) => {
+            piece == id
+        }
+        Drives::Control(Control::SnarePreload | Control::SnareWires) => id == PieceId::Snare,
+        _ => false,
+    };
+    PARAMETERS.iter().filter(acts).copied().collect()
 }
 
-fn timpani_parameters() -> [Parameter; 2] {
-    let [tune, muffle] = piece_parameters(PieceId::Kick);
+/// The timpani can be built and struck but is not in the kit: it has the kick's controls under its own
+/// name and with its own range.
+fn timpani_parameters() -> Vec<Parameter> {
     let (min, default, max) = Piece::tuning_range(PieceId::Timpani);
     let (min, default, max) = (min as f32, default as f32, max as f32);
-    [
-        Parameter { name: "timpani_tune", min, default, max, centre: default, ..tune },
-        Parameter { name: "timpani_muffle", ..muffle },
-    ]
+    let named = |parameter: Parameter| match parameter.drives {
+        Drives::Control(Control::Tuning(_)) => {
+            Parameter { name: "timpani_tune", min, default, max, centre: default, ..parameter }
+        }
+        _ => Parameter { name: "timpani_muffle", ..parameter },
+    };
+    piece_parameters(PieceId::Kick).into_iter().map(named).collect()
 }
 
 #[cfg(test)]
@@ -143,10 +148,19 @@ mod tests {
             let default = if id.is_drum() { Piece::tuning_range(id).1 } else { 0.0 };
             let assignments = [format!("{prefix}_tune={default}"), format!("{prefix}_muffle=.25")];
             let settings = parse_for_piece(id, &assignments).unwrap();
-            let PieceSetting::Tuning(tuning) = settings[0] else { panic!("{settings:?}") };
+            let tuning = settings[0].value;
             assert!((tuning / Piece::tuning_range(id).1 - 1.0).abs() < 1e-4, "{id:?}: {tuning}");
-            assert_eq!(settings[1], PieceSetting::Muffling(0.25));
+            assert_eq!(settings[1].value, 0.25);
         }
+    }
+
+    #[test]
+    fn the_snare_takes_its_wires_too() {
+        let settings = parse_for_piece(PieceId::Snare, &["snare_preload=.05".into(), "snare_wires=0".into()]);
+        let controls: Vec<Control> = settings.unwrap().iter().map(|setting| setting.control).collect();
+        assert_eq!(controls, [Control::SnarePreload, Control::SnareWires]);
+        assert!(error(PieceId::Snare, "snare_preload=2").contains("accepted: 0.03 to 1.5 N"));
+        assert!(error(PieceId::Kick, "snare_wires=1").contains("kick_muffle"));
     }
 
     #[test]

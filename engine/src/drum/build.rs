@@ -6,6 +6,7 @@ use std::f64::consts::TAU;
 use crate::air::{DENSITY, SPEED_OF_SOUND};
 use crate::cavity::{CavityOrder, HeadShape};
 use crate::drum::coupled::{CoupledMode, OrderProblem, Outside, Stretched};
+use crate::drum::high_band::{Ear, HighBandSpec};
 use crate::drum::shadow;
 use crate::drum::spec::{DrumSpec, HeadSpec};
 use crate::drum::tuned::{self, PITCHES, PitchScale, Place, TunedMode};
@@ -13,9 +14,11 @@ use crate::error::SpecError;
 use crate::listening::{Radiator, Rayleigh};
 use crate::math::bessel::{self, JTable};
 use crate::membrane::{self, Membrane, ModeRange, Surroundings};
+use crate::piece::BuildOptions;
 use crate::shapes::{ShapeIndex, ShapeTable};
 use crate::split::Splitting;
 use crate::surface::patch::Film;
+use crate::surface::{STRIKER_PLACES, wires};
 
 /// Modes of the enclosed air up to this are kept as modes, Hz; above, air only rides along.
 const CAVITY_LIMIT_HZ: f64 = 2500.0;
@@ -69,12 +72,26 @@ impl TunedHead {
         Ok(TunedHead { membrane, tensions })
     }
 
+    /// What the head does above its modes, laid out at a pitch, pressed on at so many places.
+    pub fn high_band(&self, ear: Ear, options: &BuildOptions, place: &Place, places: usize) -> HighBandSpec {
+        let pairs = self.membrane.modes().iter();
+        HighBandSpec {
+            head: *self.membrane.spec(),
+            tensions: [self.tensions[0], self.tension(place)],
+            complete: pairs.map(|mode| if mode.m == 0 { 1 } else { 2 }).sum(),
+            ear,
+            lossless: options.lossless,
+            sample_rate: options.sample_rate,
+            seed: 100 + u32::from(ear.far),
+            places,
+        }
+    }
+
     /// The head as a tip feels it from near, at a place of the scale; its modes reach `limit_hz` at the
     /// default pitch `at_default`.
     pub fn film(&self, place: &Place, at_default: &Place, limit_hz: f64) -> Film {
-        let tension = |place: &Place| place.blend(|i| self.tensions[i].ln()).exp();
-        let (spec, now) = (self.membrane.spec(), tension(place));
-        let reached = TAU * limit_hz * (now / tension(at_default)).sqrt();
+        let (spec, now) = (self.membrane.spec(), self.tension(place));
+        let reached = TAU * limit_hz * (now / self.tension(at_default)).sqrt();
         // Waves that fine move the air within their own length only: rho / k on either face.
         let bare = spec.area_density();
         let air = 2.0 * DENSITY * (now / bare).sqrt() / reached;
@@ -83,6 +100,11 @@ impl TunedHead {
 
     fn stretched(&self, pitch: usize) -> Stretched<'_> {
         Stretched { membrane: &self.membrane, tension: self.tensions[pitch] }
+    }
+
+    /// Tension at a pitch, N/m.
+    pub fn tension(&self, place: &Place) -> f64 {
+        place.blend(|i| self.tensions[i].ln()).exp()
     }
 
     /// First mode of order `m`, and how many there are.
@@ -189,6 +211,26 @@ impl Blueprint {
         ShapeTable::new(&head.membrane.radial_shapes(&ShapeTable::radii()), index).with_waves(waves)
     }
 
+    /// What the batter does above its modes, laid out at a pitch (Hz).
+    pub fn high_band(&self, spec: &DrumSpec, options: &BuildOptions, pitch_hz: f64) -> HighBandSpec {
+        let ear = Ear { point: spec.listening_point, outside: spec.outside, far: false };
+        self.batter.high_band(ear, options, &self.scale.place(pitch_hz), STRIKER_PLACES)
+    }
+
+    /// What the resonant head does above its modes, for wires to set going.
+    pub fn far_high_band(
+        &self,
+        spec: &DrumSpec,
+        options: &BuildOptions,
+        pitch_hz: f64,
+    ) -> Option<HighBandSpec> {
+        let behind = spec.cavity.map_or(0.0, |cavity| cavity.depth);
+        let point = spec.listening_point.from_behind(behind);
+        let ear = Ear { point, outside: spec.outside, far: true };
+        let head = self.resonant.as_ref()?;
+        Some(head.high_band(ear, options, &self.scale.place(pitch_hz), wires::GROUPS))
+    }
+
     /// How each mode of the body is heard at the listening point at a pitch (Hz), `[mode]`, pairs as two.
     ///
     /// The struck head is heard as in a baffle from near, as from a body in free air from far; the
@@ -220,10 +262,9 @@ impl Blueprint {
             let radial = mix(&near_shapes, first, count, 0);
             let [mut re, mut im] = near.transfer(&Radiator { m: mode.m, radial: &radial, omega });
             if let Outside::Free { .. } = spec.outside {
-                let space = 0.5 * shadow::baffling(omega * radius / SPEED_OF_SOUND);
-                // How much of the half-space the head fills, seen from the point.
-                let fills = 1.0 - point.distance / point.distance.hypot(radius);
-                let gain = space + (1.0 - space) * fills;
+                let ka = omega * radius / SPEED_OF_SOUND;
+                let space = 0.5 * shadow::baffling(ka);
+                let gain = shadow::near_gain(ka, point.fills(radius));
                 (re, im) = (re * gain, im * gain);
                 if let (Some(head), Some(shapes)) = (&self.resonant, &far_shapes) {
                     let (far_first, far_count) = head.order(mode.m);

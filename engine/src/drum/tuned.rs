@@ -14,7 +14,7 @@ use crate::drum::coupled::CoupledMode;
 /// met within 3 cents, the worst where a mode of the air is passed; most within a tenth.
 pub const PITCHES: usize = 13;
 
-/// What is interpolated, `ln` but for the share.
+/// What is interpolated, `ln` but for the shares.
 #[derive(Debug, Clone, Copy, Default)]
 struct Entry {
     omega: f64,
@@ -22,6 +22,8 @@ struct Entry {
     mass: f64,
     /// Share of the kinetic energy that is the batter's.
     batter: f64,
+    /// Share that is in air going along the drum.
+    flow: f64,
 }
 
 /// One mode (or pair) of the drum against pitch.
@@ -49,6 +51,8 @@ pub struct Rung {
     pub mass: f64,
     /// Share of the kinetic energy that is the batter's.
     pub batter: f64,
+    /// Share of the kinetic energy that is in air going along the drum as one.
+    pub flow: f64,
 }
 
 /// The pitches of a table, evenly spaced in logarithm.
@@ -111,6 +115,7 @@ impl TunedMode {
             sigma: place.blend(|i| row[i].sigma).exp(),
             mass: place.blend(|i| row[i].mass).exp(),
             batter: place.blend(|i| row[i].batter),
+            flow: place.blend(|i| row[i].flow),
         }
     }
 
@@ -159,6 +164,7 @@ pub fn follow(
                 sigma: mode.sigma.max(1e-9).ln(),
                 mass: -2.0 * size.ln(),
                 batter: mode.share[0],
+                flow: mode.flow,
             };
             for (share, x) in shares.iter_mut().zip(&mode.vector) {
                 share[pitch] = (sign * x / size) as f32;

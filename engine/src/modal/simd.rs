@@ -5,6 +5,7 @@
 //! Within one level results are bit-equal whatever way a stretch of samples is cut; across levels
 //! they differ by rounding.
 
+pub mod driven;
 pub mod polar;
 
 use pulp::{Arch, Scalar128b, Simd, WithSimd};

@@ -6,11 +6,11 @@ use overhear_engine::piece::PieceId;
 use super::{Drives, Parameter};
 
 /// Every parameter, in the order hosts see. Frozen: append only.
-pub static PARAMETERS: [Parameter; 23] = {
+pub static PARAMETERS: [Parameter; 25] = {
     use PieceId::*;
     [
         drum_tune(Kick, "Kick", "kktune", "kick_tune", [35.0, 55.0, 90.0]),
-        muffle(Kick, "Kick", "kkmuff", "kick_muffle", 0.3),
+        muffle(Kick, "Kick", "kkmuff", "kick_muffle", 0.2),
         level(Kick, "Kick", "kklevl", "kick_level", 0.0),
         drum_tune(Snare, "Snare", "sntune", "snare_tune", [140.0, 220.0, 360.0]),
         muffle(Snare, "Snare", "snmuff", "snare_muffle", 0.0),
@@ -52,6 +52,35 @@ pub static PARAMETERS: [Parameter; 23] = {
             step: 0.01,
             decimals: 2,
             drives: Drives::Dynamics,
+        },
+        Parameter {
+            id: "snprel",
+            name: "snare_preload",
+            label: "Preload",
+            group: "Snare",
+            unit: " N",
+            min: 0.03,
+            max: 1.5,
+            default: 0.15,
+            // As much knob for the loose half of what drummers use as for the tight one.
+            centre: 0.15,
+            step: 0.001,
+            decimals: 3,
+            drives: Drives::Control(Control::SnarePreload),
+        },
+        Parameter {
+            id: "snwire",
+            name: "snare_wires",
+            label: "Wires",
+            group: "Snare",
+            unit: "",
+            min: 0.0,
+            max: 1.0,
+            default: 1.0,
+            centre: 0.5,
+            step: 1.0,
+            decimals: 0,
+            drives: Drives::Control(Control::SnareWires),
         },
     ]
 };

@@ -189,6 +189,9 @@ pub struct HearArguments {
     /// Build perfectly round bodies, whose pairs of modes share one frequency
     #[arg(long)]
     unsplit: bool,
+    /// Leave out what drum heads do above their complete sets of modes
+    #[arg(long)]
+    no_high_band: bool,
     /// How far up a cymbal's modes are coupled
     #[arg(long, default_value = "offline")]
     quality: Quality,
@@ -216,6 +219,7 @@ impl HearArguments {
         options.lossless = self.lossless;
         options.unsplit = self.unsplit;
         options.linear = self.linear;
+        options.high_band = !self.no_high_band;
         options.quality = self.quality.into();
         let settings = settings::parse_for_piece(piece, &self.set)?;
         Ok(hear::Request { piece, strike, settings, options, seconds: self.seconds, wav: self.wav })

@@ -49,9 +49,9 @@ pub struct Measurement {
     pub mean: Option<f64>,
     /// Decay time by 60 dB in each octave, s: `{"31.5": .., "63": ..}`.
     pub t60_s: Decays,
-    /// Landings of snare wires: nothing, there are none yet.
+    /// Landings of all groups of snare wires in the rendered time.
     pub wire_landings: u32,
-    /// When the last wire left the head, s: never.
+    /// When a group last left the head, s after the stroke.
     pub wire_last_lift_s: Option<f64>,
     /// Kinetic energy of the arriving striker, J.
     pub striker_energy_in_j: f64,
@@ -92,8 +92,8 @@ impl Measurement {
             rms_dbfs: analysis::rms(samples).and_then(analysis::to_dbfs),
             mean: analysis::mean(samples).filter(|mean| mean.is_finite()),
             t60_s: Decays(analysis::octave_decays(samples, rate)),
-            wire_landings: 0,
-            wire_last_lift_s: None,
+            wire_landings: sound.wires.landings,
+            wire_last_lift_s: (sound.wires.last_lift > 0.0).then(|| exact(sound.wires.last_lift)),
             striker_energy_in_j: sound.striker_energy,
             energy_peak_j: sound.energy_peak,
             energy_end_j: sound.energy_end,

@@ -1,0 +1,476 @@
+//! What a head does above its complete set of modes, where they crowd too closely to be told apart.
+//!
+//! Model: from the top of the complete set on, each slice of 1/40 octave is one mode that stands for the
+//! `count` real ones in it: a random plane wave and its mirror image at the rim, as a diffuse field at a clamped edge
+//! is made of; their difference has unit mean square and is zero at the rim. It weighs `M / count`, so that
+//! a force sets going as much energy as it would in all of them, and is heard by `sqrt(count)` less than
+//! one mode so moved would be, for real modes do not add in step. It listens to the contact force and does not push
+//! back: the complete set does that. It takes no part in the stretch.
+//!
+//! With `k` the wavenumber, `s` the film's mass per area, `z` the air on one face,
+//!
+//! ```text
+//! omega^2 (s + 2 Re z) = T k^2 + D k^4      z = rho / sqrt(k^2 - (omega/c)^2 - i eta)
+//! sigma = film(omega) + omega Im z / (2 (s + 2 Re z))      eta = 4 omega / (pi c a)
+//! ```
+//!
+//! `z` is that of an endless head; `eta` gives it what a head of radius `a` radiates by its rim (below),
+//! and keeps it finite where a wave on the head is as fast as sound.
+//!
+//! Count: `N(k) = (k a)^2 / 4 - k a / 2` (Weyl, clamped). What is heard: of the modes about `k` in a baffle the mean square
+//! of `int W e^(i x) dA`, over all of them and all directions, is with `j = k a`, `u = (omega a / c) sin`
+//!
+//! ```text
+//! 8 pi a^4 j / (j^2 - u^2)^2
+//! ```
+//!
+//! which follows from their Hankel transforms (see [`air`](crate::air)), the density of Bessel zeros and
+//! `J_0^2 + 2 sum J_m^2 = 1`. It is what the strip along the rim sends out; the point hears it from the rim's
+//! distances, by chance in any phase.
+//!
+//! Contact: the head wraps itself around a tip, whose pressure on it is even, over a patch that grows with the force.
+//! An even pressure moves a wave by `2 J_1(k b) / (k b)`; averaged over the areas a stroke goes through, up to its
+//! largest patch of radius `b`, that is `4 (1 - J_0(k b)) / (k b)^2`.
+//!
+//! Direct sound: a force moves an endless sheet with the acceleration `F / s` under it, at once, and from a distance `d`
+//! that is heard as `rho F / (2 pi s d)`: waves on the head are slower than sound, so that what radiates at some
+//! frequency are modes that ring far below it and only weigh. Each mode's share belongs to the mode (see
+//! [`Pickup`]); complete modes and slices share none, so nothing is counted twice, and the slices' adds up by
+//! chance, some 16 dB below. The complete modes' shares are right where each rings, with the air it carries there and
+//! with the sound going around the drum's body. Faster than about `omega a / c = sqrt 2` the air no longer rides along and the body
+//! is a baffle: what they lack of the sheet (two thirds, of a drum that stands free; *measured*) follows the force through a
+//! high-pass filter of first order from there.
+//!
+//! Limits: a chance shape per slice is right for the mean over slices and places, not for one; the
+//! head's stretch does not shift them.
+//!
+//! Source: Weyl's law as in Rossing & Fletcher, Principles of Vibration and Sound, ch. 3; Cremer, Heckl &
+//! Petersson, Structure-Borne Sound, ch. 6 (radiation of bending waves at an edge). The mean square is derived here.
+
+use std::f64::consts::{PI, SQRT_2, TAU};
+
+use crate::air::{DENSITY, SPEED_OF_SOUND};
+use crate::drum::coupled::Outside;
+use crate::drum::shadow;
+use crate::listening::ListeningPoint;
+use crate::membrane::MembraneSpec;
+use crate::modal::simd::MAX_RUN;
+use crate::modal::{MAX_DRIVES, ModalBody, Mode, Pickup, Port};
+use crate::split::hash;
+
+/// Slices in an octave.
+const SLICES: f64 = 40.0;
+
+/// Highest frequency, Hz, and its largest share of the sample rate.
+const TOP_HZ: f64 = 16_000.0;
+const TOP_OF_RATE: f64 = 0.45;
+
+/// The slow part of a force below this is nothing, N: 200 dB under a soft stroke.
+const FAINT: f32 = 1e-10;
+
+/// A slice fades from full to nothing over this ratio above the top, so that tuning takes it out softly.
+const FADE: f64 = 1.03;
+
+/// Where the head is heard from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ear {
+    /// The point, seen from the head's centre.
+    pub point: ListeningPoint,
+    /// What surrounds the drum.
+    pub outside: Outside,
+    /// Whether the head is on the far side of the drum.
+    pub far: bool,
+}
+
+/// What a high band is made from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HighBandSpec {
+    /// The head.
+    pub head: MembraneSpec,
+    /// Lowest tension it will be asked for and the one at which slices are laid out, N/m.
+    pub tensions: [f64; 2],
+    /// Modes (pairs as two) of the complete set, all below the slices.
+    pub complete: usize,
+    /// Where it is heard from.
+    pub ear: Ear,
+    /// Nothing is lost.
+    pub lossless: bool,
+    /// Hz.
+    pub sample_rate: f64,
+    /// Tells the chance of one head from another's.
+    pub seed: u32,
+    /// Places that forces can act on at once, at most [`MAX_DRIVES`].
+    pub places: usize,
+}
+
+/// What muffles it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HighMuffling {
+    /// Decay rate added to every slice, 1/s.
+    pub even: f64,
+    /// Decay rate that a pad adds to a mode of unit square under it, 1/s, and its distance from the centre,
+    /// share of the radius.
+    pub pad: (f64, f64),
+}
+
+impl HighMuffling {
+    /// Nothing.
+    pub const NONE: HighMuffling = HighMuffling { even: 0.0, pad: (0.0, 0.0) };
+}
+
+/// One slice: a chance wave.
+#[derive(Debug, Clone, Copy)]
+struct Slice {
+    /// `k a`.
+    zero: f64,
+    /// Modes it stands for.
+    count: f64,
+    /// Where the wave runs, rad, and its phase.
+    direction: f64,
+    phase: f64,
+    /// Phase in which it is heard, and how loud for what the drum's body does to it.
+    heard: f64,
+    gain: f64,
+}
+
+/// A slice as the present tension has it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SliceInfo {
+    /// Undamped angular frequency, rad/s.
+    pub omega: f64,
+    /// Decay rate, 1/s.
+    pub sigma: f64,
+    /// Modal mass, kg.
+    pub mass: f64,
+    /// Area of the monopole in a baffle that would be heard as loud, m2.
+    pub monopole_area: f64,
+}
+
+/// A place that is pressed on, and how hard over the present run.
+struct Place {
+    port: Port,
+    /// Pressure at once per unit force, Pa/N: the slices'; an endless sheet's; what of that the complete set lacks.
+    direct: f32,
+    sheet: f32,
+    lacking: f32,
+    /// The slow part of the force, N.
+    slow: f32,
+    forces: [f32; MAX_RUN],
+    pressed: bool,
+}
+
+impl Place {
+    /// Adds what follows the forces of the run at once.
+    fn add_direct(&mut self, follow: f32, out: &mut [f32]) {
+        for (out, force) in out.iter_mut().zip(&self.forces) {
+            self.slow += follow * (force - self.slow);
+            *out += self.direct * force + self.lacking * (force - self.slow);
+        }
+    }
+}
+
+/// The high band of one head.
+pub struct HighBand {
+    spec: HighBandSpec,
+    body: ModalBody,
+    pickup: Pickup,
+    slices: Vec<Slice>,
+    places: Vec<Place>,
+    /// How far the slow part of a force follows it in a sample.
+    follow: f32,
+    /// Whether anything moves.
+    rings: bool,
+}
+
+impl HighBand {
+    /// The band at rest, at the tension it is laid out for. Allocates.
+    pub fn new(spec: &HighBandSpec) -> HighBand {
+        let slices = slices(spec);
+        let modes: Vec<Mode> = slices.iter().map(|slice| mode(spec, slice, spec.tensions[1])).collect();
+        let count = modes.len();
+        let place = |_| Place {
+            port: Port::new(count),
+            direct: 0.0,
+            sheet: 0.0,
+            lacking: 0.0,
+            slow: 0.0,
+            forces: [0.0; MAX_RUN],
+            pressed: false,
+        };
+        let corner = SQRT_2 * SPEED_OF_SOUND / spec.head.radius;
+        let mut band = HighBand {
+            spec: *spec,
+            body: ModalBody::new(modes, spec.sample_rate),
+            pickup: Pickup::new(vec![[0.0; 2]; count]),
+            slices,
+            places: (0..spec.places.min(MAX_DRIVES)).map(place).collect(),
+            follow: (1.0 - (-corner / spec.sample_rate).exp()) as f32,
+            rings: false,
+        };
+        band.retune(spec.tensions[1], &HighMuffling::NONE);
+        band
+    }
+
+    /// Follows the head's tension (N/m) and muffling.
+    ///
+    /// # Real-time
+    /// No allocation; some 200 ns a slice.
+    pub fn retune(&mut self, tension: f64, muffling: &HighMuffling) {
+        let HighBand { spec, body, pickup, slices, .. } = self;
+        let top = top_hz(spec.sample_rate);
+        for (k, (slice, transfer)) in slices.iter().zip(pickup.transfer_mut()).enumerate() {
+            let mut mode = mode(spec, slice, tension);
+            if !spec.lossless {
+                let edge = 2.0 * slice.zero * (1.0 - muffling.pad.1);
+                mode.sigma += muffling.even + muffling.pad.0 * (1.0 - libm::j0(edge));
+            }
+            body.set_mode(k, mode);
+            let fade = 1.0 - ((mode.omega / (TAU * top) - 1.0) / (FADE - 1.0)).clamp(0.0, 1.0);
+            let loud = fade * loudness(spec, slice, mode.omega) / slice.count.sqrt();
+            let (sin, cos) = slice.heard.sin_cos();
+            *transfer = [loud * cos, loud * sin];
+        }
+        body.tune(pickup);
+        for place in &mut self.places {
+            body.connect(&mut place.port);
+            place.direct = pickup.direct_at(body, &place.port);
+        }
+    }
+
+    /// Puts place `i` somewhere: distance from the centre as a share of the radius, direction in rad, and the
+    /// radius (m) of the largest patch that is pressed on.
+    ///
+    /// # Real-time
+    /// No allocation; some 100 ns a slice.
+    pub fn put(&mut self, i: usize, radius: f64, angle: f64, patch: f64) {
+        let HighBand { spec, body, pickup, slices, places, .. } = self;
+        let Place { port, direct, sheet, .. } = &mut places[i];
+        *sheet = endless_sheet(spec, slices, radius, angle) as f32;
+        for (shape, slice) in port.shape_mut().iter_mut().zip(&*slices) {
+            *shape = (slice.at(radius, angle) * pressed(slice.zero * patch / spec.head.radius)) as f32;
+        }
+        body.connect(port);
+        *direct = pickup.direct_at(body, port);
+    }
+
+    /// Tells place `i` what the complete set's pressure is at once per unit force there, Pa/N.
+    pub fn complete(&mut self, i: usize, direct: f32) {
+        let place = &mut self.places[i];
+        place.lacking = place.sheet - direct;
+    }
+
+    /// A force (N) on place `i`, held over a sample of the present run.
+    ///
+    /// # Panics
+    /// If the sample is not below [`MAX_RUN`].
+    pub fn push(&mut self, i: usize, sample: usize, force: f32) {
+        self.places[i].forces[sample] = force;
+        self.places[i].pressed |= force != 0.0;
+    }
+
+    /// Ends the run: adds its sound to `out`, Pa, at most [`MAX_RUN`] samples.
+    ///
+    /// # Real-time
+    /// Linear in slices times samples times places pressed; nothing at rest.
+    pub fn render(&mut self, out: &mut [f32]) {
+        let HighBand { body, pickup, places, follow, rings, .. } = self;
+        *rings |= places.iter().any(|place| place.pressed);
+        if !*rings {
+            return;
+        }
+        let mut sound = [0.0; MAX_RUN];
+        let sound = &mut sound[..out.len()];
+        let pressed = places.iter().filter(|place| place.pressed);
+        body.ring_driven(pressed.map(|place| (&place.port, &place.forces[..])), pickup, sound);
+        for place in places.iter_mut().filter(|place| place.pressed || place.slow != 0.0) {
+            place.add_direct(*follow, sound);
+            if std::mem::take(&mut place.pressed) {
+                place.forces.fill(0.0);
+            }
+        }
+        for (out, sound) in out.iter_mut().zip(&*sound) {
+            *out += sound;
+        }
+    }
+
+    /// Zeroes what has decayed to nothing; reports whether all is finite.
+    ///
+    /// # Real-time
+    /// Linear in the number of slices; meant for once a block.
+    pub fn settle(&mut self) -> bool {
+        if self.rings {
+            self.body.flush_quiet();
+            for place in self.places.iter_mut().filter(|place| place.slow.abs() < FAINT) {
+                place.slow = 0.0;
+            }
+            self.rings = !self.body.is_still() || self.places.iter().any(|place| place.slow != 0.0);
+        }
+        self.body.is_finite() && self.places.iter().all(|place| place.slow.is_finite())
+    }
+
+    /// Whether nothing moves.
+    pub fn is_still(&self) -> bool {
+        !self.rings
+    }
+
+    /// Puts it to rest.
+    pub fn reset(&mut self) {
+        self.body.reset();
+        self.rings = false;
+        for place in &mut self.places {
+            place.forces.fill(0.0);
+            (place.pressed, place.slow) = (false, 0.0);
+        }
+    }
+
+    /// Vibration energy, J. It was not taken from the striker, which the complete set alone slows down.
+    pub fn energy(&self) -> f64 {
+        self.body.energy()
+    }
+
+    /// The slices that are heard, lowest first, as they are now.
+    pub fn slices(&self) -> impl Iterator<Item = SliceInfo> + '_ {
+        let top = TAU * top_hz(self.spec.sample_rate);
+        let rows = self.body.modes().iter().zip(&self.slices);
+        rows.filter(move |(mode, _)| mode.omega <= top).map(|(mode, slice)| SliceInfo {
+            omega: mode.omega,
+            sigma: mode.sigma,
+            mass: mode.mass,
+            monopole_area: rim_strip(&self.spec, slice, mode.omega) / slice.count.sqrt(),
+        })
+    }
+}
+
+impl Slice {
+    /// The wave and its image in the rim, at a place.
+    fn at(&self, radius: f64, angle: f64) -> f64 {
+        let along = (angle - self.direction).cos();
+        let wave = |r: f64| (self.zero * r * along + self.phase).cos();
+        wave(radius) - wave(2.0 - radius)
+    }
+}
+
+/// Share of a point's force that a wave takes from a patch of `k b`.
+fn pressed(kb: f64) -> f64 {
+    // The series where the difference would cancel.
+    if kb < 0.1 { 1.0 - kb * kb / 16.0 } else { 4.0 * (1.0 - libm::j0(kb)) / (kb * kb) }
+}
+
+/// Highest frequency heard at a sample rate, Hz.
+fn top_hz(sample_rate: f64) -> f64 {
+    TOP_HZ.min(TOP_OF_RATE * sample_rate)
+}
+
+/// `N(k)`.
+fn modes_below(zero: f64) -> f64 {
+    0.25 * zero * zero - 0.5 * zero
+}
+
+/// Cuts the band.
+fn slices(spec: &HighBandSpec) -> Vec<Slice> {
+    let [slackest, tension] = spec.tensions;
+    let step = (1.0 / SLICES).exp2();
+    let mut slices: Vec<Slice> = Vec::new();
+    // Where the complete set ends: N(k) solved for k.
+    let mut low = 1.0 + (1.0 + 4.0 * spec.complete as f64).sqrt();
+    let mut omega = wave(&spec.head, low, tension).0;
+    while wave(&spec.head, low, slackest).0 < TAU * top_hz(spec.sample_rate) {
+        omega *= step;
+        let high = wavenumber(&spec.head, omega, tension);
+        let draw = |what| hash(spec.seed, slices.len() as u32, 0, what);
+        // Anywhere in its slice: an even ladder of frequencies would be heard as one.
+        let zero = low * (high / low).powf(draw(0));
+        slices.push(Slice {
+            zero,
+            count: (modes_below(high) - modes_below(low)).max(1.0),
+            direction: TAU * draw(1),
+            phase: TAU * draw(2),
+            heard: TAU * draw(3),
+            gain: gain(spec, omega),
+        });
+        low = high;
+    }
+    slices
+}
+
+/// Undamped angular frequency (rad/s), decay rate by radiation (1/s) and mass per area with its air
+/// (kg/m2) of waves on an endless head, `zero` being `k a`.
+fn wave(head: &MembraneSpec, zero: f64, tension: f64) -> (f64, f64, f64) {
+    let k2 = (zero / head.radius).powi(2);
+    let stiffness = (tension + head.flexural_rigidity() * k2) * k2;
+    let film = head.area_density();
+    let (mut omega, mut sigma, mut mass) = ((stiffness / film).sqrt(), 0.0, film);
+    // The air weighs less, the higher: each round gains a digit or two.
+    for _ in 0..12 {
+        let sound = omega / SPEED_OF_SOUND;
+        let (gap, eta) = (k2 - sound * sound, 4.0 * sound / (PI * head.radius));
+        // 1 / sqrt(gap - i eta)
+        let size = gap.hypot(eta);
+        let (re, im) = ((0.5 * (size + gap)).sqrt() / size, (0.5 * (size - gap)).max(0.0).sqrt() / size);
+        mass = film + 2.0 * DENSITY * re;
+        sigma = omega * DENSITY * im / (2.0 * mass);
+        let next = (stiffness / mass).sqrt();
+        let settled = (next / omega - 1.0).abs() < 1e-7;
+        omega = next;
+        if settled {
+            break;
+        }
+    }
+    (omega, sigma, mass)
+}
+
+/// `k a` of the wave at an angular frequency.
+fn wavenumber(head: &MembraneSpec, omega: f64, tension: f64) -> f64 {
+    let mut zero = omega * head.radius * (head.area_density() / tension).sqrt();
+    // Frequency goes as its first power where tension rules and as its second where stiffness does: between,
+    // each round leaves at most two fifths of the error.
+    for _ in 0..20 {
+        zero *= (omega / wave(head, zero, tension).0).powf(0.7);
+    }
+    zero
+}
+
+fn mode(spec: &HighBandSpec, slice: &Slice, tension: f64) -> Mode {
+    let (omega, radiated, mass) = wave(&spec.head, slice.zero, tension);
+    let sigma = if spec.lossless { 0.0 } else { spec.head.loss.sigma(omega) + radiated };
+    Mode { omega, sigma, mass: mass * spec.head.area() / slice.count }
+}
+
+/// Root mean square of `int W e^(i x) dA` over the real modes, m2.
+fn rim_strip(spec: &HighBandSpec, slice: &Slice, omega: f64) -> f64 {
+    let (a, j) = (spec.head.radius, slice.zero);
+    let u = omega * a / SPEED_OF_SOUND * spec.ear.point.inclination.sin();
+    // A wave as fast as sound meets the rim only so long.
+    let apart = (j * j - u * u).hypot(2.0 * j);
+    a * a * (8.0 * PI * j).sqrt() / apart
+}
+
+/// Pressure at once per unit force on an endless sheet at a place, Pa/N; nothing at the rim, which does not move.
+fn endless_sheet(spec: &HighBandSpec, slices: &[Slice], radius: f64, angle: f64) -> f64 {
+    let Some(first) = slices.first() else { return 0.0 };
+    let gain = slices.iter().map(|slice| slice.gain).sum::<f64>() / slices.len() as f64;
+    let free = 1.0 - libm::j0(2.0 * first.zero * (1.0 - radius));
+    let distance = spec.ear.point.distance_to(radius * spec.head.radius, angle);
+    // Into the head is away from the point.
+    -free * gain * DENSITY / (TAU * distance * spec.head.area_density())
+}
+
+/// Pressure at the point over the acceleration of one real mode, root mean square, Pa s2/m.
+fn loudness(spec: &HighBandSpec, slice: &Slice, omega: f64) -> f64 {
+    let near = spec.ear.point.rim_nearness(spec.head.radius);
+    slice.gain * DENSITY / TAU * rim_strip(spec, slice, omega) * near
+}
+
+/// Amplitude at the point over that of the same head in a baffle.
+fn gain(spec: &HighBandSpec, omega: f64) -> f64 {
+    let Ear { point, outside, far } = spec.ear;
+    let ka = omega * spec.head.radius / SPEED_OF_SOUND;
+    match outside {
+        Outside::Baffle => 1.0,
+        Outside::Free { .. } if far => 0.5 * shadow::toward(ka, -point.inclination.cos()),
+        Outside::Free { .. } => shadow::near_gain(ka, point.fills(spec.head.radius)),
+    }
+}
+
+#[cfg(test)]
+mod tests;

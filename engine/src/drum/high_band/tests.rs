@@ -1,0 +1,122 @@
+use super::*;
+use crate::drum::DrumSpec;
+use crate::drum::build::Blueprint;
+use crate::piece::BuildOptions;
+
+const RATE: f64 = 44_100.0;
+
+fn band(blueprint: &Blueprint, spec: &DrumSpec, pitch: f64) -> HighBand {
+    HighBand::new(&blueprint.high_band(spec, &BuildOptions::new(RATE), pitch))
+}
+
+fn rack_tom() -> (Blueprint, DrumSpec) {
+    let spec = DrumSpec::rack_tom();
+    (Blueprint::new(&spec).unwrap(), spec)
+}
+
+#[test]
+fn slices_follow_on_the_complete_set_in_frequency_mass_count_and_loudness() {
+    let (blueprint, spec) = rack_tom();
+    let band = band(&blueprint, &spec, 140.0);
+    let place = blueprint.scale.place(140.0);
+    let top: Vec<_> = blueprint.modes.iter().rev().filter(|mode| mode.at(&place).batter > 0.5).collect();
+    let highest = top[0].at(&place);
+    let first = band.slices().next().unwrap();
+    println!("complete to {:.0} Hz, slices from {:.0} Hz", highest.omega / TAU, first.omega / TAU);
+    assert!((first.omega / highest.omega - 1.0).abs() < 0.04);
+    assert!((first.mass * band.slices[0].count / highest.mass - 1.0).abs() < 0.1);
+    // Half an octave of pairs below the slices, against the formula.
+    let members = |m: u32| if m == 0 { 1.0 } else { 2.0 };
+    let low = highest.omega / 2.0_f64.sqrt();
+    let (mut heard, mut count) = (0.0, 0.0);
+    let transfer = blueprint.transfer(&spec, 140.0);
+    let mut k = 0;
+    for mode in &blueprint.modes {
+        let both = members(mode.m) as usize;
+        if mode.at(&place).omega > low && mode.at(&place).batter > 0.5 {
+            heard += transfer[k..k + both].iter().map(|[re, im]| re * re + im * im).sum::<f64>();
+            count += members(mode.m);
+        }
+        k += both;
+    }
+    let slice = Slice { zero: band.slices[0].zero / 2.0_f64.powf(0.25), ..band.slices[0] };
+    let formula = loudness(&band.spec, &slice, first.omega / 2.0_f64.powf(0.25));
+    let off = 20.0 * ((heard / count).sqrt() / formula).log10();
+    println!("{count} modes are {off:+.2} dB louder than the formula");
+    assert!(off.abs() < 2.0, "{off}");
+}
+
+#[test]
+fn it_reaches_16_khz_and_no_farther() {
+    let (blueprint, spec) = rack_tom();
+    for pitch in [90.0, 140.0, 260.0] {
+        let mut band = band(&blueprint, &spec, 140.0);
+        band.retune(blueprint.batter.tension(&blueprint.scale.place(pitch)), &HighMuffling::NONE);
+        let last = band.slices().last().unwrap().omega / TAU;
+        assert!((15_500.0..=16_000.0).contains(&last), "{pitch}: {last}");
+    }
+}
+
+#[test]
+fn a_waves_shape_is_zero_at_the_rim_and_one_in_the_mean() {
+    let (blueprint, spec) = rack_tom();
+    let band = band(&blueprint, &spec, 140.0);
+    let mut sum = 0.0;
+    for (k, slice) in band.slices.iter().enumerate() {
+        assert!(slice.at(1.0, k as f64).abs() < 1e-9);
+        let places = (0..400).map(|i| ((f64::from(i) + 0.5) / 400.0, 2.4 * f64::from(i)));
+        sum += places.map(|(area, angle)| slice.at(area.sqrt(), angle).powi(2)).sum::<f64>() / 400.0;
+    }
+    let mean = sum / band.slices.len() as f64;
+    assert!((mean - 1.0).abs() < 0.05, "{mean}");
+}
+
+#[test]
+fn how_a_run_is_cut_changes_no_sample() {
+    let (blueprint, spec) = rack_tom();
+    let play = |cuts: &[usize]| {
+        let mut band = band(&blueprint, &spec, 140.0);
+        band.put(0, 0.3, 0.5, 0.003);
+        band.put(2, 0.7, 1.5, 0.003);
+        let mut sound = vec![0.0_f32; 96];
+        let (mut at, mut rest) = (0, &mut sound[..]);
+        for &cut in cuts.iter().cycle() {
+            let (run, later) = rest.split_at_mut(cut.min(rest.len()));
+            for n in 0..run.len() {
+                let time = (at + n) as f32;
+                // The second presses only for a while.
+                band.push(0, n, 3.0 + (0.3 * time).sin());
+                band.push(2, n, if (20.0..40.0).contains(&time) { time } else { 0.0 });
+            }
+            band.render(run);
+            (at, rest) = (at + run.len(), later);
+            if rest.is_empty() {
+                break;
+            }
+        }
+        sound
+    };
+    let whole = play(&[32]);
+    assert!(whole.iter().any(|x| x.abs() > 1e-4));
+    for cuts in [&[1][..], &[7, 25], &[31, 2, 5]] {
+        assert!(whole == play(cuts), "{cuts:?}");
+    }
+}
+
+#[test]
+fn tuned_back_and_forth_it_is_what_it_was() {
+    let (blueprint, spec) = rack_tom();
+    let mut band = band(&blueprint, &spec, 140.0);
+    let before: Vec<SliceInfo> = band.slices().collect();
+    let tension = band.spec.tensions[1];
+    band.retune(3.0 * tension, &HighMuffling { even: 5.0, pad: (30.0, 0.8) });
+    let ratio = band.slices().next().unwrap().omega / before[0].omega;
+    let bending = {
+        let head = &spec.batter.membrane;
+        head.flexural_rigidity() * (band.slices[0].zero / head.radius).powi(2)
+    };
+    let expected = ((3.0 * tension + bending) / (tension + bending)).sqrt();
+    assert!((ratio / expected - 1.0).abs() < 0.02, "{ratio} {expected}");
+    band.retune(tension, &HighMuffling::NONE);
+    assert!(before == band.slices().collect::<Vec<_>>());
+}
