@@ -71,7 +71,7 @@ pub fn page() -> Result<Page> {
     let plot = Plot {
         across: "s after the stroke",
         up: "mean frequency, Hz",
-        range: 200.0..1100.0,
+        range: 200.0..900.0,
         panels: SPEEDS.map(|speed| (format!("{speed} m/s"), lines(&courses, speed))).to_vec(),
     };
     Ok(Page { markdown: markdown(&courses), pictures: vec![("cascade.png".to_owned(), plot.png()?)] })
