@@ -413,6 +413,23 @@ impl Surface {
         }
     }
 
+    /// Changes how each mode is heard, as in [`SurfaceParts::transfer`]; what rings is heard so at once.
+    ///
+    /// # Real-time
+    /// No allocation; linear in the number of modes.
+    pub fn set_transfer(&mut self, transfer: impl Iterator<Item = [f64; 2]>) {
+        for (place, transfer) in self.pickup.transfer_mut().iter_mut().zip(transfer) {
+            *place = transfer;
+        }
+        self.body.tune(&mut self.pickup);
+        if let Some(force) = &mut self.beyond {
+            force.follow(&self.body, &self.pickup);
+        }
+        for n in 0..self.live_count {
+            self.connect(self.live[n]);
+        }
+    }
+
     /// Strikes at the next sample: the tip is just touching and moves at the stroke's speed.
     ///
     /// # Real-time
