@@ -16,7 +16,7 @@ use std::thread;
 
 use anyhow::Result;
 use overhear_engine::kit::Control;
-use overhear_engine::piece::{BuildOptions, PieceId};
+use overhear_engine::piece::{BuildOptions, PieceId, Quality};
 
 use crate::bad_input;
 use crate::hear;
@@ -139,8 +139,9 @@ fn stroke(piece: PieceId, speed: f64, asked: &Request) -> Result<Stroke> {
     // Nothing that rests where it is needs time to get there.
     settings.retain(|setting| setting.control != muffling || setting.value > 0.0);
     let seconds = if piece.is_drum() { DRUM_SECONDS } else { CYMBAL_SECONDS };
-    let request =
-        hear::Request { piece, strike, settings, options: BuildOptions::new(RATE), seconds, wav: None };
+    // Nobody waits for it: what a bounce sounds like.
+    let options = BuildOptions { quality: Quality::Offline, ..BuildOptions::new(RATE) };
+    let request = hear::Request { piece, strike, settings, options, seconds, wav: None };
     let sound = hear::render(&request)?;
     if let Some(folder) = &asked.wav {
         let path = folder.join(format!("{}-{speed}.wav", piece.name()));
