@@ -1,7 +1,7 @@
 //! `realism`: every piece by itself, struck softly to hard, beside recordings of real ones.
 //!
 //! Each piece is rendered as `hear` renders it, with the stroke its ordinary note gives it and the
-//! kit's default muffling; the [`features`] are measured and set beside the [`reference`]. What is
+//! kit's default muffling; the [`features`] are measured and set beside the [`mod@reference`]. What is
 //! heard is the piece's own listening point: no neighbours, no room, no mix.
 
 pub mod features;
