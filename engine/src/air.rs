@@ -27,6 +27,9 @@ pub const SPEED_OF_SOUND: f64 = 343.0;
 /// fortieth of a cent.
 const NODES: usize = 14;
 
+/// Highest `omega a / c` over `j` that a mass curve follows. *Derived*: the peak at 1 is some `1 / sqrt(j)` wide.
+const SUBSONIC: f64 = 0.8;
+
 /// `C_m`: how the square of a shape integrates around the circle.
 pub fn circle(m: u32) -> f64 {
     if m == 0 { std::f64::consts::TAU } else { std::f64::consts::PI }
@@ -88,8 +91,12 @@ impl<'a> MembraneAir<'a> {
     }
 
     /// The mass as a function of `u` in a range, for solving and retuning.
+    ///
+    /// Held from where waves on the head come near the speed of sound: there its load turns from a mass into a
+    /// resistance within a few percent, which no curve follows and no mode survives long enough to show.
     pub fn curve(&self, j: f64, u_min: f64, u_max: f64) -> MassCurve {
-        let (low, high) = (u_min.ln(), u_max.ln());
+        let most = SUBSONIC * j;
+        let (low, high) = (u_min.min(0.9 * most).ln(), u_max.min(most).ln());
         let logarithms =
             std::array::from_fn(|i| self.mass(j, (low + (high - low) * chebyshev(i)).exp()).ln());
         MassCurve { low, high, logarithms }

@@ -1,8 +1,9 @@
-//! The mathematics the bodies are built from: cylinder functions, quadrature, roots, eigenproblems.
+//! The mathematics the bodies are built from: cylinder functions, quadrature, roots, eigenproblems, interpolation.
 //!
-//! Everything here runs while a piece is built, in `f64`; nothing runs per sample.
+//! Everything here runs while a piece is built or, the interpolation, once a block; in `f64`; nothing runs per sample.
 
 pub mod bessel;
+pub mod cubic;
 pub mod eigen;
 pub mod quadrature;
 pub mod roots;

@@ -116,7 +116,7 @@ impl MembraneSpec {
 
 /// Most modes (pairs count twice) a head carries; beyond it the highest are left out. *Derived*: 1,200 fill
 /// three octaves and a half of a kick and cost a hundredth of a core.
-const MAX_MODES: usize = 1200;
+const MAX_MODES: usize = 2000;
 
 impl Membrane {
     /// The modes of a head over a range of tensions. Allocates; tens of milliseconds.

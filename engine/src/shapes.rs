@@ -3,6 +3,7 @@
 //! A shape is `R(r) cos(m (theta - theta_0))` or its sine twin, `r` the share of the radius. The
 //! axes `theta_0` of a pair are where the body's small unevenness puts them.
 
+use crate::math::cubic::Stencil;
 use crate::piece::Member;
 use crate::surface::patch::pressed_share;
 
@@ -116,7 +117,7 @@ impl ShapeTable {
             let [c, s] = around[m - 1];
             around[m] = [c * cos - s * sin, s * cos + c * sin];
         }
-        let stencil = Stencil::at(radius);
+        let stencil = Stencil::at(radius * INTERVALS as f64, INTERVALS + 1);
         for (k, (out, mode)) in out.iter_mut().zip(&self.index).enumerate() {
             let [c, s] = around[mode.m as usize];
             let [c0, s0] = self.axes[k].map(f64::from);
@@ -134,36 +135,10 @@ impl ShapeTable {
                 .iter()
                 .zip(rows)
                 .enumerate()
-                .map(|(i, (&weight, row))| f64::from(weight) * felt(i) * stencil.apply(row))
+                .map(|(i, (&weight, row))| f64::from(weight) * felt(i) * stencil.blend(|r| f64::from(row[r])))
                 .sum();
             *out = (radial * turn) as f32;
         }
-    }
-}
-
-/// Cubic interpolation at one place of the table.
-struct Stencil {
-    first: usize,
-    weights: [f64; 4],
-}
-
-impl Stencil {
-    fn at(radius: f64) -> Stencil {
-        let x = radius.clamp(0.0, 1.0) * INTERVALS as f64;
-        let first = (x.floor() as usize).saturating_sub(1).min(INTERVALS - 3);
-        let t = x - first as f64;
-        // Lagrange through the points 0, 1, 2, 3.
-        let weights = [
-            -(t - 1.0) * (t - 2.0) * (t - 3.0) / 6.0,
-            t * (t - 2.0) * (t - 3.0) / 2.0,
-            -t * (t - 1.0) * (t - 3.0) / 2.0,
-            t * (t - 1.0) * (t - 2.0) / 6.0,
-        ];
-        Stencil { first, weights }
-    }
-
-    fn apply(&self, row: &[f32]) -> f64 {
-        row[self.first..].iter().zip(self.weights).map(|(&value, weight)| f64::from(value) * weight).sum()
     }
 }
 

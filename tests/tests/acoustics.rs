@@ -312,16 +312,16 @@ fn a_retuned_drum_is_the_drum_rebuilt_at_that_pitch() {
             let rebuilt = Drum::new(&rebuilt, &options).unwrap().modes();
             let live = live.modes();
             // Names can change hands where two modes of an order share their motion; frequencies cannot.
-            // The rebuild has other head modes to make its own of, which tells in the upper ones: by up to
-            // 8 cents in a kick at 35 Hz. Below, where a pitch is heard:
-            let audible = |mode: &&ModeInfo| mode.frequency_hz < 5.0 * pitch;
-            for a in live.iter().filter(audible).filter(|a| a.kind == ModeKind::Complete) {
+            // The rebuild's tables and head modes are its own. Higher up modes of heads and air pass each
+            // other so closely that no table follows: by up to 25 cents at ten to twenty times the pitch.
+            let audible =
+                |mode: &&ModeInfo| mode.frequency_hz < 8.0 * pitch && mode.kind != ModeKind::Sampled;
+            for a in live.iter().filter(audible) {
                 let of_order = rebuilt.iter().filter(|b| b.m == a.m);
                 let off = |b: &&ModeInfo| cents(a.frequency_hz, b.frequency_hz).abs();
                 let b = of_order.min_by(|b, c| off(b).total_cmp(&off(c))).unwrap();
                 worst = (worst.0.max(off(&b)), worst.1.max((a.t60 / b.t60 - 1.0).abs()));
-                // Most are met within a tenth of a cent; the worst is a snare's where it passes a mode of its air.
-                assert!(off(&b) < 3.0, "{pitch} Hz, {} ({}, {}): {} cents", a.body, a.m, a.n, off(&b));
+                assert!(off(&b) < 2.0, "{pitch} Hz, {} ({}, {}): {} cents", a.body, a.m, a.n, off(&b));
             }
         }
         println!("{default} Hz drum, worst: {:.4} cents, T60 {:.2e}", worst.0, worst.1);

@@ -1,8 +1,9 @@
 //! Drums as they are heard: what a reviewer would measure on them.
 
-use overhear_engine::piece::{BuildOptions, ModeKind, Piece, PieceId};
+use overhear_engine::drum::{Drum, DrumSpec};
+use overhear_engine::piece::{BuildOptions, ModeInfo, ModeKind, Piece, PieceId};
 use overhear_engine::strike::Striker;
-use overhear_tests::{Spectrum, build, decibels, render, stroke};
+use overhear_tests::{Spectrum, build, cents, decibels, render, stroke};
 
 const RATE: f64 = 44_100.0;
 
@@ -60,5 +61,76 @@ fn modes_of_the_high_band_run_on_from_the_complete_set_to_16_khz() {
         // Two slices of a fortieth of an octave.
         assert!(widest < 2.0_f64.powf(0.05), "{id:?}: {widest}");
         assert!(with_high_band(id, false).modes().iter().all(|mode| mode.kind != ModeKind::Sampled));
+    }
+}
+
+/// The drums of the kit and the timpani.
+fn drums() -> [(PieceId, DrumSpec); 5] {
+    [
+        (PieceId::Kick, DrumSpec::kick()),
+        (PieceId::Snare, DrumSpec::snare()),
+        (PieceId::RackTom, DrumSpec::rack_tom()),
+        (PieceId::FloorTom, DrumSpec::floor_tom()),
+        (PieceId::Timpani, DrumSpec::timpani()),
+    ]
+}
+
+/// Largest difference of neighbours.
+fn steepest(sound: &[f32]) -> f64 {
+    sound.windows(2).map(|pair| f64::from((pair[1] - pair[0]).abs())).fold(0.0, f64::max)
+}
+
+#[test]
+fn a_drum_swept_through_its_range_ends_as_one_built_there_with_that_muffling_and_does_not_click() {
+    const BLOCK: usize = 32;
+    let options = BuildOptions::new(RATE);
+    for (id, spec) in drums() {
+        let (low, _, high) = spec.pitch_hz;
+        for (from, to, muffling) in [(low, high, 0.0), (high, low, 0.4), (low, (low * high).sqrt(), 1.0)] {
+            let mut drum = Drum::new(&spec, &options).unwrap();
+            let mut play = |swept: bool| {
+                drum.surface_mut().reset();
+                drum.set_tuning(from);
+                drum.set_muffling(0.0);
+                drum.finish_controls();
+                drum.strike(&stroke(Striker::Stick, 4.0, 0.4, 1.0));
+                let mut sound = Vec::new();
+                let (wait, sweep) = (0.1 * RATE, 0.05 * RATE);
+                while (sound.len() as f64) < 0.4 * RATE {
+                    // Asked for anew every block, as a host's automation does.
+                    let share = ((sound.len() as f64 - wait) / sweep).clamp(0.0, 1.0);
+                    if swept && share > 0.0 {
+                        drum.set_tuning(from * (to / from).powf(share));
+                        drum.set_muffling(muffling * share);
+                    }
+                    drum.advance_controls(BLOCK as f64 / RATE);
+                    drum.follow_controls();
+                    let mut block = [0.0; BLOCK];
+                    drum.surface_mut().render(&mut block);
+                    sound.extend(block);
+                }
+                steepest(&sound[wait as usize..])
+            };
+            // What is heard of a displacement is its acceleration, and its slope goes as the cube.
+            let owed = 60.0 * (to / from).log10().max(0.0);
+            let steeper = decibels(play(true), play(false)) - owed;
+            assert!(steeper < 6.0, "{id:?} from {from} to {to}: {steeper:+.1} dB");
+            play(true);
+            let mut built = Drum::new(&DrumSpec { pitch_hz: (low, to, high), ..spec }, &options).unwrap();
+            built.set_muffling(muffling);
+            built.finish_controls();
+            let mut worst = (0.0_f64, 0.0_f64);
+            let (mut live, mut fresh) = (drum.modes(), built.modes());
+            let by = |a: &ModeInfo, b: &ModeInfo| a.frequency_hz.total_cmp(&b.frequency_hz);
+            live.sort_by(by);
+            fresh.sort_by(by);
+            assert_eq!(live.len(), fresh.len());
+            for (a, b) in live.iter().zip(&fresh) {
+                worst.0 = worst.0.max(cents(a.frequency_hz, b.frequency_hz).abs());
+                worst.1 = worst.1.max((a.t60 / b.t60 - 1.0).abs());
+            }
+            println!("{id:?} to {to:.1} Hz: {steeper:+.1} dB, {:.1e} cents, T60 {:.1e}", worst.0, worst.1);
+            assert!(worst.0 < 2.0 && worst.1 < 0.01, "{id:?} to {to}: {worst:?}");
+        }
     }
 }

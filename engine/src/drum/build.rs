@@ -3,17 +3,15 @@
 
 use std::f64::consts::TAU;
 
-use crate::air::{DENSITY, SPEED_OF_SOUND};
+use crate::air::DENSITY;
 use crate::cavity::{CavityOrder, HeadShape};
-use crate::drum::coupled::{CoupledMode, OrderProblem, Outside, Stretched};
+use crate::drum::coupled::{CoupledMode, OrderProblem, Stretched};
 use crate::drum::high_band::{Ear, HighBandSpec};
-use crate::drum::shadow;
 use crate::drum::spec::{DrumSpec, HeadSpec};
-use crate::drum::tuned::{self, PITCHES, PitchScale, Place, TunedMode};
+use crate::drum::tuned::{self, Grid, PITCHES, PitchScale, Place, TunedMode};
 use crate::error::SpecError;
-use crate::listening::{Radiator, Rayleigh};
 use crate::math::bessel::{self, JTable};
-use crate::membrane::{self, Membrane, ModeRange, Surroundings};
+use crate::membrane::{self, Membrane, MembraneMode, ModeRange, Surroundings};
 use crate::piece::BuildOptions;
 use crate::shapes::{ShapeIndex, ShapeTable};
 use crate::split::Splitting;
@@ -22,6 +20,17 @@ use crate::surface::{STRIKER_PLACES, wires};
 
 /// Modes of the enclosed air up to this are kept as modes, Hz; above, air only rides along.
 const CAVITY_LIMIT_HZ: f64 = 2500.0;
+
+/// The pitch at which modes are chosen: the middle of the range, whatever the default, so that a drum tuned
+/// live and one built at that pitch are made of the same.
+const MIDDLE: usize = PITCHES / 2;
+
+/// Up to so many times a drum's pitch its modes are heard one by one. *By ear*.
+const HEARD_SINGLY: f64 = 10.0;
+
+/// Modes of the heads that enter, over those that are kept. *Measured*: the highest kept have neighbours that
+/// are left out; without some of them they would be off by up to 9 cents, by an amount that depends on the pitch.
+const BASIS: f64 = 1.15;
 
 /// A mode with less of its energy than this in the heads is never heard.
 const HEARD_SHARE: f64 = 1e-3;
@@ -32,6 +41,8 @@ pub struct TunedHead {
     pub membrane: Membrane,
     /// N/m.
     pub tensions: [f64; PITCHES],
+    /// Its modes up to this are kept, at the middle pitch, Hz.
+    limit_hz: f64,
 }
 
 /// Everything a drum is made from.
@@ -48,12 +59,7 @@ pub struct Blueprint {
 
 impl TunedHead {
     /// Stretches a head so that its mode `(m, n)` runs through the pitches.
-    fn new(
-        spec: &HeadSpec,
-        (m, n): (u32, u32),
-        pitches: &[f64; PITCHES],
-        default_hz: f64,
-    ) -> Result<TunedHead, SpecError> {
+    fn new(spec: &HeadSpec, (m, n): (u32, u32), pitches: &[f64; PITCHES]) -> Result<TunedHead, SpecError> {
         let (low, high) = (pitches[0], pitches[PITCHES - 1]);
         // A first look with few modes finds the tensions; the air weighs less than thirty films.
         let zero = bessel::zero(m, n);
@@ -64,20 +70,23 @@ impl TunedHead {
         let tension = |hz| look.tension_for(m, n, hz).unwrap_or(wide[1]);
         let range = ModeRange {
             tension: [tension(low), tension(high)],
-            reference_tension: tension(default_hz),
-            limit_hz: spec.limit_hz,
+            reference_tension: tension(pitches[MIDDLE]),
+            limit_hz: BASIS * spec.limit_hz,
         };
         let membrane = Membrane::new(spec.membrane, Surroundings::Air, &range)?.by_order();
         let tensions = pitches.map(|hz| membrane.tension_for(m, n, hz).unwrap_or_else(|| tension(hz)));
-        Ok(TunedHead { membrane, tensions })
+        Ok(TunedHead { membrane, tensions, limit_hz: spec.limit_hz })
     }
 
-    /// What the head does above its modes, laid out at a pitch, pressed on at so many places.
-    pub fn high_band(&self, ear: Ear, options: &BuildOptions, place: &Place, places: usize) -> HighBandSpec {
-        let pairs = self.membrane.modes().iter();
+    /// What the head does above its modes, pressed on at so many places.
+    pub fn high_band(&self, ear: Ear, options: &BuildOptions, places: usize) -> HighBandSpec {
+        let limit = TAU * self.limit_hz;
+        let reached =
+            |mode: &&MembraneMode| self.membrane.ringing(mode, self.tensions[MIDDLE]).omega <= limit;
+        let pairs = self.membrane.modes().iter().filter(reached);
         HighBandSpec {
             head: *self.membrane.spec(),
-            tensions: [self.tensions[0], self.tension(place)],
+            tensions: [self.tensions[0], self.tensions[MIDDLE]],
             complete: pairs.map(|mode| if mode.m == 0 { 1 } else { 2 }).sum(),
             ear,
             lossless: options.lossless,
@@ -87,11 +96,10 @@ impl TunedHead {
         }
     }
 
-    /// The head as a tip feels it from near, at a place of the scale; its modes reach `limit_hz` at the
-    /// default pitch `at_default`.
-    pub fn film(&self, place: &Place, at_default: &Place, limit_hz: f64) -> Film {
+    /// The head as a tip feels it from near, at a place of the scale.
+    pub fn film(&self, place: &Place) -> Film {
         let (spec, now) = (self.membrane.spec(), self.tension(place));
-        let reached = TAU * limit_hz * (now / self.tension(at_default)).sqrt();
+        let reached = TAU * self.limit_hz * (now / self.tensions[MIDDLE]).sqrt();
         // Waves that fine move the air within their own length only: rho / k on either face.
         let bare = spec.area_density();
         let air = 2.0 * DENSITY * (now / bare).sqrt() / reached;
@@ -123,20 +131,14 @@ impl Blueprint {
         let (low, default, high) = spec.pitch_hz;
         let scale = PitchScale::new(low, high);
         let pitches = scale.pitches();
-        let batter = TunedHead::new(&spec.batter, spec.named_mode, &pitches, default)?;
+        let batter = TunedHead::new(&spec.batter, spec.named_mode, &pitches)?;
         let resonant = spec
             .resonant
             .map(|resonant| {
                 let ratio = resonant.pitch_ratio;
-                TunedHead::new(
-                    &resonant.head,
-                    spec.named_mode,
-                    &pitches.map(|hz| ratio * hz),
-                    ratio * default,
-                )
+                TunedHead::new(&resonant.head, spec.named_mode, &pitches.map(|hz| ratio * hz))
             })
             .transpose()?;
-        let reference = nearest(&pitches, default);
         let mut blueprint = Blueprint { scale, batter, resonant, modes: Vec::new() };
         let orders = blueprint.batter.membrane.modes().iter().map(|mode| mode.m).max().unwrap_or(0);
         let reach = [Some(&blueprint.batter), blueprint.resonant.as_ref()]
@@ -146,7 +148,7 @@ impl Blueprint {
             .fold(0.0, f64::max);
         let tables = JTable::orders(orders, reach + 1.0);
         for (m, table) in (0..=orders).zip(&tables) {
-            let modes = blueprint.order(spec, m, table, reference);
+            let modes = blueprint.order(spec, m, table);
             blueprint.modes.extend(modes);
         }
         let place = blueprint.scale.place(default);
@@ -166,11 +168,19 @@ impl Blueprint {
     }
 
     /// The drum's modes of one order, followed through the pitches.
-    fn order(&self, spec: &DrumSpec, m: u32, bessel: &JTable, reference: usize) -> Vec<TunedMode> {
+    fn order(&self, spec: &DrumSpec, m: u32, bessel: &JTable) -> Vec<TunedMode> {
         let shapes = self.head_shapes(m);
         let cavity: Option<CavityOrder> =
             spec.cavity.map(|cavity| cavity.order(m, &shapes, TAU * CAVITY_LIMIT_HZ));
-        let solved: Vec<Vec<CoupledMode>> = (0..PITCHES)
+        let lowest =
+            cavity.iter().flat_map(|air| &air.modes).map(|mode| mode.omega).find(|&omega| omega > 0.0);
+        let grid = match lowest {
+            Some(omega) if omega < TAU * HEARD_SINGLY * self.scale.pitches()[MIDDLE] => Grid::Fine,
+            Some(_) => Grid::Middle,
+            None => Grid::Coarse,
+        };
+        let solved: Vec<Vec<CoupledMode>> = grid
+            .pitches()
             .map(|pitch| {
                 let problem = OrderProblem {
                     m,
@@ -186,7 +196,7 @@ impl Blueprint {
             .collect();
         let limit = TAU * spec.batter.limit_hz;
         let keep = |mode: &CoupledMode| mode.omega <= limit && mode.share[0] + mode.share[1] > HEARD_SHARE;
-        tuned::follow(m, &solved, shapes.len(), reference, keep)
+        tuned::follow(m, &solved, shapes.len(), grid, keep)
     }
 
     /// Shapes on the batter of every mode of the body, `[mode]`, pairs as two.
@@ -211,87 +221,18 @@ impl Blueprint {
         ShapeTable::new(&head.membrane.radial_shapes(&ShapeTable::radii()), index).with_waves(waves)
     }
 
-    /// What the batter does above its modes, laid out at a pitch (Hz).
-    pub fn high_band(&self, spec: &DrumSpec, options: &BuildOptions, pitch_hz: f64) -> HighBandSpec {
+    /// What the batter does above its modes.
+    pub fn high_band(&self, spec: &DrumSpec, options: &BuildOptions) -> HighBandSpec {
         let ear = Ear { point: spec.listening_point, outside: spec.outside, far: false };
-        self.batter.high_band(ear, options, &self.scale.place(pitch_hz), STRIKER_PLACES)
+        self.batter.high_band(ear, options, STRIKER_PLACES)
     }
 
     /// What the resonant head does above its modes, for wires to set going.
-    pub fn far_high_band(
-        &self,
-        spec: &DrumSpec,
-        options: &BuildOptions,
-        pitch_hz: f64,
-    ) -> Option<HighBandSpec> {
+    pub fn far_high_band(&self, spec: &DrumSpec, options: &BuildOptions) -> Option<HighBandSpec> {
         let behind = spec.cavity.map_or(0.0, |cavity| cavity.depth);
         let point = spec.listening_point.from_behind(behind);
         let ear = Ear { point, outside: spec.outside, far: true };
         let head = self.resonant.as_ref()?;
-        Some(head.high_band(ear, options, &self.scale.place(pitch_hz), wires::GROUPS))
+        Some(head.high_band(ear, options, wires::GROUPS))
     }
-
-    /// How each mode of the body is heard at the listening point at a pitch (Hz), `[mode]`, pairs as two.
-    ///
-    /// The struck head is heard as in a baffle from near, as from a body in free air from far; the
-    /// other head from behind the body, in free air.
-    pub fn transfer(&self, spec: &DrumSpec, pitch_hz: f64) -> Vec<[f64; 2]> {
-        let radius = spec.batter.membrane.radius;
-        let place = self.scale.place(pitch_hz);
-        let finest = self.batter.membrane.modes().iter().map(|mode| mode.zero).fold(0.0, f64::max);
-        let highest = TAU * spec.batter.limit_hz * radius / SPEED_OF_SOUND;
-        let nodes = 12 + (0.7 * (finest + highest)) as usize;
-        let point = spec.listening_point;
-        let near = Rayleigh::new(radius, point, nodes);
-        let behind = spec.cavity.map_or(0.0, |cavity| cavity.depth);
-        let far = Rayleigh::new(radius, point.from_behind(behind), nodes);
-        let near_shapes = self.batter.membrane.radial_shapes(near.radii());
-        let far_shapes = self.resonant.as_ref().map(|head| head.membrane.radial_shapes(far.radii()));
-        let mut out = Vec::new();
-        for mode in &self.modes {
-            let omega = mode.at(&place).omega;
-            let (first, count) = self.batter.order(mode.m);
-            let mix = |shapes: &[f64], first: usize, count: usize, skip: usize| -> Vec<f64> {
-                (0..nodes)
-                    .map(|r| {
-                        let share = |i| mode.share(skip + i, &place) * shapes[(first + i) * nodes + r];
-                        (0..count).map(share).sum()
-                    })
-                    .collect()
-            };
-            let radial = mix(&near_shapes, first, count, 0);
-            let [mut re, mut im] = near.transfer(&Radiator { m: mode.m, radial: &radial, omega });
-            if let Outside::Free { .. } = spec.outside {
-                let ka = omega * radius / SPEED_OF_SOUND;
-                let space = 0.5 * shadow::baffling(ka);
-                let gain = shadow::near_gain(ka, point.fills(radius));
-                (re, im) = (re * gain, im * gain);
-                if let (Some(head), Some(shapes)) = (&self.resonant, &far_shapes) {
-                    let (far_first, far_count) = head.order(mode.m);
-                    let radial = mix(shapes, far_first, far_count, count);
-                    let [far_re, far_im] = far.transfer(&Radiator { m: mode.m, radial: &radial, omega });
-                    // Outward is toward the point for the one head and away for the other; the body
-                    // hides the far one as it becomes a baffle.
-                    let gain = -(1.0 - space);
-                    let (sin, cos) = (omega / SPEED_OF_SOUND
-                        * (point.from_behind(behind).distance - point.distance))
-                        .sin_cos();
-                    re += gain * (far_re * cos + far_im * sin);
-                    im += gain * (far_im * cos - far_re * sin);
-                }
-            }
-            let axis = spec.splitting.axis(mode.m, 0);
-            for (member, _) in Splitting::ROUND.members(mode.m, 0) {
-                let share = near.toward(mode.m, member, axis);
-                out.push([share * re, share * im]);
-            }
-        }
-        out
-    }
-}
-
-/// Index of the pitch nearest to `hz`.
-fn nearest(pitches: &[f64; PITCHES], hz: f64) -> usize {
-    let away = |i: usize| (pitches[i] / hz).ln().abs();
-    (0..PITCHES).min_by(|&a, &b| away(a).total_cmp(&away(b))).unwrap_or(0)
 }

@@ -9,10 +9,32 @@
 //! the shares add to one.
 
 use crate::drum::coupled::CoupledMode;
+use crate::math::cubic::Stencil;
 
-/// Pitches worked out over the range. *Measured*: with 13, frequencies between are
-/// met within 3 cents, the worst where a mode of the air is passed; most within a tenth.
-pub const PITCHES: usize = 13;
+/// Pitches worked out over the range. *Measured*: frequencies between are met within 2 cents up to eight times
+/// the pitch, most within a tenth; above, up to 25 cents off where heads and air pass each other closely.
+pub const PITCHES: usize = 25;
+
+/// At how many of them an order is worked out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Grid {
+    /// All: its modes pass some of the air where single pitches are heard.
+    Fine,
+    /// Every second: they pass some of the air.
+    Middle,
+    /// Every fourth: they pass nothing.
+    Coarse,
+}
+
+/// Steps of the grids, in their order.
+const STRIDES: [usize; 3] = [1, 2, 4];
+
+impl Grid {
+    /// The pitches that are worked out.
+    pub fn pitches(self) -> impl DoubleEndedIterator<Item = usize> + ExactSizeIterator {
+        (0..PITCHES).step_by(STRIDES[self as usize])
+    }
+}
 
 /// What is interpolated, `ln` but for the shares.
 #[derive(Debug, Clone, Copy, Default)]
@@ -22,6 +44,8 @@ struct Entry {
     mass: f64,
     /// Share of the kinetic energy that is the batter's.
     batter: f64,
+    /// Share that is the resonant head's.
+    resonant: f64,
     /// Share that is in air going along the drum.
     flow: f64,
 }
@@ -35,9 +59,11 @@ pub struct TunedMode {
     pub reference: CoupledMode,
     /// The head mode (batter's first) or, after those, cavity mode that it is named after.
     pub name: usize,
-    entries: [Entry; PITCHES],
-    /// `[head mode][pitch]`: shares of the heads' modes of this order, batter first.
-    shares: Vec<[f32; PITCHES]>,
+    grid: Grid,
+    /// `[pitch of the grid]`.
+    entries: Vec<Entry>,
+    /// `[head mode][pitch of the grid]`: shares of the heads' modes of this order, batter first.
+    shares: Vec<f32>,
 }
 
 /// Where a mode rings at some pitch.
@@ -51,6 +77,8 @@ pub struct Rung {
     pub mass: f64,
     /// Share of the kinetic energy that is the batter's.
     pub batter: f64,
+    /// Share of the kinetic energy that is the resonant head's.
+    pub resonant: f64,
     /// Share of the kinetic energy that is in air going along the drum as one.
     pub flow: f64,
 }
@@ -75,31 +103,26 @@ impl PitchScale {
 
     /// Where a pitch (Hz) lies between them; made once, used for every mode.
     pub fn place(&self, pitch_hz: f64) -> Place {
-        let x = ((pitch_hz.ln() - self.low) / (self.high - self.low)).clamp(0.0, 1.0) * (PITCHES - 1) as f64;
-        let first = (x.floor() as usize).saturating_sub(1).min(PITCHES - 4);
-        let t = x - first as f64;
-        // Lagrange through the points 0, 1, 2, 3.
-        let weights = [
-            -(t - 1.0) * (t - 2.0) * (t - 3.0) / 6.0,
-            t * (t - 2.0) * (t - 3.0) / 2.0,
-            -t * (t - 1.0) * (t - 3.0) / 2.0,
-            t * (t - 1.0) * (t - 2.0) / 6.0,
-        ];
-        Place { first, weights }
+        let x = (pitch_hz.ln() - self.low) / (self.high - self.low) * (PITCHES - 1) as f64;
+        Place { grids: STRIDES.map(|stride| Stencil::at(x / stride as f64, (PITCHES - 1) / stride + 1)) }
     }
 }
 
-/// Four neighbours among the pitches and their weights.
+/// Four neighbours among the pitches and their weights, for each grid.
 #[derive(Debug, Clone, Copy)]
 pub struct Place {
-    first: usize,
-    weights: [f64; 4],
+    grids: [Stencil; STRIDES.len()],
 }
 
 impl Place {
     /// Interpolates a row given at every pitch.
     pub fn blend(&self, value: impl Fn(usize) -> f64) -> f64 {
-        (0..4).map(|i| self.weights[i] * value(self.first + i)).sum()
+        self.of(Grid::Fine).blend(value)
+    }
+
+    /// The neighbours among the pitches of a grid.
+    pub fn of(&self, grid: Grid) -> &Stencil {
+        &self.grids[grid as usize]
     }
 }
 
@@ -109,53 +132,61 @@ impl TunedMode {
     /// # Real-time
     /// Three exponentials.
     pub fn at(&self, place: &Place) -> Rung {
-        let row = &self.entries;
+        let (row, place) = (&self.entries, place.of(self.grid));
         Rung {
             omega: place.blend(|i| row[i].omega).exp(),
             sigma: place.blend(|i| row[i].sigma).exp(),
             mass: place.blend(|i| row[i].mass).exp(),
             batter: place.blend(|i| row[i].batter),
+            resonant: place.blend(|i| row[i].resonant),
             flow: place.blend(|i| row[i].flow),
         }
     }
 
     /// Share of the order's head mode `i`, batter's first.
     pub fn share(&self, i: usize, place: &Place) -> f64 {
-        let row = &self.shares[i];
-        place.blend(|pitch| f64::from(row[pitch]))
+        let row = &self.shares[i * self.entries.len()..];
+        place.of(self.grid).blend(|pitch| f64::from(row[pitch]))
+    }
+
+    /// The pitches it is worked out at.
+    pub fn grid(&self) -> Grid {
+        self.grid
     }
 
     /// Number of head modes it mixes.
     pub fn heads(&self) -> usize {
-        self.shares.len()
+        self.shares.len() / self.entries.len()
     }
 }
 
-/// Follows the modes of one order through the pitches; `keep` chooses them at pitch `reference`.
+/// Follows the modes of one order through the pitches of its grid; `keep` chooses them at the middle one.
 ///
-/// `solved` holds the order's modes at every pitch, `heads` is how many of a vector's entries are head modes.
+/// `solved` holds the order's modes at every pitch of the grid, `heads` is how many of a vector's entries are head modes.
 pub fn follow(
     m: u32,
     solved: &[Vec<CoupledMode>],
     heads: usize,
-    reference: usize,
+    grid: Grid,
     keep: impl Fn(&CoupledMode) -> bool,
 ) -> Vec<TunedMode> {
+    let pitches = solved.len();
+    let reference = pitches / 2;
     let start = &solved[reference];
     // `paths[k][pitch]`: which mode at that pitch is the one that is `k` at the reference.
-    let mut paths: Vec<[(usize, f64); PITCHES]> = (0..start.len()).map(|k| [(k, 1.0); PITCHES]).collect();
+    let mut paths: Vec<Vec<(usize, f64)>> = (0..start.len()).map(|k| vec![(k, 1.0); pitches]).collect();
     let mut walk = |from: usize, to: usize| {
         let here: Vec<(usize, f64)> = paths.iter().map(|path| path[from]).collect();
         for (path, next) in paths.iter_mut().zip(matched(&solved[from], &solved[to], &here)) {
             path[to] = next;
         }
     };
-    (reference + 1..solved.len()).for_each(|pitch| walk(pitch - 1, pitch));
+    (reference + 1..pitches).for_each(|pitch| walk(pitch - 1, pitch));
     (0..reference).rev().for_each(|pitch| walk(pitch + 1, pitch));
     let names = named(start);
-    let tuned = |path: &[(usize, f64); PITCHES]| {
-        let mut entries = [Entry::default(); PITCHES];
-        let mut shares = vec![[0.0_f32; PITCHES]; heads];
+    let tuned = |path: &Vec<(usize, f64)>| {
+        let mut entries = vec![Entry::default(); pitches];
+        let mut shares = vec![0.0_f32; heads * pitches];
         for (pitch, &(k, sign)) in path.iter().enumerate() {
             let mode = &solved[pitch][k];
             let size = mode.vector[..heads].iter().map(|x| x * x).sum::<f64>().sqrt().max(1e-12);
@@ -164,14 +195,15 @@ pub fn follow(
                 sigma: mode.sigma.max(1e-9).ln(),
                 mass: -2.0 * size.ln(),
                 batter: mode.share[0],
+                resonant: mode.share[1],
                 flow: mode.flow,
             };
-            for (share, x) in shares.iter_mut().zip(&mode.vector) {
-                share[pitch] = (sign * x / size) as f32;
+            for (row, x) in shares.chunks_exact_mut(pitches).zip(&mode.vector) {
+                row[pitch] = (sign * x / size) as f32;
             }
         }
         let k = path[reference].0;
-        TunedMode { m, reference: start[k].clone(), name: names[k], entries, shares }
+        TunedMode { m, reference: start[k].clone(), name: names[k], grid, entries, shares }
     };
     paths.iter().filter(|path| keep(&start[path[reference].0])).map(tuned).collect()
 }

@@ -1,12 +1,13 @@
 use super::*;
 use crate::drum::DrumSpec;
 use crate::drum::build::Blueprint;
+use crate::drum::hearing::Hearing;
 use crate::piece::BuildOptions;
 
 const RATE: f64 = 44_100.0;
 
-fn band(blueprint: &Blueprint, spec: &DrumSpec, pitch: f64) -> HighBand {
-    HighBand::new(&blueprint.high_band(spec, &BuildOptions::new(RATE), pitch))
+fn band(blueprint: &Blueprint, spec: &DrumSpec) -> HighBand {
+    HighBand::new(&blueprint.high_band(spec, &BuildOptions::new(RATE)))
 }
 
 fn rack_tom() -> (Blueprint, DrumSpec) {
@@ -17,8 +18,9 @@ fn rack_tom() -> (Blueprint, DrumSpec) {
 #[test]
 fn slices_follow_on_the_complete_set_in_frequency_mass_count_and_loudness() {
     let (blueprint, spec) = rack_tom();
-    let band = band(&blueprint, &spec, 140.0);
-    let place = blueprint.scale.place(140.0);
+    let band = band(&blueprint, &spec);
+    let middle = (spec.pitch_hz.0 * spec.pitch_hz.2).sqrt();
+    let place = blueprint.scale.place(middle);
     let top: Vec<_> = blueprint.modes.iter().rev().filter(|mode| mode.at(&place).batter > 0.5).collect();
     let highest = top[0].at(&place);
     let first = band.slices().next().unwrap();
@@ -29,7 +31,9 @@ fn slices_follow_on_the_complete_set_in_frequency_mass_count_and_loudness() {
     let members = |m: u32| if m == 0 { 1.0 } else { 2.0 };
     let low = highest.omega / 2.0_f64.sqrt();
     let (mut heard, mut count) = (0.0, 0.0);
-    let transfer = blueprint.transfer(&spec, 140.0);
+    let spec = DrumSpec { pitch_hz: (spec.pitch_hz.0, middle, spec.pitch_hz.2), ..spec };
+    let hearing = Hearing::new(&blueprint, &spec);
+    let transfer: Vec<_> = hearing.transfers(&blueprint.modes, &place, middle).collect();
     let mut k = 0;
     for mode in &blueprint.modes {
         let both = members(mode.m) as usize;
@@ -50,7 +54,7 @@ fn slices_follow_on_the_complete_set_in_frequency_mass_count_and_loudness() {
 fn it_reaches_16_khz_and_no_farther() {
     let (blueprint, spec) = rack_tom();
     for pitch in [90.0, 140.0, 260.0] {
-        let mut band = band(&blueprint, &spec, 140.0);
+        let mut band = band(&blueprint, &spec);
         band.retune(blueprint.batter.tension(&blueprint.scale.place(pitch)), &HighMuffling::NONE);
         let last = band.slices().last().unwrap().omega / TAU;
         assert!((15_500.0..=16_000.0).contains(&last), "{pitch}: {last}");
@@ -60,7 +64,7 @@ fn it_reaches_16_khz_and_no_farther() {
 #[test]
 fn a_waves_shape_is_zero_at_the_rim_and_one_in_the_mean() {
     let (blueprint, spec) = rack_tom();
-    let band = band(&blueprint, &spec, 140.0);
+    let band = band(&blueprint, &spec);
     let mut sum = 0.0;
     for (k, slice) in band.slices.iter().enumerate() {
         assert!(slice.at(1.0, k as f64).abs() < 1e-9);
@@ -75,7 +79,7 @@ fn a_waves_shape_is_zero_at_the_rim_and_one_in_the_mean() {
 fn how_a_run_is_cut_changes_no_sample() {
     let (blueprint, spec) = rack_tom();
     let play = |cuts: &[usize]| {
-        let mut band = band(&blueprint, &spec, 140.0);
+        let mut band = band(&blueprint, &spec);
         band.put(0, 0.3, 0.5, 0.003);
         band.put(2, 0.7, 1.5, 0.003);
         let mut sound = vec![0.0_f32; 96];
@@ -106,7 +110,7 @@ fn how_a_run_is_cut_changes_no_sample() {
 #[test]
 fn tuned_back_and_forth_it_is_what_it_was() {
     let (blueprint, spec) = rack_tom();
-    let mut band = band(&blueprint, &spec, 140.0);
+    let mut band = band(&blueprint, &spec);
     let before: Vec<SliceInfo> = band.slices().collect();
     let tension = band.spec.tensions[1];
     band.retune(3.0 * tension, &HighMuffling { even: 5.0, pad: (30.0, 0.8) });
