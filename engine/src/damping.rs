@@ -28,13 +28,16 @@ impl LossLaw {
 /// Something soft laid on a surface, that takes energy where it lies.
 ///
 /// A dashpot at a place damps a mode in proportion to its shape squared there; a pillow that
-/// touches the whole head damps all modes alike.
+/// touches the whole head damps all modes alike, and those more whose air has to get past it: when both heads
+/// move the same way, what is between them goes to and fro through the pillow.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Muffler {
     /// A pillow against the whole head.
     Pillow {
         /// Decay rate added to every mode at full amount, 1/s.
         sigma: f64,
+        /// Decay rate added at full amount to a motion of nothing but the air along the drum, 1/s.
+        flow: f64,
     },
     /// A piece of gel or tape at a place.
     Gel {

@@ -45,8 +45,8 @@ struct BodyMode {
 /// What muffling takes from the modes.
 #[derive(Debug, Clone, PartialEq)]
 enum MufflerCoefs {
-    /// Decay rate of the batter's own motion at full amount, 1/s.
-    Pillow(f64),
+    /// Decay rates of the batter's own motion and of the air's along the drum at full amount, 1/s.
+    Pillow(f64, f64),
     /// A pad.
     Gel {
         /// Decay rate of a mode of unit square there at full amount, 1/s.
@@ -338,7 +338,7 @@ fn lay_out(spec: &DrumSpec, blueprint: &Blueprint, options: &BuildOptions) -> Ve
 impl MufflerCoefs {
     fn new(spec: &DrumSpec, blueprint: &Blueprint) -> MufflerCoefs {
         match spec.muffler {
-            Muffler::Pillow { sigma } => MufflerCoefs::Pillow(sigma),
+            Muffler::Pillow { sigma, flow } => MufflerCoefs::Pillow(sigma, flow),
             Muffler::Gel { sigma, radius, .. } => {
                 let film = spec.batter.membrane.area_density() * spec.batter.membrane.area();
                 let radial = blueprint.batter.membrane.radial_shapes(&[radius]);
@@ -350,7 +350,7 @@ impl MufflerCoefs {
     /// What some of it takes from the high band.
     fn above(&self, amount: f64) -> HighMuffling {
         match *self {
-            MufflerCoefs::Pillow(sigma) => HighMuffling { even: amount * sigma, ..HighMuffling::NONE },
+            MufflerCoefs::Pillow(sigma, _) => HighMuffling { even: amount * sigma, ..HighMuffling::NONE },
             MufflerCoefs::Gel { sigma, radius, .. } => {
                 HighMuffling { pad: (amount * sigma, radius), ..HighMuffling::NONE }
             }
@@ -360,7 +360,7 @@ impl MufflerCoefs {
     /// Decay rate that full muffling adds to a mode, 1/s.
     fn sigma(&self, mode: &BodyMode, rung: &Rung, blueprint: &Blueprint, place: &Place) -> f64 {
         match self {
-            MufflerCoefs::Pillow(sigma) => sigma * rung.batter,
+            MufflerCoefs::Pillow(sigma, flow) => sigma * rung.batter + flow * rung.flow,
             MufflerCoefs::Gel { dashpot, radial, .. } => {
                 let tuned = &blueprint.modes[mode.pair];
                 let (first, count) = blueprint.batter.order(tuned.m);

@@ -16,9 +16,12 @@
 //! R = rho omega a^3 C_m  B / 2  int_0^u  F_b^2 + F_r^2 - 2 F_b F_r cos(k_z l)  ds
 //! ```
 //!
-//! the heads radiate into all of space (`B` = 1, see [`shadow`]) as two layers the length `l` apart: a
+//! the heads radiate into all of space (`B` = 1) as two layers the length `l` apart: a
 //! motion of both the same way moves no net air and rings on, one against the other is a monopole
-//! and dies. `l` is the shell's length and what the air around a disc of no length adds, `8 a / (3 pi)`.
+//! and dies. `l` is the shell's length and what the air around a disc of no length adds, `8 a / (3 pi)`. Where the
+//! body is large against the wave, `B` = 4/3: waves on a head are slower than sound and cancel but for a strip along
+//! the rim, and there the body fills a quarter of space, not half of it as a baffle would. Between, `B` rises as
+//! [`shadow`] has it for a source that faces all of the body.
 //!
 //! Limits: the heads' outer air does not couple their modes; losses do not couple modes.
 
@@ -86,6 +89,8 @@ pub struct CoupledMode {
     pub share: [f64; 2],
     /// The same for every head mode and then every cavity mode.
     pub shares: Vec<f64>,
+    /// Share of the kinetic energy that is in air going along the drum as one, from head to head.
+    pub flow: f64,
     /// Area of the monopole in a baffle that would radiate its power at unit modal acceleration, m2.
     pub monopole_area: f64,
 }
@@ -187,7 +192,7 @@ impl<'a> OrderProblem<'a> {
         let heads = parts.len();
         let mut share = [0.0; 2];
         let mut shares = Vec::with_capacity(vector.len());
-        let mut sigma = 0.0;
+        let (mut sigma, mut flow) = (0.0, 0.0);
         for ((part, mass), x) in parts.iter().zip(masses).zip(&vector) {
             let kinetic = mass * x * x;
             shares.push(kinetic);
@@ -199,6 +204,9 @@ impl<'a> OrderProblem<'a> {
             for (mode, y) in springs.zip(&vector[heads..]) {
                 let kinetic = mode.spring / (mode.omega * mode.omega) * y * y;
                 shares.push(kinetic);
+                if self.m == 0 && mode.circles == 0 {
+                    flow += kinetic;
+                }
                 // A loss factor, not a dashpot: air that only rides along loses as slowly as it moves.
                 sigma += kinetic * omega / (2.0 * self.cavity_q);
             }
@@ -207,7 +215,7 @@ impl<'a> OrderProblem<'a> {
         let radius = self.batter.membrane.spec().radius;
         sigma += 0.5 * DENSITY * omega * radius.powi(3) * resistance;
         let monopole_area = air::monopole_area(radius, resistance, omega);
-        CoupledMode { omega, sigma, vector, direction, share, shares, monopole_area }
+        CoupledMode { omega, sigma, vector, direction, share, shares, flow, monopole_area }
     }
 
     /// Radiation resistance over `rho omega a^3` at unit modal displacement.
@@ -240,7 +248,7 @@ impl<'a> OrderProblem<'a> {
         }
         let space = match self.outside {
             Outside::Baffle => 1.0,
-            Outside::Free { .. } => 0.5 * shadow::baffling(u),
+            Outside::Free { .. } => 0.5 + (shadow::baffling(u) - 1.0) / 6.0,
         };
         air::circle(self.m) * space * sum
     }

@@ -36,7 +36,7 @@ impl Grid {
     }
 }
 
-/// What is interpolated, `ln` but for the share.
+/// What is interpolated, `ln` but for the shares.
 #[derive(Debug, Clone, Copy, Default)]
 struct Entry {
     omega: f64,
@@ -44,6 +44,8 @@ struct Entry {
     mass: f64,
     /// Share of the kinetic energy that is the batter's.
     batter: f64,
+    /// Share that is in air going along the drum.
+    flow: f64,
 }
 
 /// One mode (or pair) of the drum against pitch.
@@ -73,6 +75,8 @@ pub struct Rung {
     pub mass: f64,
     /// Share of the kinetic energy that is the batter's.
     pub batter: f64,
+    /// Share of the kinetic energy that is in air going along the drum as one.
+    pub flow: f64,
 }
 
 /// The pitches of a table, evenly spaced in logarithm.
@@ -129,6 +133,7 @@ impl TunedMode {
             sigma: place.blend(|i| row[i].sigma).exp(),
             mass: place.blend(|i| row[i].mass).exp(),
             batter: place.blend(|i| row[i].batter),
+            flow: place.blend(|i| row[i].flow),
         }
     }
 
@@ -179,6 +184,7 @@ pub fn follow(
                 sigma: mode.sigma.max(1e-9).ln(),
                 mass: -2.0 * size.ln(),
                 batter: mode.share[0],
+                flow: mode.flow,
             };
             for (row, x) in shares.chunks_exact_mut(pitches).zip(&mode.vector) {
                 row[pitch] = (sign * x / size) as f32;
