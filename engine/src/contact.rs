@@ -143,7 +143,8 @@ impl ContactLaw {
     /// At most 60 iterations, usually 4.
     pub fn force(&self, step: &ContactStep) -> f64 {
         let ContactStep { before, free, compliance, .. } = *step;
-        let force_free = self.gradient(step, free).0;
+        let held = self.potential(before);
+        let force_free = self.gradient(step, held, free).0;
         if force_free <= 0.0 {
             return 0.0;
         }
@@ -154,7 +155,7 @@ impl ContactLaw {
         let mut d = before.clamp(low, high);
         let mut force = force_free;
         for _ in 0..MAX_ITERATIONS {
-            let (value, slope) = self.gradient(step, d);
+            let (value, slope) = self.gradient(step, held, d);
             force = value;
             let g = d + compliance * value - free;
             if g > 0.0 {
@@ -177,13 +178,15 @@ impl ContactLaw {
         if compliance > 0.0 { ((free - d) / compliance).max(0.0) } else { force }
     }
 
-    /// `F` and `dF/dd1` for a sample that ends at compression `d1`.
-    fn gradient(&self, step: &ContactStep, d1: f64) -> (f64, f64) {
+    /// `F` and `dF/dd1` for a sample that ends at compression `d1`; `held` is the potential at its start, J.
+    pub fn gradient(&self, step: &ContactStep, held: f64, d1: f64) -> (f64, f64) {
         let ContactStep { before: d0, lambda, dt, .. } = *step;
         let moved = d1 - d0;
         let (elastic, slope) = if moved.abs() > 1e-4 * d0.abs().max(d1.abs()) {
-            let mean = (self.potential(d1) - self.potential(d0)) / moved;
-            (mean, (self.elastic_force(d1) - mean) / moved)
+            // V(d1) = F(d1) d1 / (alpha + 1)
+            let end = self.elastic_force(d1);
+            let mean = (end * d1 / (self.exponent + 1.0) - held) / moved;
+            (mean, (end - mean) / moved)
         } else {
             // The difference quotient loses its digits: Taylor about the middle. The next term
             // is of relative order (moved / d)^4.

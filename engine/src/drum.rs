@@ -19,6 +19,7 @@ use crate::error::SpecError;
 use crate::glide::Glide;
 use crate::modal::Mode;
 use crate::piece::{BuildOptions, Member, ModeInfo, ModeKind};
+use crate::rim::Rim;
 use crate::shapes::ShapeTable;
 use crate::split::Splitting;
 use crate::strike::Strike;
@@ -140,6 +141,10 @@ impl Drum {
         drum.follow_controls();
         if let (Some(resonant), true) = (spec.resonant, spec.wires) {
             drum.surface.set_wires(&resonant.head.membrane.material);
+        }
+        if spec.rim {
+            let radius = spec.batter.membrane.radius;
+            drum.surface.set_rim(Rim::new(radius, spec.listening_point, options.lossless));
         }
         drum.follow_shapes();
         if !options.linear {
@@ -292,8 +297,20 @@ impl Drum {
                 kind,
             }
         });
+        let rim = self.surface.rim().into_iter().flat_map(|rim| &rim.modes).map(|mode| ModeInfo {
+            body: "rim",
+            m: mode.n,
+            n: 0,
+            member: mode.member,
+            frequency_hz: mode.mode.omega_d() / TAU,
+            t60: SIGMA_T60 / mode.mode.sigma,
+            modal_mass: mode.mode.mass,
+            // The narrow hoop's far field is next to nothing; it is heard from near.
+            radiation: 0.0,
+            kind: Rim::kind(mode),
+        });
         let slices = self.surface.high_band().into_iter().flat_map(HighBand::slices);
-        complete.chain(slices.map(sampled)).collect()
+        complete.chain(slices.map(sampled)).chain(rim).collect()
     }
 }
 

@@ -26,6 +26,7 @@ pub mod modal;
 pub mod piece;
 pub mod plate;
 pub mod potential;
+pub mod rim;
 pub mod shapes;
 pub mod snapshot;
 pub mod split;

@@ -465,7 +465,12 @@ impl Piece {
         self.voice.surface().striker_energy()
     }
 
-    /// Kinetic energy that strikers have taken away with them since the last reset, J.
+    /// Kinetic energy that strikers have come with since the last reset, J.
+    pub fn brought_energy(&self) -> f64 {
+        self.voice.surface().brought_energy()
+    }
+
+    /// Energy that strikers have taken away with them since the last reset, J.
     pub fn departed_energy(&self) -> f64 {
         self.voice.surface().departed_energy()
     }

@@ -52,6 +52,14 @@ impl Stick {
     /// Where the taper ends.
     pub const SHOULDER: f64 = 0.12;
 
+    /// A shaft on a steel edge: radius of curvature, m, and restitution.
+    pub const SHAFT: (f64, f64) = (0.007, 0.6);
+
+    /// How much of a rigid rod's turning (of unit mean square) its place moves.
+    pub fn turning(place: f64) -> f64 {
+        3.0_f64.sqrt() * (1.0 - 2.0 * place)
+    }
+
     /// A hickory stick of the usual size (5A to 5B) that touches at `place`.
     pub const fn at(place: f64) -> Stick {
         Stick { length: 0.406, radius: 0.00735, material: Material::HICKORY, q: 20.0, place }

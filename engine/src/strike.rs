@@ -48,6 +48,10 @@ pub enum Striker {
     HardMallet,
     /// A yarn-wound mallet.
     YarnMallet,
+    /// A stick whose shaft meets the rim as its bead meets the head; where there is no rim, a stick.
+    RimShot,
+    /// A stick laid on the head and knocked on the rim; where there is no rim, a stick.
+    CrossStick,
 }
 
 /// A striker as the contact sees it.
@@ -60,10 +64,22 @@ pub struct StrikerSpec {
     /// Restitution against a rigid wall, 0 to 1.
     pub restitution: f64,
     /// Radius of the disc that the tip presses on a head, m. *Derived*: a head wraps around a solid tip of
-    /// radius `R` to `sqrt(F R / (2 pi T))`, at the force of a firm stroke; felt is pressed flat.
+    /// radius `R` to `sqrt(F R / (2 pi T))`, felt that gives way by `d` is flat to `sqrt(2 R d)`; both at the
+    /// force of a firm stroke.
     pub patch: f64,
     /// What bends behind the tip.
     pub stick: Option<Stick>,
+    /// How the shaft meets a rim, if it does.
+    pub across: Option<Across>,
+}
+
+/// A stick that meets head and rim.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Across {
+    /// Tip and shaft arrive together.
+    RimShot,
+    /// The tip lies on the head, beyond its centre; the shaft is brought down on the rim.
+    CrossStick,
 }
 
 impl StrikerSpec {
@@ -75,16 +91,34 @@ impl StrikerSpec {
         patch_mm: f64,
     ) -> StrikerSpec {
         let tip = Tip::Solid { material, radius: radius_mm * 1e-3 };
-        StrikerSpec { mass: grams * 1e-3, tip, restitution, patch: patch_mm * 1e-3, stick: None }
+        StrikerSpec {
+            mass: grams * 1e-3,
+            tip,
+            restitution,
+            patch: patch_mm * 1e-3,
+            stick: None,
+            across: None,
+        }
     }
 
     const fn felt(grams: f64, stiffness: f64, exponent: f64, restitution: f64, patch_mm: f64) -> StrikerSpec {
         let tip = Tip::Felt { stiffness, exponent };
-        StrikerSpec { mass: grams * 1e-3, tip, restitution, patch: patch_mm * 1e-3, stick: None }
+        StrikerSpec {
+            mass: grams * 1e-3,
+            tip,
+            restitution,
+            patch: patch_mm * 1e-3,
+            stick: None,
+            across: None,
+        }
     }
 
     const fn on(self, stick: Stick) -> StrikerSpec {
         StrikerSpec { stick: Some(stick), ..self }
+    }
+
+    const fn across(self, across: Across) -> StrikerSpec {
+        StrikerSpec { across: Some(across), ..self }
     }
 }
 
@@ -102,16 +136,18 @@ impl Striker {
             Striker::Nylon => {
                 StrikerSpec::solid(16.0, Material::NYLON, 4.0, 0.7, 2.3).on(Stick::at(Stick::BEAD))
             }
-            Striker::FeltBeater => StrikerSpec::felt(110.0, 6e8, 2.3, 0.5, 20.0),
+            Striker::FeltBeater => StrikerSpec::felt(110.0, 6e8, 2.3, 0.5, 8.0),
             Striker::PlasticBeater => StrikerSpec::solid(110.0, Material::PLASTIC, 25.0, 0.5, 8.0),
-            Striker::TimpaniMallet => StrikerSpec::felt(25.0, 3e8, 2.5, 0.6, 10.0),
-            Striker::HardMallet => StrikerSpec::felt(25.0, 1e10, 2.5, 0.6, 6.0),
-            Striker::YarnMallet => StrikerSpec::felt(30.0, 5e7, 2.2, 0.5, 10.0),
+            Striker::TimpaniMallet => StrikerSpec::felt(25.0, 3e8, 2.5, 0.6, 7.0),
+            Striker::HardMallet => StrikerSpec::felt(25.0, 1e10, 2.5, 0.6, 4.5),
+            Striker::YarnMallet => StrikerSpec::felt(30.0, 5e7, 2.2, 0.5, 6.0),
+            Striker::RimShot => Striker::Stick.spec().across(Across::RimShot),
+            Striker::CrossStick => Striker::Stick.spec().across(Across::CrossStick),
         }
     }
 
     /// Every striker, in the order of the manual.
-    pub const ALL: [Striker; 8] = [
+    pub const ALL: [Striker; 10] = [
         Striker::Stick,
         Striker::Shoulder,
         Striker::Nylon,
@@ -120,6 +156,8 @@ impl Striker {
         Striker::TimpaniMallet,
         Striker::HardMallet,
         Striker::YarnMallet,
+        Striker::RimShot,
+        Striker::CrossStick,
     ];
 
     /// The name used on command lines and in presets.
@@ -133,6 +171,8 @@ impl Striker {
             Striker::TimpaniMallet => "timpani-mallet",
             Striker::HardMallet => "hard-mallet",
             Striker::YarnMallet => "yarn-mallet",
+            Striker::RimShot => "rimshot",
+            Striker::CrossStick => "cross-stick",
         }
     }
 

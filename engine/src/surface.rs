@@ -2,9 +2,7 @@
 //!
 //! Displacement and force are positive along the stroke, into the surface. Whatever touches is a few
 //! oscillators ([`touch`]); both they and the body integrate a force held over the sample exactly, so a contact
-//! is one scalar equation, and several at once a few sweeps of it (Gauss-Seidel: each contact is
-//! solved with the others' forces held; it converges because a place yields more to its own force
-//! than to another's).
+//! is one scalar equation, and several at once ([`together`]) a small system of them.
 //!
 //! ```text
 //! strikers (tip, shaft) --\                      /--> modes --> pickup --> pressure
@@ -14,19 +12,24 @@
 
 pub mod oscillator;
 pub mod patch;
+mod together;
 pub mod touch;
 pub mod wires;
 
-use crate::contact::{ContactLaw, ContactStep, Material};
+use crate::contact::{ContactLaw, ContactStep, Material, Tip};
 use crate::drum::high_band::HighBand;
+use crate::modal::simd::MAX_RUN;
 use crate::modal::{ModalBody, Mode, Pickup};
 use crate::potential::{NonlinearForce, Potential};
+use crate::rim::Rim;
 use crate::shapes::ShapeTable;
 use crate::snapshot::{StrikeSnapshot, WireSnapshot};
-use crate::strike::Strike;
+use crate::stick::Stick;
+use crate::strike::{Across, Strike, StrikerSpec};
 
 use patch::Film;
-use touch::{Side, TouchPoint, Toucher};
+use together::{Compliances, Meeting};
+use touch::{PARTS, Side, TouchPoint, Toucher};
 use wires::SnareWires;
 
 /// Strikers that can be about one surface at a time; the one that has been away longest gives way.
@@ -40,22 +43,18 @@ pub const STRIKER_PLACES: usize = STRIKER_POINTS * MAX_STRIKERS;
 
 /// Where the wires' points begin, and how many points there are at most.
 const FIRST_WIRE: usize = STRIKER_PLACES;
-const MAX_POINTS: usize = FIRST_WIRE + wires::GROUPS;
+const MAX_POINTS: usize = together::MOST;
+const _: () = assert!(FIRST_WIRE + wires::GROUPS <= MAX_POINTS);
 
 /// A striker farther off than this has left for good, m. *By ear*: no head comes up so far.
 const AWAY: f64 = 0.010;
 
-/// A striker that neither leaves nor falls silent is lifted after this, s. *By ear*.
+/// A striker that does not leave is lifted after this, s; after twice as long also if it still touches. *By ear*.
 const LIFTED_AFTER: f64 = 0.3;
 
-/// Sweeps over simultaneous contacts; they stop as soon as nothing changes.
-const MAX_SWEEPS: usize = 40;
-
-/// Change of a force, relative, and in N, below which it counts as found.
-const SETTLED: f64 = 1e-10;
-const SETTLED_N: f64 = 1e-9;
-
-type Matrix = [[f64; MAX_POINTS]; MAX_POINTS];
+/// In a rimshot the bead meets the head so long before the shaft meets the rim, s: a head gives way by some
+/// millimetres, and drummers aim for the rim below it. *By ear*.
+const SHOT_LEAD: f64 = 0.8e-3;
 
 /// What a surface is made from.
 pub struct SurfaceParts {
@@ -88,6 +87,7 @@ pub struct Surface {
     /// Tip and shaft of every striker, then one point of every group.
     points: Vec<TouchPoint>,
     wires: Option<SnareWires>,
+    rim: Option<RimBody>,
     /// Points present.
     live: [usize; MAX_POINTS],
     live_count: usize,
@@ -97,15 +97,23 @@ pub struct Surface {
     high: Option<HighBand>,
     far_high: Option<HighBand>,
     /// Between present points: one-sample compliance of the modes and of what touches, m/N.
-    compliance: Matrix,
+    compliance: Compliances,
     /// Each present point's coupling with the force beyond the modes.
     coupling: [f64; MAX_POINTS],
     /// The compliance the points meet: the modes', stiffened by the force beyond them, m/N.
-    yielding: Matrix,
-    /// Kinetic energy that strikers have taken with them, J.
+    yielding: Compliances,
+    /// Energy that strikers have come with, and taken with them, J.
+    brought_energy: f64,
     departed_energy: f64,
     last: StrikeSnapshot,
     dt: f64,
+}
+
+/// The rim and its motion.
+struct RimBody {
+    rim: Rim,
+    body: ModalBody,
+    pickup: Pickup,
 }
 
 /// Whose point it is.
@@ -150,6 +158,7 @@ impl Surface {
             touchers: (0..MAX_STRIKERS).map(|_| Toucher::absent(dt)).collect(),
             points: (0..FIRST_WIRE).map(|_| TouchPoint::absent(count, dt)).collect(),
             wires: None,
+            rim: None,
             live: [0; MAX_POINTS],
             live_count: 0,
             beyond: None,
@@ -158,6 +167,7 @@ impl Surface {
             compliance: [[0.0; MAX_POINTS]; MAX_POINTS],
             coupling: [0.0; MAX_POINTS],
             yielding: [[0.0; MAX_POINTS]; MAX_POINTS],
+            brought_energy: 0.0,
             departed_energy: 0.0,
             last: StrikeSnapshot::default(),
             dt,
@@ -221,7 +231,7 @@ impl Surface {
         }
         if let Some(high) = &mut self.far_high {
             for (i, [x, y]) in wires::PLACES.into_iter().enumerate() {
-                high.put(i, x.hypot(y), x.atan2(-y), wires::PATCH);
+                high.put(i, x.hypot(y), x.atan2(-y), wires::TURN);
             }
         }
         for i in FIRST_WIRE..self.points.len() {
@@ -234,6 +244,18 @@ impl Surface {
                 self.connect(i);
             }
         }
+    }
+
+    /// Gives the drum a rim that sticks can meet. Allocates.
+    pub fn set_rim(&mut self, rim: Rim) {
+        let modes: Vec<Mode> = rim.modes.iter().map(|mode| mode.mode).collect();
+        for shaft in self.points[..FIRST_WIRE].iter_mut().skip(1).step_by(STRIKER_POINTS) {
+            *shaft = TouchPoint::absent(modes.len(), self.dt);
+        }
+        let body = ModalBody::new(modes, 1.0 / self.dt);
+        let mut pickup = Pickup::new(rim.modes.iter().map(|mode| mode.transfer).collect());
+        body.tune(&mut pickup);
+        self.rim = Some(RimBody { rim, body, pickup });
     }
 
     /// Throws the wires on or off.
@@ -267,6 +289,11 @@ impl Surface {
     /// Whether there are wires and they lie against the head.
     pub fn wires_on(&self) -> bool {
         self.wires.as_ref().is_some_and(|wires| wires.on)
+    }
+
+    /// The rim and its modes as they are, if there is one.
+    pub fn rim(&self) -> Option<&Rim> {
+        self.rim.as_ref().map(|rim| &rim.rim)
     }
 
     /// What the wires have done since the latest stroke.
@@ -330,10 +357,11 @@ impl Surface {
         self.beyond.as_mut()
     }
 
-    /// Energy of the body, J: of its modes, what it holds beyond them, and its wires.
+    /// Energy of the body, J: of its modes, what it holds beyond them, its wires and its rim.
     pub fn energy(&self) -> f64 {
         let wires: f64 = self.present(MAX_STRIKERS..self.touchers.len());
-        self.body.energy() + self.beyond.as_ref().map_or(0.0, NonlinearForce::energy) + wires
+        let rim = self.rim.as_ref().map_or(0.0, |rim| rim.body.energy());
+        self.body.energy() + self.beyond.as_ref().map_or(0.0, NonlinearForce::energy) + wires + rim
     }
 
     /// True energy of the body beyond its modes, J, and the relative error of the variable that
@@ -408,10 +436,15 @@ impl Surface {
             ..StrikeSnapshot::default()
         };
         let spec = strike.striker.spec();
-        let toucher = &mut self.touchers[i];
-        toucher.present = true;
-        (toucher.age, toucher.stroke) = (0, self.last.count);
-        let weights = toucher.take(&spec, speed, !self.lossless, self.dt);
+        (self.touchers[i].age, self.touchers[i].stroke) = (0, self.last.count);
+        self.touchers[i].present = true;
+        let weights = match (spec.across, &spec.stick) {
+            (Some(across), Some(stick)) if self.rim.is_some() => {
+                self.lay_across(i, (&spec, stick, across), speed, radius)
+            }
+            _ => self.touchers[i].take(&spec, speed, !self.lossless, self.dt),
+        };
+        self.brought_energy += self.touchers[i].arrived;
         let restitution = if self.lossless { 1.0 } else { spec.restitution };
         let law = ContactLaw::new(&spec.tip, &self.material, restitution);
         let tip = points_of(i).start;
@@ -429,6 +462,40 @@ impl Surface {
         if let Some(force) = &mut self.beyond {
             force.wake();
         }
+    }
+
+    /// Lets a stick come down on head and rim, from the player's side; returns what its tip feels of it.
+    fn lay_across(
+        &mut self,
+        i: usize,
+        (spec, stick, across): (&StrikerSpec, &Stick, Across),
+        speed: f64,
+        radius: f64,
+    ) -> [f64; PARTS] {
+        let Some(rim) = &mut self.rim else {
+            return [0.0; PARTS];
+        };
+        let reach = match across {
+            Across::RimShot => 1.0 - radius,
+            Across::CrossStick => 1.0 + radius,
+        };
+        let shaft = (stick.place + reach * rim.rim.radius / stick.length).clamp(0.1, 0.8);
+        let lossy = !self.lossless;
+        let [tip, side] = self.touchers[i].take_across((spec, stick, across), speed, shaft, lossy, self.dt);
+        let (radius, restitution) = Stick::SHAFT;
+        let edge = Tip::Solid { material: stick.material, radius };
+        let law = ContactLaw::new(&edge, &rim.rim.material, if lossy { restitution } else { 1.0 });
+        let at = points_of(i).start + 1;
+        let point = &mut self.points[at];
+        point.arrive(Side::Rim, law, side);
+        rim.rim.shape(0.0, point.port.shape_mut());
+        if across == Across::RimShot {
+            point.compression = -speed * SHOT_LEAD;
+        }
+        point.origin = -rim.body.displacement_at(&point.port) - point.compression;
+        self.list();
+        self.connect(at);
+        tip
     }
 
     /// An empty place, or that of the striker which has been about longest without touching, or,
@@ -466,14 +533,24 @@ impl Surface {
 
     /// Works out what the body tells point `i` and the others of each other.
     fn connect(&mut self, i: usize) {
-        self.body.connect(&mut self.points[i].port);
-        let port = &self.points[i].port;
-        self.coupling[i] = self.beyond.as_ref().map_or(0.0, |force| force.coupling(&self.body, port));
-        self.points[i].direct = self.pickup.direct_at(&self.body, &self.points[i].port);
-        let (high, place) = above(i, &mut self.high, &mut self.far_high);
-        high.iter_mut().for_each(|high| high.complete(place, self.points[i].direct));
+        let side = self.points[i].side;
+        let (body, pickup, beyond) = match (&self.rim, side) {
+            (Some(rim), Side::Rim) => (&rim.body, &rim.pickup, None),
+            _ => (&self.body, &self.pickup, self.beyond.as_ref()),
+        };
+        let point = &mut self.points[i];
+        body.connect(&mut point.port);
+        point.direct = pickup.direct_at(body, &point.port);
+        self.coupling[i] = beyond.map_or(0.0, |force| force.coupling(body, &point.port));
+        if side == Side::Surface {
+            let (high, place) = above(i, &mut self.high, &mut self.far_high);
+            high.iter_mut().for_each(|high| high.complete(place, self.points[i].direct));
+        }
         for &j in &self.live[..self.live_count] {
-            let mut mutual = self.body.compliance(&self.points[j].port, &self.points[i].port);
+            let mut mutual = 0.0;
+            if self.points[j].side == side {
+                mutual = body.compliance(&self.points[j].port, &self.points[i].port);
+            }
             if owner(i) == owner(j) {
                 mutual +=
                     self.touchers[owner(i)].compliance(&self.points[i].weights, &self.points[j].weights);
@@ -496,18 +573,24 @@ impl Surface {
             done += 1;
         }
         let rest = &mut out[done..];
-        let Surface { body, pickup, beyond, .. } = self;
+        let Surface { body, pickup, beyond, rim, .. } = self;
         match beyond {
             Some(force) if force.is_active() => {
-                body.ring(force.front().length(), pickup, rest);
-                for sample in rest {
+                body.ring(force.front().length(), pickup, &mut *rest);
+                for sample in rest.iter_mut() {
                     force.begin(body, pickup);
                     body.step_front(force.front());
                     force.free(body);
                     *sample += force.finish(body, 0.0) + body.listen_front(force.front(), pickup);
                 }
             }
-            _ => body.ring(0, pickup, rest),
+            _ => body.ring(0, pickup, &mut *rest),
+        }
+        if let Some(rim) = rim.as_mut().filter(|rim| !rim.body.is_still()) {
+            let mut heard = [0.0; MAX_RUN];
+            let heard = &mut heard[..rest.len()];
+            rim.body.ring(0, &rim.pickup, heard);
+            rest.iter_mut().zip(heard).for_each(|(sum, x)| *sum += *x);
         }
         self.high.iter_mut().chain(&mut self.far_high).for_each(|high| high.render(out));
     }
@@ -519,9 +602,15 @@ impl Surface {
         for toucher in self.touchers.iter_mut().filter(|toucher| toucher.present) {
             toucher.step();
         }
+        if let Some(rim) = &mut self.rim {
+            rim.body.step();
+        }
         for &i in &self.live[..self.live_count] {
             let point = &mut self.points[i];
-            let surface = self.body.displacement_at(&point.port) - self.coupling[i] * mean;
+            let surface = match (&self.rim, point.side) {
+                (Some(rim), Side::Rim) => rim.body.displacement_at(&point.port),
+                _ => self.body.displacement_at(&point.port) - self.coupling[i] * mean,
+            };
             let position = self.touchers[owner(i)].position(&point.weights);
             point.free_flight(position - surface - point.origin, self.yielding[i][i], dt);
         }
@@ -532,12 +621,17 @@ impl Surface {
             let point = &self.points[i];
             let force = point.pressing();
             if force != 0.0 {
-                self.body.push(&point.port, force as f32);
+                match (&mut self.rim, point.side) {
+                    (Some(rim), Side::Rim) => rim.body.push(&point.port, force as f32),
+                    _ => self.body.push(&point.port, force as f32),
+                }
                 self.touchers[owner(i)].push(&point.weights, force);
                 direct += force as f32 * point.direct;
                 pressed += force * self.coupling[i];
-                let (high, place) = above(i, &mut self.high, &mut self.far_high);
-                high.iter_mut().for_each(|high| high.push(place, sample, force as f32));
+                if point.side == Side::Surface {
+                    let (high, place) = above(i, &mut self.high, &mut self.far_high);
+                    high.iter_mut().for_each(|high| high.push(place, sample, force as f32));
+                }
             }
         }
         if let Some(beyond) = self.beyond.as_mut().filter(|beyond| beyond.is_active()) {
@@ -555,7 +649,8 @@ impl Surface {
             wires.age += 1;
         }
         self.watch_strikers();
-        self.body.listen(&self.pickup) + direct
+        let rim = self.rim.as_ref().map_or(0.0, |rim| rim.body.listen(&rim.pickup));
+        self.body.listen(&self.pickup) + rim + direct
     }
 
     /// How far the forces of all other points have brought point `i` out of the surface, m.
@@ -579,7 +674,8 @@ impl Surface {
             }
             let mut present = points.iter().filter(|point| point.present);
             let touching = present.clone().any(|point| point.touching);
-            if present.all(|point| point.compression < -AWAY) || (!touching && age > LIFTED_AFTER) {
+            let lifted = age > if touching { 2.0 * LIFTED_AFTER } else { LIFTED_AFTER };
+            if lifted || present.all(|point| point.compression < -AWAY) {
                 self.leave(i);
                 left = true;
             }
@@ -600,7 +696,9 @@ impl Surface {
         let live = &self.live[..self.live_count];
         if force.begin(&mut self.body, &self.pickup) {
             for &i in live {
-                self.coupling[i] = force.coupling(&self.body, &self.points[i].port);
+                if self.points[i].side == Side::Surface {
+                    self.coupling[i] = force.coupling(&self.body, &self.points[i].port);
+                }
             }
         }
         self.body.step();
@@ -612,23 +710,25 @@ impl Surface {
         force.free(&self.body)
     }
 
-    /// Forces of all contacts for this sample: sweeps until none changes any more. A point alone
-    /// is done in one.
+    /// Forces of all contacts for this sample.
     fn solve(&mut self) {
-        for _ in 0..if self.live_count > 1 { MAX_SWEEPS } else { 1 } {
-            let mut changed = false;
-            for n in 0..self.live_count {
-                let i = self.live[n];
-                let others = self.moved_by_others(i);
-                let point = &mut self.points[i];
-                let step = ContactStep { free: point.step.free - others, ..point.step };
-                let force = point.law.force(&step);
-                changed |= (force - point.force).abs() > SETTLED * force + SETTLED_N;
-                point.force = force;
+        let live = &self.live[..self.live_count];
+        let absent = Meeting { law: self.points[0].law, step: self.points[0].step, force: 0.0 };
+        let (mut meetings, mut yielding) = ([absent; MAX_POINTS], [[0.0; MAX_POINTS]; MAX_POINTS]);
+        for (n, &i) in live.iter().enumerate() {
+            let point = &self.points[i];
+            // The preloads of the others are part of equilibrium: what they would push is put back.
+            let mut free = point.step.free;
+            for (k, &j) in live.iter().enumerate().filter(|&(k, _)| k != n) {
+                yielding[n][k] = self.yielding[i][j];
+                free += self.yielding[i][j] * self.points[j].preload;
             }
-            if !changed {
-                break;
-            }
+            meetings[n] =
+                Meeting { law: point.law, step: ContactStep { free, ..point.step }, force: point.force };
+        }
+        together::solve(&mut meetings[..live.len()], &yielding);
+        for (meeting, &i) in meetings.iter().zip(live) {
+            self.points[i].force = meeting.force;
         }
     }
 
@@ -642,6 +742,11 @@ impl Surface {
         which.filter(|&i| self.touchers[i].present).map(|i| self.energy_of(i)).sum()
     }
 
+    /// Kinetic energy that strikers have come with since the last reset, J.
+    pub fn brought_energy(&self) -> f64 {
+        self.brought_energy
+    }
+
     /// Energy that strikers have taken away with them since the last reset, J.
     pub fn departed_energy(&self) -> f64 {
         self.departed_energy
@@ -653,10 +758,12 @@ impl Surface {
     /// Linear in the number of modes; meant for once a block.
     pub fn settle(&mut self) -> bool {
         self.body.flush_quiet();
+        self.rim.iter_mut().for_each(|rim| rim.body.flush_quiet());
         self.beyond.iter_mut().for_each(NonlinearForce::settle);
         let high = self.high.iter_mut().chain(&mut self.far_high).all(HighBand::settle);
         let finite = high
             && self.body.is_finite()
+            && self.rim.as_ref().is_none_or(|rim| rim.body.is_finite())
             && self.live[..self.live_count].iter().all(|&i| self.points[i].compression.is_finite());
         if !finite {
             self.reset();
@@ -672,12 +779,14 @@ impl Surface {
     /// Whether nothing moves and nothing is about.
     pub fn is_still(&self) -> bool {
         let high = self.high.iter().chain(&self.far_high).all(HighBand::is_still);
-        high && self.live_count == 0 && self.body.is_still()
+        let rim = self.rim.as_ref().is_none_or(|rim| rim.body.is_still());
+        high && rim && self.live_count == 0 && self.body.is_still()
     }
 
     /// Puts everything to rest; strikers are gone.
     pub fn reset(&mut self) {
         self.body.reset();
+        self.rim.iter_mut().for_each(|rim| rim.body.reset());
         self.beyond.iter_mut().for_each(NonlinearForce::reset);
         self.high.iter_mut().chain(&mut self.far_high).for_each(HighBand::reset);
         for toucher in &mut self.touchers {
@@ -689,7 +798,7 @@ impl Surface {
         }
         self.list();
         self.park_wires();
-        self.departed_energy = 0.0;
+        (self.brought_energy, self.departed_energy) = (0.0, 0.0);
     }
 }
 
@@ -703,5 +812,5 @@ fn report(last: &mut StrikeSnapshot, toucher: &Toucher, points: &[TouchPoint], d
         last.peak_force = last.peak_force.max(point.force as f32);
         last.impulse += (point.force * dt) as f32;
     }
-    last.leaving_speed = -toucher.parts[0].v as f32;
+    last.leaving_speed = toucher.leaving_speed() as f32;
 }

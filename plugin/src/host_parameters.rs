@@ -116,6 +116,8 @@ mod tests {
         for (parameter, value) in PARAMETERS.iter().zip(parameters.values()) {
             assert_eq!(value.default_plain_value(), parameter.default);
             for plain in [parameter.min, parameter.default, parameter.centre, parameter.max] {
+                // A switch has no middle.
+                let plain = parameter.snap(plain);
                 let normalized = value.preview_normalized(plain);
                 assert_eq!(normalized, parameter.normalized(plain), "{}", parameter.name);
                 assert_eq!(value.preview_plain(normalized), plain, "{}", parameter.name);

@@ -3,8 +3,8 @@
 //! | note | General MIDI name | struck |
 //! |---|---|---|
 //! | 35, 36 | bass drums | kick, felt beater |
-//! | 37 | side stick | snare, stick close to the rim |
-//! | 38, 40 | snares | snare, stick; 40 farther out |
+//! | 37 | side stick | snare, cross-stick |
+//! | 38, 40 | snares | snare, stick; 40 a rimshot |
 //! | 41, 43, 45 | low floor, high floor, low tom | floor tom, stick |
 //! | 47, 48, 50 | low-mid, hi-mid, high tom | rack tom, stick |
 //! | 49, 57, 52 | crashes, Chinese cymbal | crash, stick shoulder on the edge |
@@ -107,10 +107,10 @@ pub static MAP: [Row; (LAST_NOTE - FIRST_NOTE + 1) as usize] = {
     [
         row(35, "Acoustic Bass Drum", strikes(Kick, 0.20, 0.0, FeltBeater)),
         row(36, "Bass Drum 1", strikes(Kick, 0.20, 0.0, FeltBeater)),
-        row(37, "Side Stick", strikes(Snare, 0.90, 0.0, Stick)),
+        row(37, "Side Stick", strikes(Snare, 0.30, 0.0, CrossStick)),
         row(38, "Acoustic Snare", strikes(Snare, 0.25, 0.3, Stick)),
         row(39, "Hand Clap", NOTHING_LIKE_IT),
-        row(40, "Electric Snare", strikes(Snare, 0.40, 0.3, Stick)),
+        row(40, "Electric Snare", strikes(Snare, 0.40, 0.3, RimShot)),
         row(41, "Low Floor Tom", strikes(FloorTom, 0.25, -0.4, Stick)),
         row(42, "Closed Hi-Hat", NO_HI_HAT),
         row(43, "High Floor Tom", strikes(FloorTom, 0.35, -0.4, Stick)),

@@ -47,11 +47,6 @@ pub fn stroke(striker: Striker, speed: f64, radius: f64, angle: f64) -> Strike {
     Strike { speed, radius, angle, striker }
 }
 
-/// Energy that a stroke brings, J.
-pub fn brought_by(strike: &Strike) -> f64 {
-    0.5 * strike.striker.spec().mass * strike.speed * strike.speed
-}
-
 /// Energy of a piece, of the strikers about it and of those that have left, J.
 pub fn total_energy(piece: &Piece) -> f64 {
     piece.energy() + piece.striker_energy() + piece.departed_energy()

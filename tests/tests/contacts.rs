@@ -6,9 +6,7 @@ use std::ops::Range;
 use overhear_engine::piece::PieceId;
 use overhear_engine::snapshot::StrikeSnapshot;
 use overhear_engine::strike::{Strike, Striker};
-use overhear_tests::{
-    Chance, RATES, Spectrum, brought_by, lossless_piece, piece, render, stroke, total_energy,
-};
+use overhear_tests::{Chance, RATES, Spectrum, lossless_piece, piece, render, stroke, total_energy};
 
 /// Where and how hard a lossless piece is struck.
 fn trial(id: PieceId, striker: Striker) -> Strike {
@@ -26,7 +24,7 @@ fn energy_stays(rate: f64) {
             let strike = trial(id, striker);
             piece.reset();
             piece.strike(&strike);
-            let brought = brought_by(&strike);
+            let brought = piece.brought_energy();
             let samples = rate as usize;
             let mut done = 0;
             while done < samples {

@@ -7,7 +7,7 @@ use overhear_engine::kit::Control;
 use overhear_engine::piece::{Piece, PieceId};
 use overhear_engine::snapshot::KitSnapshot;
 use overhear_engine::strike::{Strike, Striker};
-use overhear_tests::{Chance, brought_by, kit, lossless_piece, piece, render, stroke, total_energy};
+use overhear_tests::{Chance, kit, lossless_piece, piece, render, stroke, total_energy};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
@@ -82,7 +82,7 @@ fn no_strike_leaves_a_body_at_rest_faster_than_it_came() {
             let piece = &mut pieces[which];
             set(piece, tuning, muffling);
             piece.strike(&strike);
-            let brought = brought_by(&strike);
+            let brought = piece.brought_energy();
             let mut waited = 0;
             while piece.striker_energy() > 0.0 {
                 render(piece, 0.002, RATE);
@@ -115,10 +115,9 @@ fn a_roll_leaves_no_more_energy_than_it_brought() {
         PIECES.with_borrow_mut(|pieces| {
             let piece = &mut pieces[which];
             set(piece, tuning, muffling);
-            let mut brought = 0.0;
             for (strike, wait) in roll {
                 piece.strike(&strike);
-                brought += brought_by(&strike);
+                let brought = piece.brought_energy();
                 let mut sound = [0.0; 64];
                 for _ in 0..wait.div_ceil(64) {
                     piece.render(&mut sound);
@@ -143,7 +142,6 @@ fn several_strikers_at_once_keep_the_balance() {
         for round in 0..6 {
             let mut chance = Chance::new(1000 * seed as u64 + round);
             piece.reset();
-            let mut brought = 0.0;
             // More than there are places for, close to each other in place and time.
             for _ in 0..7 {
                 let strike = Strike {
@@ -153,7 +151,7 @@ fn several_strikers_at_once_keep_the_balance() {
                     ..chance.stroke(1.0)
                 };
                 piece.strike(&strike);
-                brought += brought_by(&strike);
+                let brought = piece.brought_energy();
                 let mut sound = [0.0; 4];
                 for _ in 0..chance.below(12) {
                     piece.render(&mut sound);
@@ -164,13 +162,42 @@ fn several_strikers_at_once_keep_the_balance() {
             }
             for _ in 0..138 {
                 render(&mut piece, 32.0 / RATE, RATE);
-                let off = (total_energy(&piece) / brought - 1.0).abs();
+                let off = (total_energy(&piece) / piece.brought_energy() - 1.0).abs();
                 worst = worst.max(off);
                 assert!(off < 1e-4, "{id:?}: {off:.1e}");
             }
         }
     }
     println!("worst: {worst:.1e}");
+}
+
+#[test]
+fn a_lossless_drum_keeps_its_energy_for_a_second_from_1_to_25_m_s_centre_to_rim() {
+    for rate in [44_100.0, 96_000.0] {
+        let mut worst = (0.0_f64, String::new());
+        for id in PieceId::ALL.into_iter().filter(|id| id.is_drum()) {
+            let mut piece = lossless_piece(id, rate);
+            let mut chance = Chance::new(id as u64);
+            for speed in [1.0, 5.0, 25.0] {
+                for radius in [0.0, 0.5, 1.0] {
+                    let striker = chance.of(&Striker::ALL);
+                    piece.reset();
+                    let strike = stroke(striker, speed, radius, chance.between(0.0, 6.0));
+                    piece.strike(&strike);
+                    let brought = piece.brought_energy();
+                    for _ in 0..20 {
+                        render(&mut piece, 0.05, rate);
+                        let off = (total_energy(&piece) / brought - 1.0).abs();
+                        if off > worst.0 {
+                            worst = (off, format!("{id:?} {strike:?}"));
+                        }
+                        assert!(off < 1e-3, "{rate}: {off:.1e} off: {id:?} {strike:?}");
+                    }
+                }
+            }
+        }
+        println!("{rate}: off by at most {worst:?}");
+    }
 }
 
 #[test]

@@ -54,6 +54,8 @@ pub struct DrumSpec {
     pub listening_point: ListeningPoint,
     /// Whether snare wires lie against the resonant head.
     pub wires: bool,
+    /// Whether there is a rim within a stick's reach.
+    pub rim: bool,
 }
 
 const INCH: f64 = 0.0254;
@@ -101,6 +103,7 @@ impl DrumSpec {
             splitting: Splitting::DRUM,
             listening_point: ListeningPoint { distance: 0.5, inclination: 0.6, azimuth: 0.4 },
             wires: false,
+            rim: false,
         }
     }
 
@@ -128,6 +131,7 @@ impl DrumSpec {
         DrumSpec {
             pitch_hz: (140.0, 220.0, 360.0),
             wires: true,
+            rim: true,
             ..DrumSpec::two_headed(14.0, 5.5, batter, side)
         }
     }
@@ -135,7 +139,8 @@ impl DrumSpec {
     /// Toms: two-ply batter, single-ply resonant head.
     fn tom(diameter_in: f64, depth_in: f64) -> DrumSpec {
         let batter = (TWO_PLY, LossLaw { constant: 3.0, per_khz: 5.0 });
-        DrumSpec::two_headed(diameter_in, depth_in, batter, DrumSpec::single_ply(diameter_in, 1.15, 1500.0))
+        let resonant = DrumSpec::single_ply(diameter_in, 1.15, 1500.0);
+        DrumSpec { rim: true, ..DrumSpec::two_headed(diameter_in, depth_in, batter, resonant) }
     }
 
     /// 12 x 9 in rack tom.

@@ -10,7 +10,8 @@
 
 use crate::contact::{ContactLaw, ContactStep, Material};
 use crate::modal::Port;
-use crate::strike::{Striker, StrikerSpec};
+use crate::stick::Stick;
+use crate::strike::{Across, Striker, StrikerSpec};
 
 use super::oscillator::Oscillator;
 use super::patch::BANDS;
@@ -118,7 +119,6 @@ impl TouchPoint {
         }
         self.step =
             ContactStep { before: self.compression, free, compliance: yielding, lambda: self.lambda, dt };
-        self.force = 0.0;
     }
 
     /// Applies the force of the sample; `others` is how far those of all other points have parted the two, m.
@@ -152,6 +152,12 @@ pub struct Toucher {
     pub parts: [Oscillator; PARTS],
     /// Parts in use.
     pub part_count: usize,
+    /// Parts that do not bend: the first ones.
+    pub rigid: usize,
+    /// Speed it came with, m/s.
+    pub speed: f64,
+    /// Energy it came with, J.
+    pub arrived: f64,
     /// Samples since it arrived.
     pub age: u64,
     /// Which stroke of the surface this was.
@@ -165,27 +171,78 @@ impl Toucher {
             present: false,
             parts: [Oscillator::free(1.0, dt); PARTS],
             part_count: 0,
+            rigid: 1,
+            speed: 0.0,
+            arrived: 0.0,
             age: 0,
             stroke: 0,
         }
     }
 
-    /// Becomes a striker at `speed` (m/s), its tip first; returns what its tip feels of its parts. One that
-    /// is not `lossy` bends without loss.
+    /// Becomes a striker at `speed` (m/s); returns what its tip feels of its parts. One that is not
+    /// `lossy` bends without loss.
     pub fn take(&mut self, spec: &StrikerSpec, speed: f64, lossy: bool, dt: f64) -> [f64; PARTS] {
         let mut weights = [0.0; PARTS];
         (self.parts[0], weights[0]) = (Oscillator::free(spec.mass, dt), 1.0);
         self.parts[0].v = speed;
-        self.part_count = 1;
+        (self.part_count, self.speed, self.rigid) = (1, speed, 1);
         if let Some(stick) = spec.stick {
-            for (n, mode) in stick.bending().enumerate() {
-                let sigma = if lossy { mode.omega / (2.0 * stick.q) } else { 0.0 };
-                self.parts[1 + n] = Oscillator::sprung(stick.mass(), mode.omega, sigma, dt);
-                weights[1 + n] = mode.shape(stick.place);
-                self.part_count = 2 + n;
-            }
+            self.bend(&stick, &mut [(stick.place, &mut weights)], lossy, dt);
         }
+        self.arrived = self.energy();
         weights
+    }
+
+    /// Becomes a stick that meets head and rim at `speed` (m/s), its shaft at `shaft` (share of the length from
+    /// the tip); returns what its tip and its shaft feel of its parts.
+    ///
+    /// A rigid rod moves along and turns; its end feels a quarter of its mass, which is what is given.
+    pub fn take_across(
+        &mut self,
+        (spec, stick, across): (&StrikerSpec, &Stick, Across),
+        speed: f64,
+        shaft: f64,
+        lossy: bool,
+        dt: f64,
+    ) -> [[f64; PARTS]; 2] {
+        let mut weights = [[0.0; PARTS]; 2];
+        let [tip, side] = [stick.place, shaft].map(Stick::turning);
+        (self.parts[0], self.parts[1]) =
+            (Oscillator::free(4.0 * spec.mass, dt), Oscillator::free(4.0 * spec.mass, dt));
+        (weights[0][0], weights[0][1], weights[1][0], weights[1][1]) = (1.0, tip, 1.0, side);
+        (self.parts[0].v, self.parts[1].v) = match across {
+            Across::RimShot => (speed, 0.0),
+            // The tip stays where it is.
+            Across::CrossStick => (-tip * speed / (side - tip), speed / (side - tip)),
+        };
+        (self.part_count, self.speed, self.rigid) = (2, speed, 2);
+        let [at_tip, at_side] = &mut weights;
+        self.bend(stick, &mut [(stick.place, at_tip), (shaft, at_side)], lossy, dt);
+        self.arrived = self.energy();
+        weights
+    }
+
+    /// Adds a stick's bending; writes what each place feels of it.
+    fn bend(&mut self, stick: &Stick, places: &mut [(f64, &mut [f64; PARTS])], lossy: bool, dt: f64) {
+        for mode in stick.bending() {
+            let sigma = if lossy { mode.omega / (2.0 * stick.q) } else { 0.0 };
+            self.parts[self.part_count] = Oscillator::sprung(stick.mass(), mode.omega, sigma, dt);
+            for (place, weights) in places.iter_mut() {
+                weights[self.part_count] = mode.shape(*place);
+            }
+            self.part_count += 1;
+        }
+    }
+
+    /// Speed away from the surface, m/s: of a free mass its own, of a stick across the rim that with which what
+    /// it still has of its motion would arrive.
+    pub fn leaving_speed(&self) -> f64 {
+        let rigid = &self.parts[..self.rigid];
+        if self.rigid == 1 {
+            return -rigid[0].v;
+        }
+        let left: f64 = rigid.iter().map(Oscillator::energy).sum();
+        self.speed * (left / self.arrived.max(f64::MIN_POSITIVE)).sqrt()
     }
 
     /// Advances a sample without force.

@@ -40,8 +40,12 @@ const QUALITY: f64 = 4.0;
 /// Radius of a wire, m, and restitution.
 const RADIUS: f64 = 0.8e-3;
 const RESTITUTION: f64 = 0.35;
-/// Radius of the disc that feels like a group's length, m. *By ear*: strands touch along some centimetres.
-pub const PATCH: f64 = 0.008;
+/// Radius of the disc that a group falls on, m: what it moves of the head at once decides how hard a landing is.
+/// *By ear*, between the 3 cm of a disc as large as a group's share of the wires and the 7 cm of its length.
+pub const PATCH: f64 = 0.04;
+/// Radius of the disc on which a single turn of a strand strikes, m: as fine as that are the waves that landings
+/// set going. *Derived*: some wire radii.
+pub const TURN: f64 = 0.002;
 
 /// The speed of landing that a touch without one, as of wires at rest, is as lossy as, m/s. *Derived*: what a
 /// group falling back by the preload reaches in a millisecond.

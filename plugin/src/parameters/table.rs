@@ -64,7 +64,9 @@ pub static PARAMETERS: [Parameter; 28] = {
             default: 0.15,
             // As much knob for the loose half of what drummers use as for the tight one.
             centre: 0.15,
-            step: 0.001,
+            // Of the steps about as fine as this, the largest of which 0.03, 0.15 and 1.5 are exact multiples
+            // in single precision.
+            step: 1.0 / 1100.0,
             decimals: 3,
             drives: Drives::Control(Control::SnarePreload),
         },

@@ -1,0 +1,167 @@
+//! The rim of a drum: the steel hoop that a stick's shaft meets in a rimshot and a cross-stick.
+//!
+//! Model: a free ring that bends out of its plane and twists,
+//!
+//! ```text
+//! omega_n^2 = E I / (rho A R^4) * n^2 (n^2 - 1)^2 / (n^2 + 1 + E I / (G J)),   n = 2, 3, ...
+//! ```
+//!
+//! with two members each, and the drum as a whole bouncing on its stand. It is heard as the narrow ring that
+//! the hoop's top is, in a baffle.
+//!
+//! Neglected: what the rods, the head's pull and the shell add to the hoop, but for its loss; the rim does not move
+//! the head's edge.
+//!
+//! Source: Love, The Mathematical Theory of Elasticity, sec. 293 (ring, motion at right angles to its plane).
+
+use std::f64::consts::{PI, TAU};
+
+use crate::air::{DENSITY, SPEED_OF_SOUND};
+use crate::contact::Material;
+use crate::listening::ListeningPoint;
+use crate::modal::Mode;
+use crate::piece::{Member, ModeKind};
+
+/// A triple-flanged steel hoop, 2.3 mm thick and 40 mm high. *Literature* (dimensions of the trade).
+const WALL: f64 = 2.3e-3;
+const HEIGHT: f64 = 0.040;
+const FLANGE: f64 = 0.010;
+
+/// Quality factor of its modes: gaskets, rods and the head take much. *By ear*.
+const QUALITY: f64 = 50.0;
+
+/// The drum on its stand: mass, kg, frequency, Hz, quality factor. *By ear*.
+const STAND: (f64, f64, f64) = (3.5, 15.0, 2.0);
+
+/// Radius of the edge that a shaft meets, m, is the stick's; the steel is taken as flat. Width of the
+/// hoop's top as it is heard, m.
+const WIDTH: f64 = 0.012;
+
+/// Highest mode, Hz.
+const LIMIT_HZ: f64 = 16_000.0;
+
+/// A rim as a modal body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rim {
+    /// Radius, m.
+    pub radius: f64,
+    /// What the shaft meets.
+    pub material: Material,
+    /// One of the body each.
+    pub modes: Vec<RimMode>,
+}
+
+/// One mode of a rim.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RimMode {
+    /// Waves around; 0 is the drum on its stand.
+    pub n: u32,
+    /// Member of the pair.
+    pub member: Member,
+    /// The motion.
+    pub mode: Mode,
+    /// Pressure over modal acceleration at the listening point, Pa s2/m.
+    pub transfer: [f64; 2],
+}
+
+impl Rim {
+    /// The rim of a drum of that radius (m), heard from a point; without losses if asked to.
+    pub fn new(radius: f64, point: ListeningPoint, lossless: bool) -> Rim {
+        let steel = Material::STEEL;
+        let shear = steel.youngs_modulus / (2.0 * (1.0 + steel.poisson_ratio));
+        let area = WALL * (HEIGHT + FLANGE);
+        let bending = steel.youngs_modulus * (WALL * HEIGHT.powi(3) / 12.0);
+        let torsion = shear * (HEIGHT + FLANGE) * WALL.powi(3) / 3.0;
+        let line = steel.density * area;
+        let unit = bending / (line * radius.powi(4));
+        let loss = |omega: f64, q: f64| if lossless { 0.0 } else { omega / (2.0 * q) };
+        let (mass, hz, q) = STAND;
+        let bounce = Mode { omega: TAU * hz, sigma: loss(TAU * hz, q), mass };
+        let mut modes = vec![RimMode {
+            n: 0,
+            member: Member::Cosine,
+            mode: bounce,
+            transfer: transfer(radius, point, 0, bounce.omega),
+        }];
+        for n in 2.. {
+            let n2 = f64::from(n * n);
+            let omega = (unit * n2 * (n2 - 1.0).powi(2) / (n2 + 1.0 + bending / torsion)).sqrt();
+            if omega > TAU * LIMIT_HZ {
+                break;
+            }
+            let mode = Mode { omega, sigma: loss(omega, QUALITY), mass: line * TAU * radius };
+            let heard = transfer(radius, point, n, omega);
+            for member in [Member::Cosine, Member::Sine] {
+                let toward = point.toward(n, member, 0.0);
+                modes.push(RimMode { n, member, mode, transfer: heard.map(|h| h * toward) });
+            }
+        }
+        Rim { radius, material: steel, modes }
+    }
+
+    /// Shapes at an angle (rad), of unit mean square, `[mode]`.
+    pub fn shape(&self, angle: f64, out: &mut [f32]) {
+        for (out, mode) in out.iter_mut().zip(&self.modes) {
+            let (sin, cos) = (f64::from(mode.n) * angle).sin_cos();
+            *out = match (mode.n, mode.member) {
+                (0, _) => 1.0,
+                (_, Member::Cosine) => (std::f64::consts::SQRT_2 * cos) as f32,
+                (_, Member::Sine) => (std::f64::consts::SQRT_2 * sin) as f32,
+            };
+        }
+    }
+
+    /// What a row of the list of modes says.
+    pub fn kind(mode: &RimMode) -> ModeKind {
+        if mode.n == 0 { ModeKind::Rigid } else { ModeKind::Complete }
+    }
+}
+
+/// Rayleigh integral over a narrow ring; largest toward the point. The delay from the centre is taken out.
+fn transfer(radius: f64, point: ListeningPoint, n: u32, omega: f64) -> [f64; 2] {
+    let k = omega / SPEED_OF_SOUND;
+    let (sin, cos) = point.inclination.sin_cos();
+    let (height, offset) = (point.distance * cos, point.distance * sin);
+    let steps = 32 + 4 * n as usize + (4.0 * k * radius) as usize;
+    let (mut re, mut im) = (0.0, 0.0);
+    for i in 0..steps {
+        let theta = TAU * (i as f64 + 0.5) / steps as f64;
+        let d = (height * height + offset * offset + radius * radius - 2.0 * offset * radius * theta.cos())
+            .sqrt();
+        let around = if n == 0 { 1.0 } else { std::f64::consts::SQRT_2 * (f64::from(n) * theta).cos() };
+        let (sin_kd, cos_kd) = (k * (point.distance - d)).sin_cos();
+        re += around * cos_kd / d;
+        im += around * sin_kd / d;
+    }
+    let scale = -DENSITY / (2.0 * PI) * TAU * radius * WIDTH / steps as f64;
+    [scale * re, scale * im]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const POINT: ListeningPoint = ListeningPoint { distance: 0.5, inclination: 0.6, azimuth: 0.4 };
+
+    #[test]
+    fn a_snare_hoop_rings_where_hoops_ring() {
+        let rim = Rim::new(0.178, POINT, false);
+        let hz = |n: u32| rim.modes.iter().find(|mode| mode.n == n).unwrap().mode.omega / TAU;
+        assert!((80.0..250.0).contains(&hz(2)), "{}", hz(2));
+        assert!((300.0..800.0).contains(&hz(3)), "{}", hz(3));
+        // A kilogram of steel, within a half.
+        assert!((0.7..1.5).contains(&rim.modes[1].mode.mass), "{}", rim.modes[1].mode.mass);
+    }
+
+    #[test]
+    fn shapes_are_of_unit_mean_square() {
+        let rim = Rim::new(0.15, POINT, false);
+        let mut sum = vec![0.0_f64; rim.modes.len()];
+        let mut out = vec![0.0_f32; rim.modes.len()];
+        for i in 0..720 {
+            rim.shape(TAU * f64::from(i) / 720.0, &mut out);
+            sum.iter_mut().zip(&out).for_each(|(sum, &x)| *sum += f64::from(x * x) / 720.0);
+        }
+        assert!(sum.iter().all(|square| (square - 1.0).abs() < 1e-5), "{sum:?}");
+    }
+}

@@ -1,0 +1,179 @@
+//! Several contacts at once: their forces move each other's bodies and are found together.
+//!
+//! With `Y` the compliances between the points and `f` where each compression would be without any force, the
+//! compressions after the sample obey `d_i + sum_j Y_ij F_j(d_j) = f_i`, each force growing with its own
+//! compression. Newton's method on all of them takes a few steps, as `1 + Y F'` is never singular (`Y` is positive); where
+//! it should wander, at the corner where a contact opens, sweeps over single contacts do it (Gauss-Seidel: they
+//! converge because a place yields more to its own force than to another's).
+
+use crate::contact::{ContactLaw, ContactStep};
+
+/// Contacts that can be solved together.
+pub const MOST: usize = 16;
+
+/// Newton steps before the sweeps are asked; it needs 2 to 4.
+const MAX_STEPS: usize = 12;
+
+/// Sweeps; they stop as soon as nothing changes.
+const MAX_SWEEPS: usize = 40;
+
+/// Change of a compression, relative, below which all are found.
+const SETTLED: f64 = 1e-10;
+
+/// One contact.
+#[derive(Debug, Clone, Copy)]
+pub struct Meeting {
+    /// Its law.
+    pub law: ContactLaw,
+    /// Its sample, all other forces left out.
+    pub step: ContactStep,
+    /// Its force, N: a guess first, then what was found.
+    pub force: f64,
+}
+
+/// Compliance between contacts, m/N; the diagonal is each step's own.
+pub type Compliances = [[f64; MOST]; MOST];
+
+/// Finds all forces.
+///
+/// # Real-time
+/// At most 12 steps of the order of the cube of the contacts, then at most 40 sweeps; usually 3 steps.
+pub fn solve(meetings: &mut [Meeting], yielding: &Compliances) {
+    match meetings {
+        [] => {}
+        [one] => one.force = one.law.force(&one.step),
+        several => {
+            if !newton(several, yielding) {
+                sweep(several, yielding);
+            }
+        }
+    }
+}
+
+fn newton(meetings: &mut [Meeting], yielding: &Compliances) -> bool {
+    let n = meetings.len();
+    let compliance = |meetings: &[Meeting], i: usize, j: usize| {
+        if i == j { meetings[i].step.compliance } else { yielding[i][j] }
+    };
+    let (mut d, mut held, mut forces, mut slopes) = ([0.0; MOST], [0.0; MOST], [0.0; MOST], [0.0; MOST]);
+    for i in 0..n {
+        held[i] = meetings[i].law.potential(meetings[i].step.before);
+        let moved: f64 = (0..n).map(|j| compliance(meetings, i, j) * meetings[j].force).sum();
+        d[i] = meetings[i].step.free - moved;
+    }
+    for _ in 0..MAX_STEPS {
+        for i in 0..n {
+            (forces[i], slopes[i]) = meetings[i].law.gradient(&meetings[i].step, held[i], d[i]);
+        }
+        // (1 + Y F') change = free - d - Y F; contacts that are open neither push nor are in the way.
+        let mut matrix = [[0.0; MOST + 1]; MOST];
+        for i in 0..n {
+            let mut left = meetings[i].step.free - d[i];
+            for j in 0..n {
+                let c = compliance(meetings, i, j);
+                left -= c * forces[j];
+                matrix[i][j] = c * slopes[j];
+            }
+            matrix[i][i] += 1.0;
+            matrix[i][n] = left;
+        }
+        let change = eliminate(&mut matrix, n);
+        let mut settled = true;
+        for i in 0..n {
+            let scale = meetings[i].step.before.abs().max(meetings[i].step.free.abs());
+            settled &= change[i].abs() <= SETTLED * scale;
+            d[i] += change[i];
+            forces[i] += slopes[i] * change[i];
+        }
+        if settled {
+            meetings.iter_mut().zip(forces).for_each(|(meeting, force)| meeting.force = force.max(0.0));
+            return true;
+        }
+    }
+    false
+}
+
+/// Solves a system of `n` equations, the right side in column `n`. Without pivots: `1 + Y F'` is, but for a
+/// scaling, symmetric and positive.
+fn eliminate(matrix: &mut [[f64; MOST + 1]; MOST], n: usize) -> [f64; MOST] {
+    for k in 0..n {
+        let pivot = matrix[k];
+        for row in &mut matrix[k + 1..n] {
+            let factor = row[k] / pivot[k];
+            if factor != 0.0 {
+                row[k + 1..=n].iter_mut().zip(&pivot[k + 1..=n]).for_each(|(x, p)| *x -= factor * p);
+            }
+        }
+    }
+    let mut solution = [0.0; MOST];
+    for k in (0..n).rev() {
+        let known: f64 = (k + 1..n).map(|j| matrix[k][j] * solution[j]).sum();
+        solution[k] = (matrix[k][n] - known) / matrix[k][k];
+    }
+    solution
+}
+
+fn sweep(meetings: &mut [Meeting], yielding: &Compliances) {
+    for _ in 0..MAX_SWEEPS {
+        let mut changed = false;
+        for i in 0..meetings.len() {
+            let others = (0..meetings.len()).filter(|&j| j != i);
+            let moved: f64 = others.map(|j| yielding[i][j] * meetings[j].force).sum();
+            let Meeting { law, step, force } = meetings[i];
+            let found = law.force(&ContactStep { free: step.free - moved, ..step });
+            changed |= (found - force).abs() > SETTLED * found;
+            meetings[i].force = found;
+        }
+        if !changed {
+            break;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::{Material, Tip};
+
+    #[test]
+    fn newton_finds_what_the_sweeps_find() {
+        let tip = Tip::Solid { material: Material::STEEL, radius: 0.8e-3 };
+        let law = ContactLaw::new(&tip, &Material::FILM, 0.35);
+        let mut draw = 1_u64;
+        let mut chance = move || {
+            draw = draw.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (draw >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        for n in 2..=9 {
+            for _ in 0..200 {
+                let mutual = 3e-7 * chance();
+                let yielding = [[mutual; MOST]; MOST];
+                let mut meetings: Vec<Meeting> = (0..n)
+                    .map(|_| {
+                        let before = 2e-6 * (chance() - 0.3);
+                        let step = ContactStep {
+                            before,
+                            free: before + 4e-6 * (chance() - 0.5),
+                            compliance: 3e-6,
+                            lambda: 3.0,
+                            dt: 2e-5,
+                        };
+                        Meeting { law, step, force: 0.0 }
+                    })
+                    .collect();
+                let mut slow = meetings.clone();
+                assert!(newton(&mut meetings, &yielding), "Newton wandered off");
+                sweep(&mut slow, &yielding);
+                let largest = slow.iter().map(|meeting| meeting.force).fold(0.0, f64::max);
+                for (fast, slow) in meetings.iter().zip(&slow) {
+                    assert!(
+                        (fast.force - slow.force).abs() <= 1e-7 * largest,
+                        "{} {}",
+                        fast.force,
+                        slow.force
+                    );
+                }
+            }
+        }
+    }
+}
