@@ -130,9 +130,9 @@ impl Striker {
             Striker::Stick => {
                 StrikerSpec::solid(16.0, Material::HICKORY, 5.0, 0.7, 2.5).on(Stick::at(Stick::BEAD))
             }
-            Striker::Shoulder => {
-                StrikerSpec::solid(20.0, Material::HICKORY, 20.0, 0.6, 5.0).on(Stick::at(Stick::SHOULDER))
-            }
+            // Its side, round by 6 mm, crosses an edge round by 0.4 mm: Hertz's mean radius, sqrt(6 * 0.4).
+            Striker::Shoulder => StrikerSpec::solid(20.0, Material::HICKORY_ACROSS, 1.5, 0.6, 5.0)
+                .on(Stick::at(Stick::SHOULDER)),
             Striker::Nylon => {
                 StrikerSpec::solid(16.0, Material::NYLON, 4.0, 0.7, 2.3).on(Stick::at(Stick::BEAD))
             }

@@ -107,9 +107,11 @@ struct Rung {
     turns: f64,
 }
 
-/// What a piece says of the modes of its body; what it does above them is heard, not followed.
+/// What a piece says of the modes of its body; what it does above them is heard, not followed, and a rim is
+/// a body of its own.
 fn body_modes(piece: &Piece) -> Vec<ModeInfo> {
-    piece.modes().into_iter().filter(|mode| mode.kind != ModeKind::Sampled).collect()
+    let of_body = |mode: &ModeInfo| mode.kind != ModeKind::Sampled && mode.body != "rim";
+    piece.modes().into_iter().filter(of_body).collect()
 }
 
 /// Strikes every mode and follows its phase and size while the piece renders; `[mode]`.

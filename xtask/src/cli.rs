@@ -13,7 +13,7 @@ use anyhow::Result;
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser};
 
-use crate::{bundle, demo, error, groove, hear, modes, output, realism, render, settings, suite};
+use crate::{bundle, demo, error, groove, hear, modes, output, realism, render, report, settings, suite};
 use arguments::{HearArguments, ModesArguments, RealismArguments, RenderArguments, Task};
 
 /// Developer and user commands of Overhear.
@@ -83,6 +83,7 @@ fn dispatch(task: Task) -> Result<()> {
         Task::Hear(arguments) => hear(arguments),
         Task::Modes(arguments) => modes(arguments),
         Task::Realism(arguments) => realism(arguments),
+        Task::Report { pages, output } => report::run(&pages, &output.unwrap_or_else(report::folder)),
         Task::Groove { output } => output::write(&output, &groove::file()),
     }
 }

@@ -4,7 +4,7 @@
 //! ([`render`]) turns a MIDI file ([`song`]) into sound through a [`player`], which is either the
 //! engine itself or the built plugin in an embedded [`host`]; [`wav`] and [`output`] put it on
 //! disk. `hear` ([`hear`]) strikes one piece and measures it ([`analysis`]); `realism`
-//! ([`realism`]) sets every piece beside recordings; `modes` ([`modes`]) lists what vibrates. [`demo`] plays the [`groove`] and draws a [`picture`] of it. [`bundle`]
+//! ([`realism`]) sets every piece beside recordings; [`report`] writes pages of figures; `modes` ([`modes`]) lists what vibrates. [`demo`] plays the [`groove`] and draws a [`picture`] of it. [`bundle`]
 //! and [`suite`] build and test.
 #![deny(unsafe_op_in_unsafe_fn)]
 
@@ -23,6 +23,7 @@ pub mod player;
 pub mod progress;
 pub mod realism;
 pub mod render;
+pub mod report;
 pub mod settings;
 pub mod song;
 pub mod suite;

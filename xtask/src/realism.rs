@@ -16,7 +16,7 @@ use std::thread;
 
 use anyhow::Result;
 use overhear_engine::kit::Control;
-use overhear_engine::piece::{BuildOptions, PieceId};
+use overhear_engine::piece::{BuildOptions, PieceId, Quality};
 
 use crate::bad_input;
 use crate::hear;
@@ -124,7 +124,8 @@ fn stroke(piece: PieceId, speed: f64, folder: Option<&Path>) -> Result<Stroke> {
         } else {
             Vec::new()
         },
-        options: BuildOptions::new(RATE),
+        // Nobody waits for it: what a bounce sounds like.
+        options: BuildOptions { quality: Quality::Offline, ..BuildOptions::new(RATE) },
         seconds,
         wav: None,
     };

@@ -107,13 +107,6 @@ impl ModalBody {
         heard
     }
 
-    /// Takes the modes in front closer to rest: scales displacements and velocities.
-    pub fn relax(&mut self, front: &Front, factor: f32) {
-        let n = front.length.min(self.state.re.len());
-        self.kernels.scale(&mut self.state.re[..n], factor);
-        self.kernels.scale(&mut self.state.im[..n], factor);
-    }
-
     /// Displacements of all modes, m, `[mode]`, padded.
     pub fn displacements(&self) -> &[f32] {
         &self.state.im

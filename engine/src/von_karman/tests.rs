@@ -60,7 +60,7 @@ fn finest(plate: &PlateModes, count: usize) -> f64 {
 }
 
 #[test]
-fn energy_and_gradient_are_those_of_direct_quadrature_of_the_bracket() {
+fn of_random_states_energy_and_gradient_are_those_of_direct_quadrature_of_the_bracket() {
     for (spec, hz) in [(PlateSpec::CRASH, 2000.0), (PlateSpec::RIDE, 1000.0), (PlateSpec::SPLASH, 2000.0)] {
         let (plate, tables) = built(&spec);
         let count = below(&plate, hz);
@@ -84,7 +84,7 @@ fn energy_and_gradient_are_those_of_direct_quadrature_of_the_bracket() {
 }
 
 #[test]
-fn the_oracles_gradient_is_its_energys_to_1e_6() {
+fn of_random_states_the_gradient_is_the_energys_finite_differences_to_1e_6() {
     let (plate, tables) = built(&PlateSpec::CRASH);
     let count = below(&plate, 700.0);
     let oracle = Oracle::new(&plate, &tables, count, 14.0, (24, 48));

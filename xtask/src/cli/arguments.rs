@@ -38,6 +38,15 @@ pub enum Task {
     Modes(ModesArguments),
     /// Measure every piece beside recordings of real kits
     Realism(RealismArguments),
+    /// Measure and write the pages of docs/report
+    Report {
+        /// cascade; all if none is given
+        #[arg(value_name = "PAGE")]
+        pages: Vec<String>,
+        /// The folder to write to; docs/report if not given
+        #[arg(short, long, value_name = "DIR")]
+        output: Option<PathBuf>,
+    },
     /// Write the demonstration groove (assets/groove.mid) anew
     #[command(hide = true)]
     Groove {
@@ -198,7 +207,7 @@ pub struct HearArguments {
     #[arg(long)]
     no_high_band: bool,
     /// How far up a cymbal's modes are coupled
-    #[arg(long, default_value = "standard")]
+    #[arg(long, default_value = "offline")]
     quality: Quality,
 }
 
