@@ -76,11 +76,11 @@ impl Thermoelastic {
 /// Something soft laid on a surface, that takes energy where it lies.
 ///
 /// All act live, by their amount. A dashpot at a place damps a mode in proportion to its shape squared there; a pillow that
-/// touches the whole head damps all modes alike, and those more whose air has to get past it: when both heads
+/// touches both heads damps all modes alike, and those more whose air has to get past it: when both heads
 /// move the same way, what is between them goes to and fro through the pillow.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Muffler {
-    /// A pillow against the whole head.
+    /// A pillow against both heads.
     Pillow {
         /// Decay rate added to every mode at full amount, 1/s.
         sigma: f64,

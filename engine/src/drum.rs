@@ -8,6 +8,7 @@ use std::f64::consts::TAU;
 
 pub mod build;
 pub mod coupled;
+pub mod hearing;
 pub mod high_band;
 pub mod shadow;
 pub mod spec;
@@ -27,6 +28,7 @@ use crate::surface::wires::PRELOAD;
 use crate::surface::{Surface, SurfaceParts};
 
 use build::Blueprint;
+use hearing::Hearing;
 use high_band::{HighBand, HighMuffling};
 pub use spec::DrumSpec;
 use stretch::Stretch;
@@ -49,7 +51,7 @@ const RING_PLACES: usize = 6;
 /// What muffling takes from the modes.
 #[derive(Debug, Clone, PartialEq)]
 enum MufflerCoefs {
-    /// Decay rates of the batter's own motion and of the air's along the drum at full amount, 1/s.
+    /// Decay rates of the heads' own motion and of the air's along the drum at full amount, 1/s.
     Pillow(f64, f64),
     /// A pad.
     Gel {
@@ -79,6 +81,7 @@ enum MufflerCoefs {
 pub struct Drum {
     surface: Surface,
     blueprint: Blueprint,
+    hearing: Hearing,
     modes: Vec<BodyMode>,
     /// Shapes on the resonant head, where wires lie against it.
     far_shapes: Option<ShapeTable>,
@@ -109,12 +112,13 @@ impl Drum {
         let rungs: Vec<Rung> = blueprint.modes.iter().map(|mode| mode.at(&place)).collect();
         let modes = lay_out(&spec, &blueprint, options);
         let muffler = MufflerCoefs::new(&spec, &blueprint);
+        let hearing = Hearing::new(&blueprint, &spec);
         let bare =
             |mode: &BodyMode| Mode { omega: rungs[mode.pair].omega, sigma: 0.0, mass: rungs[mode.pair].mass };
         let surface = Surface::new(SurfaceParts {
             modes: modes.iter().map(bare).collect(),
             shapes: blueprint.batter_shapes(spec.splitting),
-            transfer: blueprint.transfer(&spec, pitch),
+            transfer: hearing.transfers(&blueprint.modes, &place, pitch).collect(),
             material: spec.batter.membrane.material,
             lossless: options.lossless,
             sample_rate: options.sample_rate,
@@ -123,6 +127,7 @@ impl Drum {
             surface,
             far_shapes: if spec.wires { blueprint.resonant_shapes(spec.splitting) } else { None },
             blueprint,
+            hearing,
             modes,
             muffler,
             lossless: options.lossless,
@@ -236,7 +241,8 @@ impl Drum {
         }
     }
 
-    /// Brings the shapes to where the pitch is; only strokes need them.
+    /// Brings the shapes and what is heard of them to where the pitch is; only strokes need the shapes, and hide that
+    /// what still rings is heard a little differently.
     fn follow_shapes(&mut self) {
         if !std::mem::take(&mut self.shapes_stale) {
             return;
@@ -254,6 +260,8 @@ impl Drum {
                 }
             }
         }
+        let transfers = self.hearing.transfers(&self.blueprint.modes, &place, self.pitch.value());
+        self.surface.set_transfer(transfers);
         let far = self.blueprint.resonant.as_ref().map(|head| head.film(&place));
         self.surface.set_films(self.blueprint.batter.film(&place), far);
         if let Some(far) = &self.far_shapes {
@@ -400,7 +408,7 @@ impl MufflerCoefs {
     /// Decay rate that full muffling adds to a mode, 1/s.
     fn sigma(&self, mode: &BodyMode, rung: &Rung, blueprint: &Blueprint, place: &Place) -> f64 {
         match self {
-            MufflerCoefs::Pillow(sigma, flow) => sigma * rung.batter + flow * rung.flow,
+            MufflerCoefs::Pillow(sigma, flow) => sigma * (rung.batter + rung.resonant) + flow * rung.flow,
             MufflerCoefs::Gel { dashpot, radial, .. } => {
                 let tuned = &blueprint.modes[mode.pair];
                 let (first, count) = blueprint.batter.order(tuned.m);

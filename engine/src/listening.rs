@@ -112,19 +112,19 @@ impl Rayleigh {
         // Midpoints around half the circle: exact once they outnumber the waves around it.
         let waves = f64::from(mode.m) + k * self.radius * self.point.inclination.sin();
         let count = 8 + (0.6 * waves) as usize + (3.0 * waves.cbrt()) as usize;
+        let theta = |i: usize| PI * (i as f64 + 0.5) / count as f64;
+        let around: Vec<[f64; 2]> =
+            (0..count).map(|i| [theta(i).cos(), (f64::from(mode.m) * theta(i)).cos()]).collect();
         let (mut re, mut im) = (0.0, 0.0);
         let rings = self.rule.nodes.iter().zip(&self.rule.weights).zip(mode.radial);
         for ((&r, &weight), &shape) in rings {
             let x = r * self.radius;
             let (mut ring_re, mut ring_im) = (0.0, 0.0);
-            for i in 0..count {
-                let theta = PI * (i as f64 + 0.5) / count as f64;
-                let cos = theta.cos();
+            for [cos, turn] in &around {
                 let d = (height * height + offset * offset + x * x - 2.0 * offset * x * cos).sqrt();
-                let around = (f64::from(mode.m) * theta).cos() / d;
-                let (sin_kd, cos_kd) = (k * (self.point.distance - d)).sin_cos();
-                ring_re += around * cos_kd;
-                ring_im += around * sin_kd;
+                let (sin_kd, cos_kd) = sin_cos(k * (self.point.distance - d));
+                ring_re += turn / d * cos_kd;
+                ring_im += turn / d * sin_kd;
             }
             let area = weight * shape * x * self.radius * TAU / count as f64;
             re += area * ring_re;
@@ -141,9 +141,33 @@ impl Rayleigh {
     }
 }
 
+/// Sine and cosine within 1e-8, without branches, so that a loop of them goes side by side; a drum is heard by
+/// millions.
+fn sin_cos(x: f64) -> (f64, f64) {
+    /// Adding it rounds to whole numbers.
+    const ROUND: f64 = 1.5 * (1_u64 << 52) as f64;
+    // A quarter of the angle, within an eighth of a turn; then doubled twice.
+    let quarter = 0.25 * (x - TAU * ((x / TAU + ROUND) - ROUND));
+    let y = quarter * quarter;
+    let sin = quarter
+        * (1.0 - y / 6.0 * (1.0 - y / 20.0 * (1.0 - y / 42.0 * (1.0 - y / 72.0 * (1.0 - y / 110.0)))));
+    let cos = 1.0 - y / 2.0 * (1.0 - y / 12.0 * (1.0 - y / 30.0 * (1.0 - y / 56.0 * (1.0 - y / 90.0))));
+    let (sin, cos) = (2.0 * sin * cos, 1.0 - 2.0 * sin * sin);
+    (2.0 * sin * cos, 1.0 - 2.0 * sin * sin)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_quick_sine_and_cosine_are_right_to_1e_8() {
+        for i in -4000..4000 {
+            let x = 0.0123 * f64::from(i);
+            let (sin, cos) = sin_cos(x);
+            assert!((sin - x.sin()).abs() < 1e-8 && (cos - x.cos()).abs() < 1e-8, "{x}: {sin} {cos}");
+        }
+    }
 
     #[test]
     fn on_the_axis_a_piston_has_its_closed_form() {

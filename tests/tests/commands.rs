@@ -115,6 +115,7 @@ fn bad_input_is_one_line_with_the_value_exit_code_2_and_no_output() {
         (&["modes", "gong"], &["gong", "kick"]),
         (&["modes", "kick", "--set", "kick_muffle=2"], &["2", "0 to 1"]),
         (&["realism", "timpani"], &["timpani", "kick", "splash"]),
+        (&["realism", "snare", "--set", "kick_tune=60"], &["kick_tune=60", "snare"]),
         (&["realism", "--speeds", "3,0"], &["'0'", "25 m/s"]),
         (&["realism", "snare", "--speeds", "3", "--wav", "song.mid"], &["song.mid", "folder"]),
         (&["dance"], &["dance", "render"]),

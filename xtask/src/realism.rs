@@ -1,7 +1,7 @@
 //! `realism`: every piece by itself, struck softly to hard, beside recordings of real ones.
 //!
 //! Each piece is rendered as `hear` renders it, with the stroke its ordinary note gives it and the
-//! kit's default muffling; the [`features`] are measured and set beside the [`reference`]. What is
+//! kit's default muffling; the [`features`] are measured and set beside the [`mod@reference`]. What is
 //! heard is the piece's own listening point: no neighbours, no room, no mix.
 
 pub mod features;
@@ -9,7 +9,7 @@ pub mod reference;
 mod report;
 mod table;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
@@ -55,6 +55,8 @@ pub struct Request {
     pub pieces: Vec<PieceId>,
     /// Speeds of the strokes, m/s, ascending.
     pub speeds: Vec<f64>,
+    /// Tuning and muffling, where it is not the kit's; each of one of the pieces.
+    pub settings: Vec<(PieceId, PieceSetting)>,
     /// A folder to keep the sounds in.
     pub wav: Option<PathBuf>,
 }
@@ -74,6 +76,23 @@ pub fn pieces(names: &[String]) -> Result<Vec<PieceId>> {
         })
     };
     names.iter().map(known).collect()
+}
+
+/// Reads the values of `--set`, each for the piece it acts on.
+///
+/// # Errors
+/// [`BadInput`](crate::error::BadInput) with the value and what is accepted.
+pub fn settings(pieces: &[PieceId], assignments: &[String]) -> Result<Vec<(PieceId, PieceSetting)>> {
+    let read = |text: &String| {
+        let acts = |piece: &&PieceId| text.trim().starts_with(&piece.name().replace('-', "_"));
+        let &piece = pieces.iter().find(acts).ok_or_else(|| {
+            let names = pieces.iter().map(|piece| piece.name()).collect::<Vec<_>>().join(", ");
+            bad_input!("`{text}` acts on no piece that is measured: {names}")
+        })?;
+        let settings = settings::parse_for_piece(piece, std::slice::from_ref(text))?;
+        Ok(settings.into_iter().map(move |setting| (piece, setting)).collect::<Vec<_>>())
+    };
+    Ok(assignments.iter().map(read).collect::<Result<Vec<_>>>()?.concat())
 }
 
 /// Renders and measures everything, on as many threads as there are cores.
@@ -96,7 +115,7 @@ pub fn run(request: &Request) -> Result<Report> {
             let Some(&(piece, speed)) = jobs.get(index) else {
                 return;
             };
-            let result = stroke(piece, speed, request.wav.as_deref());
+            let result = stroke(piece, speed, request);
             progress.lock().unwrap_or_else(PoisonError::into_inner).advance(1);
             done.lock().unwrap_or_else(PoisonError::into_inner)[index] = Some(result);
         }
@@ -111,26 +130,20 @@ pub fn run(request: &Request) -> Result<Report> {
 }
 
 /// Renders one stroke, keeps it if asked to, and measures it.
-fn stroke(piece: PieceId, speed: f64, folder: Option<&Path>) -> Result<Stroke> {
+fn stroke(piece: PieceId, speed: f64, asked: &Request) -> Result<Stroke> {
     let mut strike = hear::default_strike(piece);
     strike.speed = speed;
-    let muffling = settings::default_muffling(piece);
+    let muffling = Control::Muffling(piece);
+    let mut settings = vec![PieceSetting { control: muffling, value: settings::default_muffling(piece) }];
+    settings.extend(asked.settings.iter().filter(|(of, _)| *of == piece).map(|(_, setting)| *setting));
+    // Nothing that rests where it is needs time to get there.
+    settings.retain(|setting| setting.control != muffling || setting.value > 0.0);
     let seconds = if piece.is_drum() { DRUM_SECONDS } else { CYMBAL_SECONDS };
-    let request = hear::Request {
-        piece,
-        strike,
-        settings: if muffling > 0.0 {
-            vec![PieceSetting { control: Control::Muffling(piece), value: muffling }]
-        } else {
-            Vec::new()
-        },
-        // Nobody waits for it: what a bounce sounds like.
-        options: BuildOptions { quality: Quality::Offline, ..BuildOptions::new(RATE) },
-        seconds,
-        wav: None,
-    };
+    // Nobody waits for it: what a bounce sounds like.
+    let options = BuildOptions { quality: Quality::Offline, ..BuildOptions::new(RATE) };
+    let request = hear::Request { piece, strike, settings, options, seconds, wav: None };
     let sound = hear::render(&request)?;
-    if let Some(folder) = folder {
+    if let Some(folder) = &asked.wav {
         let path = folder.join(format!("{}-{speed}.wav", piece.name()));
         let mut file = WavFile::create(&path, Bits::Float32, RATE as u32, 1, sound.samples.len() as u64)?;
         file.write(&[&sound.samples])?;
@@ -155,7 +168,12 @@ mod tests {
 
     #[test]
     fn a_stroke_has_every_figure_that_is_compared_or_says_it_has_not() {
-        let report = run(&Request { pieces: vec![PieceId::RackTom], speeds: vec![2.0, 4.0], wav: None });
+        let report = run(&Request {
+            pieces: vec![PieceId::RackTom],
+            speeds: vec![2.0, 4.0],
+            settings: Vec::new(),
+            wav: None,
+        });
         let report = report.unwrap();
         let piece = &report.pieces[0];
         assert_eq!(piece.features.len(), reference::figures(PieceId::RackTom).len());

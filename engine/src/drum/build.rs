@@ -3,15 +3,13 @@
 
 use std::f64::consts::TAU;
 
-use crate::air::{DENSITY, SPEED_OF_SOUND};
+use crate::air::DENSITY;
 use crate::cavity::{CavityOrder, HeadShape};
-use crate::drum::coupled::{CoupledMode, OrderProblem, Outside, Stretched};
+use crate::drum::coupled::{CoupledMode, OrderProblem, Stretched};
 use crate::drum::high_band::{Ear, HighBandSpec};
-use crate::drum::shadow;
 use crate::drum::spec::{DrumSpec, HeadSpec};
 use crate::drum::tuned::{self, Grid, PITCHES, PitchScale, Place, TunedMode};
 use crate::error::SpecError;
-use crate::listening::{Radiator, Rayleigh};
 use crate::math::bessel::{self, JTable};
 use crate::membrane::{self, Membrane, MembraneMode, ModeRange, Surroundings};
 use crate::piece::BuildOptions;
@@ -265,70 +263,5 @@ impl Blueprint {
         let ear = Ear { point, outside: spec.outside, far: true };
         let head = self.resonant.as_ref()?;
         Some(head.high_band(ear, options, wires::GROUPS))
-    }
-
-    /// How each mode of the body is heard at the listening point at a pitch (Hz), `[mode]`, pairs as two.
-    ///
-    /// The struck head is heard as in a baffle from near, as from a body in free air from far; the
-    /// other head from behind the body, in free air.
-    pub fn transfer(&self, spec: &DrumSpec, pitch_hz: f64) -> Vec<[f64; 2]> {
-        let radius = spec.batter.membrane.radius;
-        let place = self.scale.place(pitch_hz);
-        let finest = self.batter.membrane.modes().iter().map(|mode| mode.zero).fold(0.0, f64::max);
-        let highest = TAU * spec.batter.limit_hz * radius / SPEED_OF_SOUND;
-        let nodes = 12 + (0.7 * (finest + highest)) as usize;
-        let point = spec.listening_point;
-        let near = Rayleigh::new(radius, point, nodes);
-        let behind = spec.cavity.map_or(0.0, |cavity| cavity.depth);
-        let far = Rayleigh::new(radius, point.from_behind(behind), nodes);
-        let near_shapes = self.batter.membrane.radial_shapes(near.radii());
-        let far_shapes = self.resonant.as_ref().map(|head| head.membrane.radial_shapes(far.radii()));
-        let mut out = Vec::new();
-        for mode in &self.modes {
-            let omega = mode.at(&place).omega;
-            let (first, count) = self.batter.order(mode.m);
-            let mix = |shapes: &[f64], first: usize, count: usize, skip: usize| -> Vec<f64> {
-                (0..nodes)
-                    .map(|r| {
-                        let share = |i| mode.share(skip + i, &place) * shapes[(first + i) * nodes + r];
-                        (0..count).map(share).sum()
-                    })
-                    .collect()
-            };
-            let radial = mix(&near_shapes, first, count, 0);
-            let [mut re, mut im] = near.transfer(&Radiator { m: mode.m, radial: &radial, omega });
-            if let Outside::Free { .. } = spec.outside {
-                let ka = omega * radius / SPEED_OF_SOUND;
-                let space = 0.5 * shadow::baffling(ka);
-                let gain = shadow::near_gain(ka, point.fills(radius));
-                (re, im) = (re * gain, im * gain);
-                let radial = match (&self.resonant, &far_shapes) {
-                    (Some(head), Some(shapes)) => {
-                        let (far_first, far_count) = head.order(mode.m);
-                        Some(mix(shapes, far_first, far_count, count))
-                    }
-                    // The open end moves as a piston.
-                    _ if mode.m == 0 => Some(vec![mode.outlet(&place); nodes]),
-                    _ => None,
-                };
-                if let Some(radial) = radial {
-                    let [far_re, far_im] = far.transfer(&Radiator { m: mode.m, radial: &radial, omega });
-                    // Outward is toward the point for the one head and away for the other; the body
-                    // hides the far one as it becomes a baffle.
-                    let gain = -(1.0 - space);
-                    let (sin, cos) = (omega / SPEED_OF_SOUND
-                        * (point.from_behind(behind).distance - point.distance))
-                        .sin_cos();
-                    re += gain * (far_re * cos + far_im * sin);
-                    im += gain * (far_im * cos - far_re * sin);
-                }
-            }
-            let axis = spec.splitting.axis(mode.m, 0);
-            for (member, _) in Splitting::ROUND.members(mode.m, 0) {
-                let share = near.toward(mode.m, member, axis);
-                out.push([share * re, share * im]);
-            }
-        }
-        out
     }
 }

@@ -44,6 +44,8 @@ struct Entry {
     mass: f64,
     /// Share of the kinetic energy that is the batter's.
     batter: f64,
+    /// Share that is the resonant head's.
+    resonant: f64,
     /// Share that is in air going along the drum.
     flow: f64,
 }
@@ -77,6 +79,8 @@ pub struct Rung {
     pub mass: f64,
     /// Share of the kinetic energy that is the batter's.
     pub batter: f64,
+    /// Share of the kinetic energy that is the resonant head's.
+    pub resonant: f64,
     /// Share of the kinetic energy that is in air going along the drum as one.
     pub flow: f64,
 }
@@ -118,7 +122,8 @@ impl Place {
         self.of(Grid::Fine).blend(value)
     }
 
-    fn of(&self, grid: Grid) -> &Stencil {
+    /// The neighbours among the pitches of a grid.
+    pub fn of(&self, grid: Grid) -> &Stencil {
         &self.grids[grid as usize]
     }
 }
@@ -135,6 +140,7 @@ impl TunedMode {
             sigma: place.blend(|i| row[i].sigma).exp(),
             mass: place.blend(|i| row[i].mass).exp(),
             batter: place.blend(|i| row[i].batter),
+            resonant: place.blend(|i| row[i].resonant),
             flow: place.blend(|i| row[i].flow),
         }
     }
@@ -148,6 +154,11 @@ impl TunedMode {
     /// Displacement of the air at an open end, per share.
     pub fn outlet(&self, place: &Place) -> f64 {
         place.of(self.grid).blend(|pitch| f64::from(self.outlet[pitch]))
+    }
+
+    /// The pitches it is worked out at.
+    pub fn grid(&self) -> Grid {
+        self.grid
     }
 
     /// Number of head modes it mixes.
@@ -192,6 +203,7 @@ pub fn follow(
                 sigma: mode.sigma.max(1e-9).ln(),
                 mass: -2.0 * size.ln(),
                 batter: mode.share[0],
+                resonant: mode.share[1],
                 flow: mode.flow,
             };
             outlet[pitch] = (sign * mode.outlet / size) as f32;

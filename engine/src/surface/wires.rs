@@ -10,9 +10,12 @@
 //! Neglected: motion of the strands against each other, their own bending waves, their weight.
 
 use crate::contact::{ContactLaw, Material, Tip};
+use crate::shapes::ShapeTable;
 use crate::snapshot::WireSnapshot;
 
 use super::oscillator::Oscillator;
+use super::touch::{Side, TouchPoint, Toucher};
+use super::{FIRST_WIRE, MAX_STRIKERS, Surface, owner};
 
 /// Groups of strands.
 pub const GROUPS: usize = 8;
@@ -115,5 +118,122 @@ impl SnareWires {
     /// What is to be seen of them; `aloft` groups are off the head.
     pub fn snapshot(&self, aloft: u32) -> WireSnapshot {
         WireSnapshot { landings: self.landings, aloft, last_lift: (self.last_lift as f64 * self.dt) as f32 }
+    }
+}
+
+impl Surface {
+    /// Gives the drum snare wires; [`lay_wires`](Self::lay_wires) tells where. Allocates.
+    pub fn set_wires(&mut self, head: &Material) {
+        let wires = SnareWires::new(head, self.lossless, self.dt);
+        let (preload, seat) = wires.seat();
+        for _ in PLACES {
+            let mut point = TouchPoint::absent(self.body.len(), self.dt);
+            point.arrive(Side::Surface, wires.law, [1.0, 0.0, 0.0, 0.0, 0.0]);
+            (point.present, point.preload, point.seat) = (false, preload, seat);
+            let mut group = Toucher::absent(self.dt);
+            (group.parts[0], group.part_count) = (wires.group(self.lossless), 1);
+            self.points.push(point);
+            self.touchers.push(group);
+        }
+        self.wires = Some(wires);
+    }
+
+    /// Lays the wires against the far head of these shapes (positive along the stroke).
+    ///
+    /// # Real-time
+    /// Linear in the number of modes.
+    pub fn lay_wires(&mut self, far: &ShapeTable) {
+        let disc = self.far_film.map_or(0.0, |film| PATCH / film.radius);
+        for (point, [x, y]) in self.points.iter_mut().skip(FIRST_WIRE).zip(PLACES) {
+            let shape = point.port.shape_mut();
+            far.fill_pressed(x.hypot(y), x.atan2(-y), disc, shape);
+            // They lie on the other side: their way into the head is against the stroke.
+            shape.iter_mut().for_each(|shape| *shape = -*shape);
+        }
+        if let Some(high) = &mut self.far_high {
+            for (i, [x, y]) in PLACES.into_iter().enumerate() {
+                high.put(i, x.hypot(y), x.atan2(-y), TURN);
+            }
+        }
+        for i in FIRST_WIRE..self.points.len() {
+            let position = self.touchers[owner(i)].position(&self.points[i].weights);
+            let moved = position - self.body.displacement_at(&self.points[i].port);
+            // A head of another shape lies elsewhere under the wires; the contact must not notice.
+            let point = &mut self.points[i];
+            point.origin = moved - (point.compression - point.seat) - point.bands_bent();
+            if point.present {
+                self.connect(i);
+            }
+        }
+    }
+
+    /// Throws the wires on or off.
+    ///
+    /// # Real-time
+    /// No allocation; linear in the number of modes.
+    pub fn throw_wires(&mut self, on: bool) {
+        if let Some(wires) = self.wires.as_mut().filter(|wires| wires.on != on) {
+            wires.on = on;
+            self.park_wires();
+            if on && !self.body.is_still() {
+                self.wake_wires();
+            }
+        }
+    }
+
+    /// Sets the force of the strainer, N; live.
+    pub fn set_preload(&mut self, preload: f64) {
+        let Some(wires) = &mut self.wires else {
+            return;
+        };
+        wires.preload = preload.clamp(PRELOAD.0, PRELOAD.2);
+        let (share, seat) = wires.seat();
+        for point in &mut self.points[FIRST_WIRE..] {
+            // What is measured from equilibrium stays; equilibrium itself moves.
+            point.compression += seat - point.seat;
+            (point.preload, point.seat) = (share, seat);
+        }
+    }
+
+    /// What the wires have done since the latest stroke.
+    pub fn wires(&self) -> WireSnapshot {
+        let aloft = self.points.iter().skip(FIRST_WIRE).filter(|point| point.present && !point.touching);
+        self.wires.as_ref().map_or_else(WireSnapshot::default, |wires| wires.snapshot(aloft.count() as u32))
+    }
+
+    /// Lets the wires lie still where they are.
+    pub(super) fn park_wires(&mut self) {
+        if let Some(wires) = &mut self.wires {
+            wires.parked = true;
+            self.points[FIRST_WIRE..].iter_mut().for_each(|point| point.present = false);
+            self.touchers[MAX_STRIKERS..].iter_mut().for_each(|group| group.present = false);
+            self.list();
+        }
+    }
+
+    /// Lets the wires move again, from the equilibrium they were left in.
+    pub(super) fn wake_wires(&mut self) {
+        let Some(wires) = self.wires.as_mut().filter(|wires| wires.on && wires.parked) else {
+            return;
+        };
+        wires.parked = false;
+        let lambda = wires.resting_lambda();
+        for i in FIRST_WIRE..self.points.len() {
+            let point = &mut self.points[i];
+            (point.present, point.touching, point.lambda) = (true, true, lambda);
+            (point.compression, point.force) = (point.seat, point.preload);
+            if let Some(film) = self.far_film {
+                let (x, y) = (PLACES[i - FIRST_WIRE][0], PLACES[i - FIRST_WIRE][1]);
+                (point.bands, point.band_count) = film.bands(x.hypot(y), PATCH, !self.lossless, self.dt);
+            }
+            let group = &mut self.touchers[owner(i)];
+            group.present = true;
+            group.parts[0].rest();
+            self.points[i].origin = -self.body.displacement_at(&self.points[i].port);
+        }
+        self.list();
+        for i in FIRST_WIRE..self.points.len() {
+            self.connect(i);
+        }
     }
 }

@@ -10,7 +10,7 @@ pub static PARAMETERS: [Parameter; 28] = {
     use PieceId::*;
     [
         drum_tune(Kick, "Kick", "kktune", "kick_tune", [35.0, 55.0, 90.0]),
-        muffle(Kick, "Kick", "kkmuff", "kick_muffle", 0.2),
+        muffle(Kick, "Kick", "kkmuff", "kick_muffle", 0.15),
         level(Kick, "Kick", "kklevl", "kick_level", 0.0),
         drum_tune(Snare, "Snare", "sntune", "snare_tune", [140.0, 220.0, 360.0]),
         muffle(Snare, "Snare", "snmuff", "snare_muffle", 0.0),

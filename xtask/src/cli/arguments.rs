@@ -283,6 +283,9 @@ pub struct RealismArguments {
     #[arg(long, value_name = "M/S,M/S,...", value_delimiter = ',', value_parser = speed,
           default_values_t = realism::SPEEDS)]
     speeds: Vec<f64>,
+    /// Tune or muffle a piece, as in snare_tune=180 or kick_muffle=.4; repeatable
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<String>,
     /// Print one JSON object (see docs/commands.md)
     #[arg(long)]
     pub json: bool,
@@ -300,7 +303,9 @@ impl RealismArguments {
         let mut speeds = self.speeds;
         speeds.sort_by(f64::total_cmp);
         speeds.dedup();
-        Ok(realism::Request { pieces: realism::pieces(&self.pieces)?, speeds, wav: self.wav })
+        let pieces = realism::pieces(&self.pieces)?;
+        let settings = realism::settings(&pieces, &self.set)?;
+        Ok(realism::Request { pieces, speeds, settings, wav: self.wav })
     }
 }
 

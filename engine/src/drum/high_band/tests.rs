@@ -1,6 +1,7 @@
 use super::*;
 use crate::drum::DrumSpec;
 use crate::drum::build::Blueprint;
+use crate::drum::hearing::Hearing;
 use crate::piece::BuildOptions;
 
 const RATE: f64 = 44_100.0;
@@ -30,7 +31,9 @@ fn slices_follow_on_the_complete_set_in_frequency_mass_count_and_loudness() {
     let members = |m: u32| if m == 0 { 1.0 } else { 2.0 };
     let low = highest.omega / 2.0_f64.sqrt();
     let (mut heard, mut count) = (0.0, 0.0);
-    let transfer = blueprint.transfer(&spec, middle);
+    let spec = DrumSpec { pitch_hz: (spec.pitch_hz.0, middle, spec.pitch_hz.2), ..spec };
+    let hearing = Hearing::new(&blueprint, &spec);
+    let transfer: Vec<_> = hearing.transfers(&blueprint.modes, &place, middle).collect();
     let mut k = 0;
     for mode in &blueprint.modes {
         let both = members(mode.m) as usize;

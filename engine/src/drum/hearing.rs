@@ -1,0 +1,193 @@
+//! How a drum's modes are heard at a point, over its range of pitches.
+//!
+//! Model: the struck head is heard as in a baffle from near, as from a body in free air from far; the other head from
+//! behind the body, in free air (see [`listening`](crate::listening) and [`shadow`]).
+//!
+//! What a mode shows of itself follows the pitch: its frequency does, and where it passes a mode of the air the
+//! two heads' shares in it change places, which decides between much and nothing. Modes that are heard one by one are
+//! worked out at the pitches of their own [grid](super::tuned::Grid). Of all others the phase is that of the default
+//! pitch, where among so many it does not count, and the size goes straight in logarithms from the lowest pitch over the
+//! default to the highest.
+
+use std::f64::consts::TAU;
+
+use crate::air::SPEED_OF_SOUND;
+use crate::drum::build::Blueprint;
+use crate::drum::coupled::Outside;
+use crate::drum::shadow;
+use crate::drum::spec::DrumSpec;
+use crate::drum::tuned::{Place, TunedMode};
+use crate::listening::{Radiator, Rayleigh};
+use crate::split::Splitting;
+
+/// Modes up to so many times the default pitch are heard one by one. *By ear*.
+const SINGLY: f64 = 12.0;
+
+/// The least size that is told from nothing, over that at the default pitch.
+const LEAST: f32 = 1e-3;
+
+/// Pressure over modal acceleration of the member of a pair that points at the listener, Pa s2/m.
+enum PairHearing {
+    /// `[pitch of the mode's grid]`.
+    Singly(Vec<[f32; 2]>),
+    /// Among many.
+    Together {
+        /// At the default pitch.
+        default: [f32; 2],
+        /// Logarithm of the size at the lowest and the highest pitch over that at the default.
+        ends: [f32; 2],
+    },
+}
+
+/// Everything needed to hear a drum at any of its pitches.
+pub struct Hearing {
+    /// `[pair]`.
+    pairs: Vec<PairHearing>,
+    /// `[mode of the body]`: its pair, and what it shows of itself toward the listener.
+    members: Vec<(u32, f32)>,
+    /// Logarithms of the lowest, the default and the highest pitch (Hz).
+    pitches: [f64; 3],
+}
+
+impl Hearing {
+    /// Works it out. Allocates; takes hundredths of a second.
+    pub fn new(blueprint: &Blueprint, spec: &DrumSpec) -> Hearing {
+        let (lowest, default, highest) = spec.pitch_hz;
+        let place = blueprint.scale.place(default);
+        let ends = [lowest, highest].map(|pitch| blueprint.scale.place(pitch));
+        let limit = TAU * SINGLY * default;
+        let few = Ears::new(blueprint, spec, 2.5 * limit);
+        let all = Ears::new(blueprint, spec, TAU * spec.batter.limit_hz);
+        let pitches = blueprint.scale.pitches();
+        let hear = |mode: &TunedMode| {
+            if mode.at(&place).omega > limit {
+                let default = all.transfer(mode, &place);
+                let size = |[re, im]: [f32; 2]| re.hypot(im);
+                let least = LEAST * size(default);
+                let end = |place| (size(all.transfer(mode, place)).max(least) / size(default)).ln();
+                let ends = [end(&ends[0]), end(&ends[1])].map(|x| if x.is_finite() { x } else { 0.0 });
+                return PairHearing::Together { default, ends };
+            }
+            let at = |pitch: usize| few.transfer(mode, &blueprint.scale.place(pitches[pitch]));
+            PairHearing::Singly(mode.grid().pitches().map(at).collect())
+        };
+        let pairs = blueprint.modes.iter().map(hear).collect();
+        let mut members = Vec::new();
+        for (pair, mode) in blueprint.modes.iter().enumerate() {
+            let axis = spec.splitting.axis(mode.m, 0);
+            for (member, _) in Splitting::ROUND.members(mode.m, 0) {
+                members.push((pair as u32, spec.listening_point.toward(mode.m, member, axis) as f32));
+            }
+        }
+        Hearing { pairs, members, pitches: [lowest, default, highest].map(f64::ln) }
+    }
+
+    /// How every mode of the body is heard at a pitch (Hz): told one by one, pressure over modal acceleration, real and
+    /// imaginary part, Pa s2/m.
+    ///
+    /// # Real-time
+    /// No allocation; linear in the number of modes.
+    pub fn transfers<'a>(
+        &'a self,
+        modes: &'a [TunedMode],
+        place: &'a Place,
+        pitch_hz: f64,
+    ) -> impl Iterator<Item = [f64; 2]> + 'a {
+        let [low, default, high] = self.pitches;
+        let up = pitch_hz.ln() - default;
+        let (end, share) = if up < 0.0 { (0, up / (low - default)) } else { (1, up / (high - default)) };
+        self.members.iter().map(move |&(pair, shown)| {
+            let (pair, shown) = (pair as usize, f64::from(shown));
+            match &self.pairs[pair] {
+                PairHearing::Singly(row) => {
+                    let stencil = place.of(modes[pair].grid());
+                    [0, 1].map(|i| shown * stencil.blend(|pitch| f64::from(row[pitch][i])))
+                }
+                PairHearing::Together { default, ends } => {
+                    let size = shown * (share * f64::from(ends[end])).exp();
+                    default.map(|part| size * f64::from(part))
+                }
+            }
+        })
+    }
+}
+
+/// The listening point as each head sees it.
+struct Ears<'a> {
+    blueprint: &'a Blueprint,
+    spec: &'a DrumSpec,
+    near: Rayleigh,
+    far: Rayleigh,
+    /// Radial functions of the heads' modes where the integrals want them, `[mode][radius]`.
+    near_shapes: Vec<f64>,
+    far_shapes: Option<Vec<f64>>,
+    /// What the far head is later by, s.
+    lag: f64,
+}
+
+impl<'a> Ears<'a> {
+    /// For modes up to an angular frequency `top` (rad/s) at any pitch.
+    fn new(blueprint: &'a Blueprint, spec: &'a DrumSpec, top: f64) -> Ears<'a> {
+        let radius = spec.batter.membrane.radius;
+        let head = &blueprint.batter.membrane;
+        let slackest = blueprint.batter.tensions.iter().copied().fold(f64::INFINITY, f64::min);
+        let reached = head.modes().iter().filter(|mode| head.ringing(mode, slackest).omega <= top);
+        let finest = reached.map(|mode| mode.zero).fold(0.0, f64::max);
+        let nodes = 12 + (0.7 * (finest + top * radius / SPEED_OF_SOUND)) as usize;
+        let point = spec.listening_point;
+        let behind = point.from_behind(spec.cavity.map_or(0.0, |cavity| cavity.depth));
+        let (near, far) = (Rayleigh::new(radius, point, nodes), Rayleigh::new(radius, behind, nodes));
+        let near_shapes = head.radial_shapes(near.radii());
+        let far_shapes = blueprint.resonant.as_ref().map(|head| head.membrane.radial_shapes(far.radii()));
+        let lag = (behind.distance - point.distance) / SPEED_OF_SOUND;
+        Ears { blueprint, spec, near, far, near_shapes, far_shapes, lag }
+    }
+
+    /// A head's motion in a mode, along the radius: head modes `first..first + count` of the head, `skip..` of the
+    /// mode's shares.
+    fn radial(&self, mode: &TunedMode, place: &Place, shapes: &[f64], head: [usize; 3]) -> Vec<f64> {
+        let nodes = self.near.radii().len();
+        let [first, count, skip] = head;
+        let shares: Vec<f64> = (0..count).map(|i| mode.share(skip + i, place)).collect();
+        let mut radial = vec![0.0; nodes];
+        for (i, share) in shares.iter().enumerate() {
+            let row = &shapes[(first + i) * nodes..][..nodes];
+            radial.iter_mut().zip(row).for_each(|(sum, shape)| *sum += share * shape);
+        }
+        radial
+    }
+
+    /// Transfer of a member of a pair that points at the listener.
+    fn transfer(&self, mode: &TunedMode, place: &Place) -> [f32; 2] {
+        let omega = mode.at(place).omega;
+        let (first, count) = self.blueprint.batter.order(mode.m);
+        let radial = self.radial(mode, place, &self.near_shapes, [first, count, 0]);
+        let [mut re, mut im] = self.near.transfer(&Radiator { m: mode.m, radial: &radial, omega });
+        if let Outside::Free { .. } = self.spec.outside {
+            let radius = self.spec.batter.membrane.radius;
+            let ka = omega * radius / SPEED_OF_SOUND;
+            let space = 0.5 * shadow::baffling(ka);
+            let gain = shadow::near_gain(ka, self.spec.listening_point.fills(radius));
+            (re, im) = (re * gain, im * gain);
+            let radial = match (&self.blueprint.resonant, &self.far_shapes) {
+                (Some(head), Some(shapes)) => {
+                    let (far_first, far_count) = head.order(mode.m);
+                    Some(self.radial(mode, place, shapes, [far_first, far_count, count]))
+                }
+                // An open end moves as a piston.
+                _ if mode.m == 0 => Some(vec![mode.outlet(place); self.far.radii().len()]),
+                _ => None,
+            };
+            if let Some(radial) = radial {
+                let [far_re, far_im] = self.far.transfer(&Radiator { m: mode.m, radial: &radial, omega });
+                // Outward is toward the point for the one head and away for the other; the body
+                // hides the far one as it becomes a baffle.
+                let gain = -(1.0 - space);
+                let (sin, cos) = (omega * self.lag).sin_cos();
+                re += gain * (far_re * cos + far_im * sin);
+                im += gain * (far_im * cos - far_re * sin);
+            }
+        }
+        [re as f32, im as f32]
+    }
+}

@@ -1,0 +1,149 @@
+//! One sample with something touching: everything steps freely, then all forces are found together.
+
+use crate::contact::ContactStep;
+
+use super::together::{self, Meeting};
+use super::touch::Side;
+use super::{FIRST_WIRE, MAX_POINTS, Surface, above, owner};
+
+impl Surface {
+    /// Works out what the body tells point `i` and the others of each other.
+    pub(super) fn connect(&mut self, i: usize) {
+        let side = self.points[i].side;
+        let (body, pickup, beyond) = match (&self.rim, side) {
+            (Some(rim), Side::Rim) => (&rim.body, &rim.pickup, None),
+            _ => (&self.body, &self.pickup, self.beyond.as_ref()),
+        };
+        let point = &mut self.points[i];
+        body.connect(&mut point.port);
+        point.direct = pickup.direct_at(body, &point.port);
+        self.coupling[i] = beyond.map_or(0.0, |force| force.coupling(body, &point.port));
+        if side == Side::Surface {
+            let (high, place) = above(i, &mut self.high, &mut self.far_high);
+            high.iter_mut().for_each(|high| high.complete(place, self.points[i].direct));
+        }
+        for &j in &self.live[..self.live_count] {
+            let mut mutual = 0.0;
+            if self.points[j].side == side {
+                mutual = body.compliance(&self.points[j].port, &self.points[i].port);
+            }
+            if owner(i) == owner(j) {
+                mutual +=
+                    self.touchers[owner(i)].compliance(&self.points[i].weights, &self.points[j].weights);
+            }
+            self.compliance[i][j] = mutual;
+            self.compliance[j][i] = mutual;
+        }
+    }
+
+    /// One sample with something about; which of the run.
+    pub(super) fn step(&mut self, sample: usize) -> f32 {
+        let mean = self.step_free();
+        let dt = self.dt;
+        for toucher in self.touchers.iter_mut().filter(|toucher| toucher.present) {
+            toucher.step();
+        }
+        if let Some(rim) = &mut self.rim {
+            rim.body.step();
+        }
+        for &i in &self.live[..self.live_count] {
+            let point = &mut self.points[i];
+            let surface = match (&self.rim, point.side) {
+                (Some(rim), Side::Rim) => rim.body.displacement_at(&point.port),
+                _ => self.body.displacement_at(&point.port) - self.coupling[i] * mean,
+            };
+            let position = self.touchers[owner(i)].position(&point.weights);
+            point.free_flight(position - surface - point.origin, self.yielding[i][i], dt);
+        }
+        self.solve();
+        let mut direct = 0.0;
+        let mut pressed = 0.0;
+        for &i in &self.live[..self.live_count] {
+            let point = &self.points[i];
+            let force = point.pressing();
+            if force != 0.0 {
+                match (&mut self.rim, point.side) {
+                    (Some(rim), Side::Rim) => rim.body.push(&point.port, force as f32),
+                    _ => self.body.push(&point.port, force as f32),
+                }
+                self.touchers[owner(i)].push(&point.weights, force);
+                direct += force as f32 * point.direct;
+                pressed += force * self.coupling[i];
+                if point.side == Side::Surface {
+                    let (high, place) = above(i, &mut self.high, &mut self.far_high);
+                    high.iter_mut().for_each(|high| high.push(place, sample, force as f32));
+                }
+            }
+        }
+        if let Some(beyond) = self.beyond.as_mut().filter(|beyond| beyond.is_active()) {
+            direct += beyond.finish(&mut self.body, pressed);
+        }
+        for &i in &self.live[..self.live_count] {
+            let others = self.moved_by_others(i);
+            let before = self.points[i].touching;
+            self.points[i].finish(others);
+            if let Some(wires) = self.wires.as_mut().filter(|_| i >= FIRST_WIRE) {
+                wires.count(before, self.points[i].touching);
+            }
+        }
+        if let Some(wires) = &mut self.wires {
+            wires.age += 1;
+        }
+        self.watch_strikers();
+        let rim = self.rim.as_ref().map_or(0.0, |rim| rim.body.listen(&rim.pickup));
+        self.body.listen(&self.pickup) + rim + direct
+    }
+
+    /// How far the forces of all other points have brought point `i` out of the surface, m.
+    pub(super) fn moved_by_others(&self, i: usize) -> f64 {
+        let others = self.live[..self.live_count].iter().filter(|&&j| j != i);
+        others.map(|&j| self.yielding[i][j] * self.points[j].pressing()).sum()
+    }
+
+    /// Lets the body step by itself; works out how what touches meets it. Returns what multiplies their
+    /// coupling to give how far the force beyond the modes has moved the surface by itself.
+    pub(super) fn step_free(&mut self) -> f64 {
+        self.yielding = self.compliance;
+        let Some(force) = self.beyond.as_mut().filter(|force| force.is_active()) else {
+            self.body.step();
+            return 0.0;
+        };
+        let live = &self.live[..self.live_count];
+        if force.begin(&mut self.body, &self.pickup) {
+            for &i in live {
+                if self.points[i].side == Side::Surface {
+                    self.coupling[i] = force.coupling(&self.body, &self.points[i].port);
+                }
+            }
+        }
+        self.body.step();
+        for &i in live {
+            for &j in live {
+                self.yielding[i][j] -= self.coupling[i] * self.coupling[j] / force.divisor();
+            }
+        }
+        force.free(&self.body)
+    }
+
+    /// Forces of all contacts for this sample.
+    pub(super) fn solve(&mut self) {
+        let live = &self.live[..self.live_count];
+        let absent = Meeting { law: self.points[0].law, step: self.points[0].step, force: 0.0 };
+        let (mut meetings, mut yielding) = ([absent; MAX_POINTS], [[0.0; MAX_POINTS]; MAX_POINTS]);
+        for (n, &i) in live.iter().enumerate() {
+            let point = &self.points[i];
+            // The preloads of the others are part of equilibrium: what they would push is put back.
+            let mut free = point.step.free;
+            for (k, &j) in live.iter().enumerate().filter(|&(k, _)| k != n) {
+                yielding[n][k] = self.yielding[i][j];
+                free += self.yielding[i][j] * self.points[j].preload;
+            }
+            meetings[n] =
+                Meeting { law: point.law, step: ContactStep { free, ..point.step }, force: point.force };
+        }
+        together::solve(&mut meetings[..live.len()], &yielding);
+        for (meeting, &i) in meetings.iter().zip(live) {
+            self.points[i].force = meeting.force;
+        }
+    }
+}
