@@ -13,6 +13,11 @@
 //! mass moves along and is all that is felt; modes above those kept are therefore added as mass,
 //! so that no air is left out and none counted twice.
 //!
+//! A vessel whose far end is open holds no pressure there: its modes go as `cos((l + 1/2) pi z / L')`, `L'` the depth and
+//! what the air beyond adds, `.613 a` (Levine & Schwinger 1948); none is uniform, and far below all of them the
+//! air moves as one plug. What leaves the end is, of the modes that do not vary across it, the volume
+//! `2 (-1)^l / ((l + 1/2) pi) y_l`; others do not reach it below their own frequency, which is neglected above, too.
+//!
 //! Displacements count along the stroke: the batter's into the drum, the resonant head's out of it.
 //!
 //! Source: Fahy & Gardonio, Sound and Structural Vibration, ch. 7.
@@ -33,6 +38,8 @@ pub struct CavitySpec {
     pub depth: f64,
     /// Quality factor of its modes: losses at the wall and through the vent. *By ear*.
     pub q: f64,
+    /// Whether the far end is open.
+    pub open: bool,
 }
 
 /// One mode of the air, of one order.
@@ -48,6 +55,8 @@ pub struct CavityMode {
     pub spring: f64,
     /// Volume displaced per modal displacement, m2: batter modes, then resonant modes.
     pub volume: Vec<f64>,
+    /// Volume that leaves an open end per displacement of the mass.
+    pub outlet: f64,
 }
 
 /// A head mode as the cavity sees it.
@@ -68,7 +77,12 @@ pub struct CavityOrder {
     pub modes: Vec<CavityMode>,
     /// Mass of all others, kg, `[head mode][head mode]`, row by row.
     pub mass: Vec<f64>,
+    /// Volume that leaves an open end by the others per modal displacement, m2, `[head mode]`.
+    pub outlet: Vec<f64>,
 }
+
+/// Length of air that moves beyond an open end, over the radius (Levine & Schwinger 1948).
+const END: f64 = 0.613_3;
 
 /// How far past the heads' finest shape the radial sum for the mass runs.
 const EXTRA_CIRCLES: u32 = 6;
@@ -79,7 +93,7 @@ const HALF_WAVES: u32 = 400;
 impl CavitySpec {
     /// A cylinder.
     pub fn cylinder(radius: f64, depth: f64) -> CavitySpec {
-        CavitySpec { radius, volume: PI * radius * radius * depth, depth, q: 60.0 }
+        CavitySpec { radius, volume: PI * radius * radius * depth, depth, q: 60.0, open: false }
     }
 
     /// Stiffness of the uniform mode against a piston of the head's area, N/m.
@@ -97,7 +111,8 @@ impl CavitySpec {
         if m == 0 {
             alphas.insert(0, 0.0);
         }
-        let mut order = CavityOrder { modes: Vec::new(), mass: vec![0.0; count * count] };
+        let mut order =
+            CavityOrder { modes: Vec::new(), mass: vec![0.0; count * count], outlet: vec![0.0; count] };
         for (circles, &alpha) in alphas.iter().enumerate() {
             self.add_radial(m, circles as u32, alpha, heads, limit, &mut order);
         }
@@ -123,24 +138,36 @@ impl CavitySpec {
         let overlaps: Vec<f64> = heads.iter().map(|head| area * overlap(m, head, alpha, peak)).collect();
         // Sum over the axis of mu_l, and of mu_l (-1)^l, of the modes that are only mass.
         let (mut even, mut alternating) = (0.0, 0.0);
+        // What leaves an open end, as long as all move as one.
+        let mut outlet = if self.open && alpha == 0.0 { 1.0 } else { 0.0 };
         for l in 0..HALF_WAVES {
-            let along = if l == 0 { 1.0 } else { 0.5 };
-            let uniform = alpha == 0.0 && l == 0;
+            let along = if l == 0 && !self.open { 1.0 } else { 0.5 };
+            let uniform = alpha == 0.0 && l == 0 && !self.open;
             let cylinder = PI * self.radius * self.radius * self.depth;
             // Only the uniform mode knows that the vessel is not a cylinder.
-            let depth = if uniform { self.depth * self.volume / cylinder } else { self.depth };
+            let depth = match (uniform, self.open) {
+                (true, _) => self.depth * self.volume / cylinder,
+                (_, true) => self.depth + END * self.radius,
+                _ => self.depth,
+            };
+            let half_waves = f64::from(l) + if self.open { 0.5 } else { 0.0 };
             let spring = DENSITY * SPEED_OF_SOUND.powi(2) / (area * radial_norm * depth * along);
-            let wave = (alpha / self.radius).hypot(f64::from(l) * PI / self.depth);
+            let wave = (alpha / self.radius).hypot(half_waves * PI / depth);
             let omega = SPEED_OF_SOUND * wave;
             let sign = if l % 2 == 0 { 1.0 } else { -1.0 };
             if omega < limit {
                 let side = |head: &HeadShape| if head.far { -sign } else { 1.0 };
                 let volume = heads.iter().zip(&overlaps).map(|(head, c)| side(head) * c).collect();
-                order.modes.push(CavityMode { circles, half_waves: l, omega, spring, volume });
+                let own = if alpha == 0.0 && self.open { 2.0 * sign / (half_waves * PI) } else { 0.0 };
+                outlet -= own;
+                order.modes.push(CavityMode { circles, half_waves: l, omega, spring, volume, outlet: own });
             } else {
                 even += spring / (omega * omega);
                 alternating += sign * spring / (omega * omega);
             }
+        }
+        for (total, c) in order.outlet.iter_mut().zip(&overlaps) {
+            *total += outlet * c;
         }
         for (i, a) in heads.iter().enumerate() {
             for (k, b) in heads.iter().enumerate() {
@@ -182,6 +209,34 @@ mod tests {
         assert!((spring(&half) / spring(&whole) - 2.0).abs() < 1e-12);
         let area = PI * 0.04;
         assert!((spring(&whole) * area * area / whole.uniform_spring() - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn an_open_pipe_is_a_plug_of_air_that_all_leaves_far_below_its_modes() {
+        let (a, depth) = (0.15, 0.23);
+        let open = CavitySpec { open: true, ..CavitySpec::cylinder(a, depth) };
+        let shape = head(0, 1, false);
+        let piston = PI * a * a * 2.0 * overlap(0, &shape, 0.0, 1.0);
+        let length = depth + END * a;
+        // All as mass, and all as modes far above the motion.
+        let order = open.order(0, &[shape], 0.0);
+        let cross: f64 = bessel::zeros_prime(0, (shape.zero / PI) as u32 + EXTRA_CIRCLES)
+            .into_iter()
+            .map(|alpha| {
+                let peak = bessel::j(0, alpha);
+                let c = TAU * a * a * overlap(0, &shape, alpha, peak);
+                let (norm, k) = (0.5 * peak * peak * a * a * TAU, alpha / a);
+                DENSITY * c * c * (k * length).tanh() / (norm * k)
+            })
+            .sum();
+        let plug = DENSITY * piston * piston * length / (PI * a * a);
+        assert!((order.mass[0] / (plug + cross) - 1.0).abs() < 0.01, "{} {plug} {cross}", order.mass[0]);
+        assert!((order.outlet[0] / piston - 1.0).abs() < 1e-9);
+        let kept = open.order(0, &[shape], TAU * 20_000.0);
+        let along = kept.modes.iter().filter(|mode| mode.circles == 0);
+        let left: f64 = along.map(|mode| mode.outlet * mode.volume[0]).sum::<f64>() + kept.outlet[0];
+        assert!((left / piston - 1.0).abs() < 1e-9);
+        assert!((kept.modes[0].omega / (SPEED_OF_SOUND * PI / (2.0 * length)) - 1.0).abs() < 1e-12);
     }
 
     #[test]

@@ -204,7 +204,7 @@ impl Cymbal {
     fn lay_muffler(&mut self, spec: &CymbalSpec) {
         let mut shape = vec![1.0_f32; self.modes.len()];
         let full = match spec.muffler {
-            Muffler::Pillow { sigma, .. } => sigma,
+            Muffler::Pillow { sigma, .. } | Muffler::Ring { sigma, .. } => sigma,
             Muffler::Gel { sigma, radius, angle } => {
                 self.surface.shapes().fill(radius, angle, &mut shape);
                 sigma

@@ -45,6 +45,9 @@ struct BodyMode {
     gel_turn: f64,
 }
 
+/// Places along the width of a ring that stand for it. *Derived*: a mode at 3 kHz has a wave and a half under one.
+const RING_PLACES: usize = 6;
+
 /// What muffling takes from the modes.
 #[derive(Debug, Clone, PartialEq)]
 enum MufflerCoefs {
@@ -59,6 +62,17 @@ enum MufflerCoefs {
         /// The dashpot that is at full amount, kg/s.
         dashpot: f64,
         /// The batter's radial functions there, `[batter mode]`.
+        radial: Vec<f64>,
+    },
+    /// A ring.
+    Ring {
+        /// Decay rate of a mode of unit mean square under it at full amount, 1/s.
+        sigma: f64,
+        /// The dashpot that is at full amount, kg/s.
+        dashpot: f64,
+        /// Its middle, share of the radius.
+        radius: f64,
+        /// The batter's radial functions under it, `[batter mode][place]`, at places of equal area.
         radial: Vec<f64>,
     },
 }
@@ -341,7 +355,7 @@ fn lay_out(spec: &DrumSpec, blueprint: &Blueprint, options: &BuildOptions) -> Ve
     let splitting = if options.unsplit { Splitting::ROUND } else { spec.splitting };
     let angle = match spec.muffler {
         Muffler::Gel { angle, .. } => angle,
-        Muffler::Pillow { .. } => 0.0,
+        Muffler::Pillow { .. } | Muffler::Ring { .. } => 0.0,
     };
     let mut modes = Vec::new();
     for (pair, mode) in blueprint.modes.iter().enumerate() {
@@ -369,6 +383,15 @@ impl MufflerCoefs {
                 let radial = blueprint.batter.membrane.radial_shapes(&[radius]);
                 MufflerCoefs::Gel { sigma, radius, dashpot: 2.0 * film * sigma, radial }
             }
+            Muffler::Ring { sigma, inner } => {
+                let film = spec.batter.membrane.area_density() * spec.batter.membrane.area();
+                let part = |i: usize| (i as f64 + 0.5) / RING_PLACES as f64;
+                let places: Vec<f64> = (0..RING_PLACES)
+                    .map(|i| (inner * inner + part(i) * (1.0 - inner * inner)).sqrt())
+                    .collect();
+                let radial = blueprint.batter.membrane.radial_shapes(&places);
+                MufflerCoefs::Ring { sigma, dashpot: 2.0 * film * sigma, radius: 0.5 * (1.0 + inner), radial }
+            }
         }
     }
 
@@ -376,7 +399,7 @@ impl MufflerCoefs {
     fn above(&self, amount: f64) -> HighMuffling {
         match *self {
             MufflerCoefs::Pillow(sigma, _) => HighMuffling { even: amount * sigma, ..HighMuffling::NONE },
-            MufflerCoefs::Gel { sigma, radius, .. } => {
+            MufflerCoefs::Gel { sigma, radius, .. } | MufflerCoefs::Ring { sigma, radius, .. } => {
                 HighMuffling { pad: (amount * sigma, radius), ..HighMuffling::NONE }
             }
         }
@@ -391,6 +414,18 @@ impl MufflerCoefs {
                 let (first, count) = blueprint.batter.order(tuned.m);
                 let shape: f64 = (0..count).map(|i| tuned.share(i, place) * radial[first + i]).sum();
                 dashpot * (shape * mode.gel_turn).powi(2) / (2.0 * rung.mass)
+            }
+            MufflerCoefs::Ring { dashpot, radial, .. } => {
+                let tuned = &blueprint.modes[mode.pair];
+                let (first, count) = blueprint.batter.order(tuned.m);
+                let shape = |at: usize| -> f64 {
+                    let of = |i: usize| tuned.share(i, place) * radial[(first + i) * RING_PLACES + at];
+                    (0..count).map(of).sum()
+                };
+                // All the way around, a pair's square is half of its largest.
+                let around = if tuned.m == 0 { 1.0 } else { 0.5 };
+                let square = (0..RING_PLACES).map(|at| shape(at).powi(2)).sum::<f64>() / RING_PLACES as f64;
+                dashpot * around * square / (2.0 * rung.mass)
             }
         }
     }

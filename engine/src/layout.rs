@@ -15,16 +15,18 @@ pub struct Placement {
 }
 
 impl Placement {
-    /// Where the piece stands by default; the timpani takes the floor tom's place.
+    /// Where the piece stands by default.
     pub fn of(id: PieceId) -> Placement {
         let (centre, normal) = match id {
             PieceId::Kick => ([0.0, 0.30, -0.23], [0.0, 0.0, -1.0]),
             PieceId::Snare => ([-0.40, 0.66, -0.40], [0.0, 0.97, -0.24]),
             PieceId::RackTom => ([-0.14, 0.88, -0.12], [0.15, 0.85, -0.5]),
-            PieceId::FloorTom | PieceId::Timpani => ([0.47, 0.62, -0.34], [0.0, 1.0, 0.0]),
+            PieceId::FloorTom => ([0.47, 0.62, -0.34], [0.0, 1.0, 0.0]),
             PieceId::Crash => ([-0.64, 1.20, 0.0], [0.22, 0.95, -0.25]),
             PieceId::Ride => ([0.68, 1.06, -0.04], [-0.16, 0.96, -0.22]),
             PieceId::Splash => ([0.16, 1.22, 0.08], [0.0, 0.97, -0.25]),
+            // Beyond the floor tom, a turn of the stool away.
+            PieceId::Timpani => ([0.86, 0.78, -0.86], [-0.1, 0.99, -0.05]),
         };
         let length = normal.iter().map(|x: &f64| x * x).sum::<f64>().sqrt();
         Placement { centre, normal: normal.map(|x| x / length) }

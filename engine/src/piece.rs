@@ -1,6 +1,7 @@
 //! One piece of the kit: a drum or a cymbal, and what can be asked of it.
 
 use crate::cymbal::{Cymbal, CymbalSpec};
+use crate::damping::Muffler;
 use crate::drum::{Drum, DrumSpec};
 use crate::error::SpecError;
 use crate::kit::BLOCK;
@@ -25,24 +26,13 @@ pub enum PieceId {
     Ride,
     /// 10 in splash cymbal.
     Splash,
-    /// 26 in timpani; not part of the kit.
+    /// 26 in timpani.
     Timpani,
 }
 
 impl PieceId {
     /// The pieces of the kit, in the order of every per-piece table.
-    pub const KIT: [PieceId; 7] = [
-        PieceId::Kick,
-        PieceId::Snare,
-        PieceId::RackTom,
-        PieceId::FloorTom,
-        PieceId::Crash,
-        PieceId::Ride,
-        PieceId::Splash,
-    ];
-
-    /// Every piece that can be built.
-    pub const ALL: [PieceId; 8] = [
+    pub const KIT: [PieceId; 8] = [
         PieceId::Kick,
         PieceId::Snare,
         PieceId::RackTom,
@@ -52,6 +42,9 @@ impl PieceId {
         PieceId::Splash,
         PieceId::Timpani,
     ];
+
+    /// Every piece that can be built.
+    pub const ALL: [PieceId; 8] = PieceId::KIT;
 
     /// Place in [`PieceId::KIT`], if the piece belongs to the kit.
     pub fn slot(self) -> Option<usize> {
@@ -142,6 +135,14 @@ pub struct BuildOptions {
     pub quality: Quality,
     /// Heads sound above their complete sets of modes; see [`high_band`](crate::drum::high_band).
     pub high_band: bool,
+    /// Drums without what closes them: see [`DrumSpec::opened`].
+    pub open: bool,
+    /// Pitch of a drum's other head over the struck one's, if not its own.
+    pub resonant_ratio: Option<f64>,
+    /// Mean relative difference of the two members of a drum's pairs, if not its own: how uneven its tension is.
+    pub unevenness: Option<f64>,
+    /// What muffles a drum, if not its own.
+    pub muffler: Option<Muffler>,
 }
 
 impl BuildOptions {
@@ -154,6 +155,10 @@ impl BuildOptions {
             linear: false,
             quality: Quality::Standard,
             high_band: true,
+            open: false,
+            resonant_ratio: None,
+            unevenness: None,
+            muffler: None,
         }
     }
 }
@@ -212,6 +217,8 @@ pub struct Piece {
     phase: usize,
     /// Samples since the controls were last let glide.
     unglided: usize,
+    /// Nothing moves and nothing is about: there is nothing to render.
+    asleep: bool,
     quarantines: u32,
 }
 
@@ -243,7 +250,8 @@ impl Piece {
     /// [`SpecError`] if the options are out of range.
     pub fn new(id: PieceId, options: &BuildOptions) -> Result<Piece, SpecError> {
         SpecError::check("sample rate (Hz)", options.sample_rate, 22_050.0, 768_000.0)?;
-        let drum = |spec: DrumSpec| Drum::new(&spec, options).map(|drum| Voice::Drum(Box::new(drum)));
+        let drum =
+            |spec: DrumSpec| Drum::new(&spec.with(options), options).map(|drum| Voice::Drum(Box::new(drum)));
         let cymbal =
             |spec: CymbalSpec| Cymbal::new(&spec, options).map(|cymbal| Voice::Cymbal(Box::new(cymbal)));
         let voice = match id {
@@ -251,12 +259,20 @@ impl Piece {
             PieceId::Snare => drum(DrumSpec::snare())?,
             PieceId::RackTom => drum(DrumSpec::rack_tom())?,
             PieceId::FloorTom => drum(DrumSpec::floor_tom())?,
-            PieceId::Timpani => drum(DrumSpec::timpani().head_alone())?,
+            PieceId::Timpani => drum(DrumSpec::timpani())?,
             PieceId::Crash => cymbal(CymbalSpec::crash())?,
             PieceId::Ride => cymbal(CymbalSpec::ride())?,
             PieceId::Splash => cymbal(CymbalSpec::splash())?,
         };
-        Ok(Piece { id, voice, sample_rate: options.sample_rate, phase: 0, unglided: 0, quarantines: 0 })
+        Ok(Piece {
+            id,
+            voice,
+            sample_rate: options.sample_rate,
+            phase: 0,
+            unglided: 0,
+            asleep: true,
+            quarantines: 0,
+        })
     }
 
     /// Which piece this is.
@@ -373,6 +389,7 @@ impl Piece {
         if !strike.is_finite() {
             return;
         }
+        self.asleep = false;
         match &mut self.voice {
             Voice::Drum(drum) => drum.strike(strike),
             Voice::Cymbal(cymbal) => cymbal.surface_mut().strike(strike),
@@ -392,7 +409,11 @@ impl Piece {
             }
             let run = rest.len().min(BLOCK - self.phase);
             let (now, later) = rest.split_at_mut(run);
-            self.voice.surface_mut().render(now);
+            if self.asleep {
+                now.fill(0.0);
+            } else {
+                self.voice.surface_mut().render(now);
+            }
             self.phase = (self.phase + run) % BLOCK;
             self.unglided += run;
             rest = later;
@@ -406,9 +427,13 @@ impl Piece {
             Voice::Drum(drum) => drum.follow_controls(),
             Voice::Cymbal(cymbal) => cymbal.follow_controls(),
         }
+        if self.asleep {
+            return;
+        }
         if !self.voice.surface_mut().settle() {
             self.quarantines = self.quarantines.saturating_add(1);
         }
+        self.asleep = self.voice.surface().is_still();
     }
 
     /// Puts the piece's block grid at `phase` samples into a block, as its kit's is.
@@ -419,6 +444,7 @@ impl Piece {
     /// Puts the piece to rest and at the start of a block.
     pub fn reset(&mut self) {
         self.voice.surface_mut().reset();
+        self.asleep = true;
         self.finish_controls();
         self.phase = 0;
         self.unglided = 0;
@@ -472,6 +498,8 @@ impl Piece {
 
     /// The surface that is struck, for tests and tools that look closely.
     pub fn surface_mut(&mut self) -> &mut Surface {
+        // It may be set going.
+        self.asleep = false;
         self.voice.surface_mut()
     }
 

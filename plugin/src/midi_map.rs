@@ -17,7 +17,15 @@
 //! | 42, 44, 46 | hi-hats | silent: the kit has no hi-hat |
 //! | 39, 54, 56, 58, 67 to 81 | hand percussion | silent: nothing in the kit sounds like it |
 //!
-//! Notes outside 35 to 81 are silent. Places are where drummers play: a third of the way out on a
+//! Beyond General MIDI's notes:
+//!
+//! | note | struck |
+//! |---|---|
+//! | 88 | timpani, soft mallet where timpanists play |
+//! | 89 | timpani, hard mallet at the same place |
+//! | 90 | timpani, soft mallet in the middle: a thud |
+//!
+//! All others outside 35 to 81 are silent. Places are where drummers play: a third of the way out on a
 //! drum rather than dead centre, where only the round modes answer.
 
 use std::f64::consts::PI;
@@ -64,13 +72,18 @@ pub struct Row {
     pub meaning: Meaning,
 }
 
+/// The row of a note, if it is in the map.
+fn find(note: u8) -> Option<&'static Row> {
+    let general = note.checked_sub(FIRST_NOTE).and_then(|index| MAP.get(usize::from(index)));
+    general.or_else(|| BEYOND.iter().find(|row| row.note == note))
+}
+
 /// The stroke that a note asks for, if it sounds.
 ///
 /// # Real-time
 /// A table look-up.
 pub fn stroke(note: u8) -> Option<&'static Stroke> {
-    let row = MAP.get(usize::from(note.checked_sub(FIRST_NOTE)?))?;
-    match &row.meaning {
+    match &find(note)?.meaning {
         Meaning::Strikes(stroke) => Some(stroke),
         Meaning::Silent(_) => None,
     }
@@ -142,6 +155,17 @@ pub static MAP: [Row; (LAST_NOTE - FIRST_NOTE + 1) as usize] = {
     ]
 };
 
+/// Notes of our own, beyond the General MIDI drum map. Places are by ear.
+pub static BEYOND: [Row; 3] = {
+    use PieceId::Timpani;
+    use Striker::{HardMallet, TimpaniMallet};
+    [
+        row(88, "Timpani", strikes(Timpani, 0.75, 0.0, TimpaniMallet)),
+        row(89, "Timpani Hard", strikes(Timpani, 0.75, 0.0, HardMallet)),
+        row(90, "Timpani Centre", strikes(Timpani, 0.10, 0.0, TimpaniMallet)),
+    ]
+};
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -156,7 +180,7 @@ mod tests {
 
     #[test]
     fn every_note_strikes_a_place_on_a_piece_of_the_kit_or_says_why_not() {
-        for row in &MAP {
+        for row in MAP.iter().chain(&BEYOND) {
             match row.meaning {
                 Meaning::Strikes(stroke) => {
                     assert!(stroke.piece.slot().is_some(), "{}", row.name);
@@ -177,7 +201,7 @@ mod tests {
     #[test]
     fn notes_outside_the_map_are_silent() {
         for note in (0..FIRST_NOTE).chain(LAST_NOTE + 1..=u8::MAX) {
-            assert_eq!(stroke(note), None);
+            assert_eq!(stroke(note).is_some(), (88..=90).contains(&note));
         }
     }
 
@@ -193,6 +217,7 @@ mod tests {
             (&[49, 52, 57], Some(PieceId::Crash)),
             (&[51, 53, 59], Some(PieceId::Ride)),
             (&[55], Some(PieceId::Splash)),
+            (&[88, 89, 90], Some(PieceId::Timpani)),
             (&[42, 44, 46, 39, 54, 56, 58, 67, 81], None),
         ] {
             assert!(notes.iter().all(|&note| piece(note) == expected), "{notes:?}");

@@ -155,10 +155,10 @@ mod tests {
     use overhear_engine::piece::Piece;
 
     /// Changing this list breaks every project that was ever saved.
-    const FROZEN_IDS: [&str; 25] = [
+    const FROZEN_IDS: [&str; 28] = [
         "kktune", "kkmuff", "kklevl", "sntune", "snmuff", "snlevl", "rttune", "rtmuff", "rtlevl", "fttune",
         "ftmuff", "ftlevl", "crtune", "crmuff", "crlevl", "rdtune", "rdmuff", "rdlevl", "sptune", "spmuff",
-        "splevl", "master", "dynam", "snprel", "snwire",
+        "splevl", "master", "dynam", "snprel", "snwire", "tptune", "tpmuff", "tplevl",
     ];
 
     #[test]

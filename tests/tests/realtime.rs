@@ -81,7 +81,6 @@ impl Stage {
             }
             980..990 => self.kit.snapshot(&mut self.snapshot),
             990..996 => {
-                // The timpani does not belong to the kit and comes straight back.
                 let spare = chance.below(self.spares.len());
                 let spare = self.spares.swap_remove(spare);
                 self.spares.extend(self.kit.install(spare));

@@ -12,7 +12,6 @@ use std::process::ExitCode;
 use anyhow::Result;
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser};
-use overhear_engine::piece::BuildOptions;
 
 use crate::{bundle, demo, error, groove, hear, modes, output, realism, render, report, settings, suite};
 use arguments::{HearArguments, ModesArguments, RealismArguments, RenderArguments, Task};
@@ -117,7 +116,7 @@ fn realism(arguments: RealismArguments) -> Result<()> {
 fn modes(arguments: ModesArguments) -> Result<()> {
     let piece = settings::piece(&arguments.piece)?;
     let settings = settings::parse_for_piece(piece, &arguments.set)?;
-    let options = BuildOptions::new(f64::from(arguments.rate));
+    let options = arguments.options();
     let modes = modes::run(piece, &options, &settings)?;
     say(&if arguments.json { serde_json::to_string(&modes)? + "\n" } else { modes.to_string() })
 }

@@ -56,15 +56,7 @@ pub fn default_strike(piece: PieceId) -> Strike {
         PieceId::Crash => 49,
         PieceId::Ride => 51,
         PieceId::Splash => 55,
-        // In no map: three quarters out, where timpanists play.
-        PieceId::Timpani => {
-            return Strike {
-                speed: DEFAULT_SPEED,
-                radius: 0.75,
-                angle: 0.0,
-                striker: Striker::TimpaniMallet,
-            };
-        }
+        PieceId::Timpani => 88,
     };
     let mapped = midi_map::stroke(note).filter(|stroke| stroke.piece == piece);
     let (radius, angle, striker) =

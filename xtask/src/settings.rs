@@ -106,9 +106,6 @@ pub fn default_muffling(id: PieceId) -> f64 {
 
 /// What can be set of a piece by itself: all that acts on it but its place in the mix.
 fn piece_parameters(id: PieceId) -> Vec<Parameter> {
-    if id.slot().is_none() {
-        return timpani_parameters();
-    }
     let acts = |parameter: &&Parameter| match parameter.drives {
         Drives::Control(Control::Tuning(piece) | Control::Muffling(piece)) | Drives::Semitones(piece) => {
             piece == id
@@ -117,20 +114,6 @@ fn piece_parameters(id: PieceId) -> Vec<Parameter> {
         _ => false,
     };
     PARAMETERS.iter().filter(acts).copied().collect()
-}
-
-/// The timpani can be built and struck but is not in the kit: it has the kick's controls under its own
-/// name and with its own range.
-fn timpani_parameters() -> Vec<Parameter> {
-    let (min, default, max) = Piece::tuning_range(PieceId::Timpani);
-    let (min, default, max) = (min as f32, default as f32, max as f32);
-    let named = |parameter: Parameter| match parameter.drives {
-        Drives::Control(Control::Tuning(_)) => {
-            Parameter { name: "timpani_tune", min, default, max, centre: default, ..parameter }
-        }
-        _ => Parameter { name: "timpani_muffle", ..parameter },
-    };
-    piece_parameters(PieceId::Kick).into_iter().map(named).collect()
 }
 
 #[cfg(test)]

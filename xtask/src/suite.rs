@@ -60,6 +60,9 @@ pub fn run() -> Result<()> {
         .env(PYTHON_VARIABLE, &python)
         .env(COMMAND_VARIABLE, own_path()?);
     tests(&mut tally, "tests", &mut all);
+    let mut long = workspace::cargo();
+    long.args(["test", "--package", "overhear-tests", "--test", "cymbals", "--", "--ignored"]);
+    tests(&mut tally, "long tests of cymbals", &mut long);
     // By itself: its allocator and the framework's exclude each other.
     let traps = ["--package", "overhear-tests", "--features", "traps", "--test", "process"];
     let mut process = workspace::cargo();

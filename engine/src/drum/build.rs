@@ -147,6 +147,9 @@ impl Blueprint {
             .flat_map(|head| head.membrane.modes().iter().map(|mode| mode.zero))
             .fold(0.0, f64::max);
         let tables = JTable::orders(orders, reach + 1.0);
+        if spec.tuned_as_heard {
+            blueprint.tune_as_heard(spec, &tables);
+        }
         for (m, table) in (0..=orders).zip(&tables) {
             let modes = blueprint.order(spec, m, table);
             blueprint.modes.extend(modes);
@@ -154,6 +157,48 @@ impl Blueprint {
         let place = blueprint.scale.place(default);
         blueprint.modes.sort_by(|a, b| a.at(&place).omega.total_cmp(&b.at(&place).omega));
         Ok(blueprint)
+    }
+
+    /// Stretches the batter so that its named mode has the pitches in the drum, not by itself.
+    fn tune_as_heard(&mut self, spec: &DrumSpec, tables: &[JTable]) {
+        let (m, n) = spec.named_mode;
+        let air = self.air(spec, m);
+        for (pitch, hz) in self.scale.pitches().into_iter().enumerate() {
+            // The air moves a pitch by some percent and that by little with the tension.
+            for _ in 0..3 {
+                let solved = self.solve(spec, m, &tables[m as usize], air.as_ref(), pitch);
+                let part = n as usize - 1;
+                let most = solved.iter().max_by(|a, b| a.shares[part].total_cmp(&b.shares[part]));
+                let Some(mode) = most else { return };
+                self.batter.tensions[pitch] *= (TAU * hz / mode.omega).powi(2);
+            }
+        }
+    }
+
+    /// The enclosed air against the heads' modes of one order.
+    fn air(&self, spec: &DrumSpec, m: u32) -> Option<CavityOrder> {
+        spec.cavity.map(|cavity| cavity.order(m, &self.head_shapes(m), TAU * CAVITY_LIMIT_HZ))
+    }
+
+    /// The drum's modes of one order at one of the pitches.
+    fn solve(
+        &self,
+        spec: &DrumSpec,
+        m: u32,
+        bessel: &JTable,
+        air: Option<&CavityOrder>,
+        pitch: usize,
+    ) -> Vec<CoupledMode> {
+        let problem = OrderProblem {
+            m,
+            batter: self.batter.stretched(pitch),
+            resonant: self.resonant.as_ref().map(|head| head.stretched(pitch)),
+            cavity: air,
+            cavity_q: spec.cavity.map_or(1.0, |cavity| cavity.q),
+            outside: spec.outside,
+            bessel,
+        };
+        problem.solve()
     }
 
     /// The heads' modes of one order as the cavity sees them, batter first.
@@ -169,34 +214,18 @@ impl Blueprint {
 
     /// The drum's modes of one order, followed through the pitches.
     fn order(&self, spec: &DrumSpec, m: u32, bessel: &JTable) -> Vec<TunedMode> {
-        let shapes = self.head_shapes(m);
-        let cavity: Option<CavityOrder> =
-            spec.cavity.map(|cavity| cavity.order(m, &shapes, TAU * CAVITY_LIMIT_HZ));
-        let lowest =
-            cavity.iter().flat_map(|air| &air.modes).map(|mode| mode.omega).find(|&omega| omega > 0.0);
+        let air = self.air(spec, m);
+        let lowest = air.iter().flat_map(|air| &air.modes).map(|mode| mode.omega).find(|&omega| omega > 0.0);
         let grid = match lowest {
             Some(omega) if omega < TAU * HEARD_SINGLY * self.scale.pitches()[MIDDLE] => Grid::Fine,
             Some(_) => Grid::Middle,
             None => Grid::Coarse,
         };
-        let solved: Vec<Vec<CoupledMode>> = grid
-            .pitches()
-            .map(|pitch| {
-                let problem = OrderProblem {
-                    m,
-                    batter: self.batter.stretched(pitch),
-                    resonant: self.resonant.as_ref().map(|head| head.stretched(pitch)),
-                    cavity: cavity.as_ref(),
-                    cavity_q: spec.cavity.map_or(1.0, |cavity| cavity.q),
-                    outside: spec.outside,
-                    bessel,
-                };
-                problem.solve()
-            })
-            .collect();
+        let solved: Vec<Vec<CoupledMode>> =
+            grid.pitches().map(|pitch| self.solve(spec, m, bessel, air.as_ref(), pitch)).collect();
         let limit = TAU * spec.batter.limit_hz;
         let keep = |mode: &CoupledMode| mode.omega <= limit && mode.share[0] + mode.share[1] > HEARD_SHARE;
-        tuned::follow(m, &solved, shapes.len(), grid, keep)
+        tuned::follow(m, &solved, self.head_shapes(m).len(), grid, keep)
     }
 
     /// Shapes on the batter of every mode of the body, `[mode]`, pairs as two.

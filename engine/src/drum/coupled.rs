@@ -23,6 +23,8 @@
 //! the rim, and there the body fills a quarter of space, not half of it as a baffle would. Between, `B` rises as
 //! [`shadow`] has it for a source that faces all of the body.
 //!
+//! A shell without its other head sends out at its open end what the enclosed air pushes there, as a piston.
+//!
 //! Limits: the heads' outer air does not couple their modes; losses do not couple modes.
 
 use nalgebra::{DMatrix, DVector};
@@ -91,6 +93,8 @@ pub struct CoupledMode {
     pub shares: Vec<f64>,
     /// Share of the kinetic energy that is in air going along the drum as one, from head to head.
     pub flow: f64,
+    /// Displacement of the air at an open end, along the stroke, as a piston, per modal displacement.
+    pub outlet: f64,
     /// Area of the monopole in a baffle that would radiate its power at unit modal acceleration, m2.
     pub monopole_area: f64,
 }
@@ -152,7 +156,7 @@ impl<'a> OrderProblem<'a> {
     /// Frequencies and vectors.
     fn eigenmodes(&self, parts: &[Part], omegas: &[f64]) -> Vec<Solution> {
         let heads = parts.len();
-        let none = CavityOrder { modes: Vec::new(), mass: vec![0.0; heads * heads] };
+        let none = CavityOrder { modes: Vec::new(), mass: vec![0.0; heads * heads], outlet: Vec::new() };
         let cavity = self.cavity.unwrap_or(&none);
         let springs: Vec<_> = cavity.modes.iter().filter(|mode| mode.omega > 0.0).collect();
         let size = heads + springs.len();
@@ -211,15 +215,25 @@ impl<'a> OrderProblem<'a> {
                 sigma += kinetic * omega / (2.0 * self.cavity_q);
             }
         }
-        let resistance = self.resistance(parts, omega, &vector);
+        let outlet = self.outlet(&vector, heads);
+        let resistance = self.resistance(parts, omega, &vector, outlet);
         let radius = self.batter.membrane.spec().radius;
         sigma += 0.5 * DENSITY * omega * radius.powi(3) * resistance;
         let monopole_area = air::monopole_area(radius, resistance, omega);
-        CoupledMode { omega, sigma, vector, direction, share, shares, flow, monopole_area }
+        CoupledMode { omega, sigma, vector, direction, share, shares, flow, outlet, monopole_area }
+    }
+
+    /// Displacement of the air at an open end.
+    fn outlet(&self, vector: &[f64], heads: usize) -> f64 {
+        let Some(cavity) = self.cavity else { return 0.0 };
+        let springs = cavity.modes.iter().filter(|mode| mode.omega > 0.0).map(|mode| mode.outlet);
+        let volume: f64 = springs.zip(&vector[heads..]).map(|(outlet, y)| outlet * y).sum();
+        let plug: f64 = cavity.outlet.iter().zip(vector).map(|(outlet, q)| outlet * q).sum();
+        (volume + plug) / self.batter.membrane.spec().area()
     }
 
     /// Radiation resistance over `rho omega a^3` at unit modal displacement.
-    fn resistance(&self, parts: &[Part], omega: f64, vector: &[f64]) -> f64 {
+    fn resistance(&self, parts: &[Part], omega: f64, vector: &[f64], outlet: f64) -> f64 {
         let radius = self.batter.membrane.spec().radius;
         let u = omega * radius / SPEED_OF_SOUND;
         let shapes: Vec<HankelShape> =
@@ -231,7 +245,9 @@ impl<'a> OrderProblem<'a> {
             for (node, weight) in rule.nodes.iter().zip(&rule.weights) {
                 let s = u / panels * (panel as f64 + node);
                 let x = (u * u - s * s).max(0.0).sqrt();
-                let mut face = [0.0; 2];
+                // The Hankel transform of a piston.
+                let piston = if x < 1e-6 { 0.5 } else { libm::j1(x) / x };
+                let mut face = [0.0, outlet * piston];
                 for ((part, shape), q) in parts.iter().zip(&shapes).zip(vector) {
                     face[usize::from(part.far)] += q * shape.at(x);
                 }

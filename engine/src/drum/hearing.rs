@@ -173,9 +173,16 @@ impl<'a> Ears<'a> {
             let space = 0.5 * shadow::baffling(ka);
             let gain = shadow::near_gain(ka, self.spec.listening_point.fills(radius));
             (re, im) = (re * gain, im * gain);
-            if let (Some(head), Some(shapes)) = (&self.blueprint.resonant, &self.far_shapes) {
-                let (far_first, far_count) = head.order(mode.m);
-                let radial = self.radial(mode, place, shapes, [far_first, far_count, count]);
+            let radial = match (&self.blueprint.resonant, &self.far_shapes) {
+                (Some(head), Some(shapes)) => {
+                    let (far_first, far_count) = head.order(mode.m);
+                    Some(self.radial(mode, place, shapes, [far_first, far_count, count]))
+                }
+                // An open end moves as a piston.
+                _ if mode.m == 0 => Some(vec![mode.outlet(place); self.far.radii().len()]),
+                _ => None,
+            };
+            if let Some(radial) = radial {
                 let [far_re, far_im] = self.far.transfer(&Radiator { m: mode.m, radial: &radial, omega });
                 // Outward is toward the point for the one head and away for the other; the body
                 // hides the far one as it becomes a baffle.

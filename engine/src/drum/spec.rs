@@ -7,6 +7,7 @@ use crate::drum::coupled::Outside;
 use crate::error::SpecError;
 use crate::listening::ListeningPoint;
 use crate::membrane::MembraneSpec;
+use crate::piece::BuildOptions;
 use crate::split::Splitting;
 
 /// A head of a drum.
@@ -38,9 +39,11 @@ pub struct DrumSpec {
     pub cavity: Option<CavitySpec>,
     /// What surrounds the drum.
     pub outside: Outside,
-    /// The batter's mode whose frequency, in air and before the shell couples it, is the drum's
-    /// pitch: nodal diameters, nodal circles.
+    /// The batter's mode whose frequency is the drum's pitch: nodal diameters, nodal circles.
     pub named_mode: (u32, u32),
+    /// Whether that is its frequency in the drum; otherwise it is that of the head by itself in air, before the
+    /// shell couples it, which is how drummers name what they tune.
+    pub tuned_as_heard: bool,
     /// Lowest, default and highest pitch, Hz.
     pub pitch_hz: (f64, f64, f64),
     /// What muffles it.
@@ -71,15 +74,13 @@ const BATTER_LIMIT: f64 = 3000.0;
 /// pillow of a third of the shell's width. *Derived*.
 const PILLOW_FLOW: f64 = 0.35 * 850.0 / (2.0 * crate::air::DENSITY);
 
-/// A gel pad as drummers place it, near the rim. *By ear*.
-const fn gel(sigma: f64) -> Muffler {
-    Muffler::Gel { sigma, radius: 0.8, angle: 2.3 }
-}
-
 /// A head of that radius (m), thickness (m) and loss.
 fn head(radius: f64, thickness: f64, loss: LossLaw, limit_hz: f64) -> HeadSpec {
     HeadSpec { membrane: MembraneSpec { radius, thickness, material: Material::FILM, loss }, limit_hz }
 }
+
+/// A pillow that leans on a kick's head.
+pub const PILLOW: Muffler = Muffler::Pillow { sigma: 21.0, flow: PILLOW_FLOW };
 
 impl DrumSpec {
     /// A shell of that size with a head on either end.
@@ -96,8 +97,9 @@ impl DrumSpec {
             cavity: Some(CavitySpec::cylinder(radius, depth)),
             outside: Outside::Free { length: depth },
             named_mode: (0, 1),
+            tuned_as_heard: false,
             pitch_hz: (55.0, 82.0, 160.0),
-            muffler: gel(30.0),
+            muffler: Muffler::GEL,
             splitting: Splitting::DRUM,
             listening_point: ListeningPoint { distance: 0.5, inclination: 0.6, azimuth: 0.4 },
             wires: false,
@@ -116,7 +118,7 @@ impl DrumSpec {
         let batter = (TWO_PLY, LossLaw { constant: 4.0, per_khz: 12.0 });
         DrumSpec {
             pitch_hz: (35.0, 55.0, 90.0),
-            muffler: Muffler::Pillow { sigma: 21.0, flow: PILLOW_FLOW },
+            muffler: PILLOW,
             ..DrumSpec::two_headed(22.0, 18.0, batter, DrumSpec::single_ply(22.0, 1.10, 1000.0))
         }
     }
@@ -162,6 +164,7 @@ impl DrumSpec {
             cavity: Some(CavitySpec { volume, ..CavitySpec::cylinder(radius, depth) }),
             outside: Outside::Baffle,
             named_mode: (1, 1),
+            tuned_as_heard: true,
             pitch_hz: (87.3, 130.8, 196.0),
             splitting: Splitting::CLEARED,
             ..DrumSpec::two_headed(26.0, depth / INCH, batter, unused)
@@ -171,6 +174,34 @@ impl DrumSpec {
     /// The drum's batter on its own, with air on both faces: no shell, no other head.
     pub fn head_alone(self) -> DrumSpec {
         DrumSpec { resonant: None, cavity: None, outside: Outside::Baffle, wires: false, ..self }
+    }
+
+    /// The drum without what closes it: a shell without its other head (a concert tom), or a timpani's head without
+    /// its kettle.
+    pub fn opened(self) -> DrumSpec {
+        match self.outside {
+            Outside::Baffle => self.head_alone(),
+            Outside::Free { .. } => {
+                let cavity = self.cavity.map(|cavity| CavitySpec { open: true, ..cavity });
+                DrumSpec { resonant: None, cavity, wires: false, ..self }
+            }
+        }
+    }
+
+    /// The drum built otherwise, as the options ask.
+    pub fn with(self, options: &BuildOptions) -> DrumSpec {
+        let whole = if options.open { self.opened() } else { self };
+        let retuned = |resonant: ResonantSpec| ResonantSpec {
+            pitch_ratio: options.resonant_ratio.unwrap_or(resonant.pitch_ratio),
+            ..resonant
+        };
+        let detuning = options.unevenness.unwrap_or(self.splitting.detuning);
+        DrumSpec {
+            resonant: whole.resonant.map(retuned),
+            splitting: Splitting { detuning, ..self.splitting },
+            muffler: options.muffler.unwrap_or(self.muffler),
+            ..whole
+        }
     }
 
     /// Checks every number.
@@ -186,6 +217,10 @@ impl DrumSpec {
         if let Some(resonant) = self.resonant {
             resonant.head.membrane.validated()?;
             SpecError::check("resonant pitch ratio", resonant.pitch_ratio, 0.5, 2.5)?;
+        }
+        SpecError::check("detuning of pairs", self.splitting.detuning, 0.0, 0.05)?;
+        if let Muffler::Gel { radius, .. } | Muffler::Ring { inner: radius, .. } = self.muffler {
+            SpecError::check("place of the muffler (share of the radius)", radius, 0.0, 0.99)?;
         }
         if let Some(cavity) = self.cavity {
             SpecError::check("volume inside (m3)", cavity.volume, 1e-4, 1.0)?;

@@ -62,6 +62,8 @@ pub struct TunedMode {
     grid: Grid,
     /// `[pitch of the grid]`.
     entries: Vec<Entry>,
+    /// `[pitch of the grid]`: the air at an open end, over the head modes as the shares are.
+    outlet: Vec<f32>,
     /// `[head mode][pitch of the grid]`: shares of the heads' modes of this order, batter first.
     shares: Vec<f32>,
 }
@@ -149,6 +151,11 @@ impl TunedMode {
         place.of(self.grid).blend(|pitch| f64::from(row[pitch]))
     }
 
+    /// Displacement of the air at an open end, per share.
+    pub fn outlet(&self, place: &Place) -> f64 {
+        place.of(self.grid).blend(|pitch| f64::from(self.outlet[pitch]))
+    }
+
     /// The pitches it is worked out at.
     pub fn grid(&self) -> Grid {
         self.grid
@@ -187,6 +194,7 @@ pub fn follow(
     let tuned = |path: &Vec<(usize, f64)>| {
         let mut entries = vec![Entry::default(); pitches];
         let mut shares = vec![0.0_f32; heads * pitches];
+        let mut outlet = vec![0.0_f32; pitches];
         for (pitch, &(k, sign)) in path.iter().enumerate() {
             let mode = &solved[pitch][k];
             let size = mode.vector[..heads].iter().map(|x| x * x).sum::<f64>().sqrt().max(1e-12);
@@ -198,12 +206,13 @@ pub fn follow(
                 resonant: mode.share[1],
                 flow: mode.flow,
             };
+            outlet[pitch] = (sign * mode.outlet / size) as f32;
             for (row, x) in shares.chunks_exact_mut(pitches).zip(&mode.vector) {
                 row[pitch] = (sign * x / size) as f32;
             }
         }
         let k = path[reference].0;
-        TunedMode { m, reference: start[k].clone(), name: names[k], grid, entries, shares }
+        TunedMode { m, reference: start[k].clone(), name: names[k], grid, entries, outlet, shares }
     };
     paths.iter().filter(|path| keep(&start[path[reference].0])).map(tuned).collect()
 }

@@ -6,7 +6,7 @@ use overhear_engine::piece::PieceId;
 use super::{Drives, Parameter};
 
 /// Every parameter, in the order hosts see. Frozen: append only.
-pub static PARAMETERS: [Parameter; 25] = {
+pub static PARAMETERS: [Parameter; 28] = {
     use PieceId::*;
     [
         drum_tune(Kick, "Kick", "kktune", "kick_tune", [35.0, 55.0, 90.0]),
@@ -84,6 +84,10 @@ pub static PARAMETERS: [Parameter; 25] = {
             decimals: 0,
             drives: Drives::Control(Control::SnareWires),
         },
+        // The pedal.
+        drum_tune(Timpani, "Timpani", "tptune", "timpani_tune", [87.3, 130.8, 196.0]),
+        muffle(Timpani, "Timpani", "tpmuff", "timpani_muffle", 0.0),
+        level(Timpani, "Timpani", "tplevl", "timpani_level", 0.0),
     ]
 };
 

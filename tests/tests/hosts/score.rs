@@ -28,7 +28,7 @@ pub fn frames(rate: f64) -> u64 {
     (SECONDS * rate) as u64
 }
 
-/// All seven pieces at awkward samples, alone and together.
+/// All pieces of the drum set at awkward samples, alone and together.
 pub fn notes(rate: f64) -> Score {
     let at = |seconds: f64| (seconds * rate) as u64;
     let mut score: Score = [

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use clap::{Args, Subcommand, ValueEnum};
+use overhear_engine::damping::Muffler;
+use overhear_engine::drum::spec::PILLOW;
 use overhear_engine::piece::{self, BuildOptions};
 use overhear_engine::strike::Strike;
 
@@ -189,6 +191,18 @@ pub struct HearArguments {
     /// Build perfectly round bodies, whose pairs of modes share one frequency
     #[arg(long)]
     unsplit: bool,
+    /// Take off what closes a drum: the resonant head, or the timpani's kettle
+    #[arg(long)]
+    open: bool,
+    /// Tune a drum's other head to so many times the struck one's pitch
+    #[arg(long, value_name = "RATIO", value_parser = ratio)]
+    resonant_ratio: Option<f64>,
+    /// Make a drum's tension so uneven: mean relative difference of the two members of a pair, up to .05
+    #[arg(long, value_name = "SHARE", value_parser = unevenness)]
+    uneven: Option<f64>,
+    /// What muffles a drum: pillow, gel, ring, or gel@R,DEG at a place
+    #[arg(long, value_name = "MUFFLER", value_parser = muffler)]
+    muffler: Option<Muffler>,
     /// Leave out what drum heads do above their complete sets of modes
     #[arg(long)]
     no_high_band: bool,
@@ -220,6 +234,10 @@ impl HearArguments {
         options.unsplit = self.unsplit;
         options.linear = self.linear;
         options.high_band = !self.no_high_band;
+        options.open = self.open;
+        options.resonant_ratio = self.resonant_ratio;
+        options.unevenness = self.uneven;
+        options.muffler = self.muffler;
         options.quality = self.quality.into();
         let settings = settings::parse_for_piece(piece, &self.set)?;
         Ok(hear::Request { piece, strike, settings, options, seconds: self.seconds, wav: self.wav })
@@ -240,6 +258,19 @@ pub struct ModesArguments {
     /// Sample rate, Hz
     #[arg(long, value_name = "HZ", default_value = "48000", value_parser = rate)]
     pub rate: u32,
+    /// Take off what closes a drum: the resonant head, or the timpani's kettle
+    #[arg(long)]
+    open: bool,
+    /// Perfectly round bodies, whose pairs of modes share one frequency
+    #[arg(long)]
+    unsplit: bool,
+}
+
+impl ModesArguments {
+    /// How the piece is built.
+    pub fn options(&self) -> BuildOptions {
+        BuildOptions { open: self.open, unsplit: self.unsplit, ..BuildOptions::new(f64::from(self.rate)) }
+    }
 }
 
 /// Arguments of `realism`.
@@ -308,6 +339,31 @@ fn speed(text: &str) -> Result<f64, String> {
 
 fn share(text: &str) -> Result<f64, String> {
     number(text, 0.0, false, 1.0, " of the radius")
+}
+
+fn ratio(text: &str) -> Result<f64, String> {
+    number(text, 0.5, false, 2.5, " of the struck head's pitch")
+}
+
+fn unevenness(text: &str) -> Result<f64, String> {
+    number(text, 0.0, false, 0.05, "")
+}
+
+/// `pillow`, `gel`, `ring` or `gel@R,DEG`.
+fn muffler(text: &str) -> Result<Muffler, String> {
+    const ACCEPTED: &str = "accepted: pillow, gel, ring, gel@R,DEG as in gel@.7,90";
+    match (text, Muffler::GEL) {
+        ("pillow", _) => Ok(PILLOW),
+        ("gel", gel) => Ok(gel),
+        ("ring", _) => Ok(Muffler::RING),
+        (place, Muffler::Gel { sigma, .. }) => {
+            let place = place.strip_prefix("gel@").and_then(|place| place.split_once(','));
+            let (radius, degrees) = place.ok_or(ACCEPTED)?;
+            let radius = number(radius, 0.0, false, 0.99, " of the radius")?;
+            Ok(Muffler::Gel { sigma, radius, angle: angle(degrees)?.to_radians() })
+        }
+        _ => Err(ACCEPTED.to_owned()),
+    }
 }
 
 fn angle(text: &str) -> Result<f64, String> {
