@@ -14,29 +14,29 @@ pub static PARAMETERS: [Parameter; 28] = {
         level(Kick, "Kick", "kklevl", "kick_level", 0.0),
         drum_tune(Snare, "Snare", "sntune", "snare_tune", [140.0, 220.0, 360.0]),
         muffle(Snare, "Snare", "snmuff", "snare_muffle", 0.0),
-        level(Snare, "Snare", "snlevl", "snare_level", -7.0),
+        level(Snare, "Snare", "snlevl", "snare_level", -4.0),
         drum_tune(RackTom, "Rack tom", "rttune", "rack_tom_tune", [90.0, 140.0, 260.0]),
         muffle(RackTom, "Rack tom", "rtmuff", "rack_tom_muffle", 0.0),
-        level(RackTom, "Rack tom", "rtlevl", "rack_tom_level", 0.0),
+        level(RackTom, "Rack tom", "rtlevl", "rack_tom_level", 3.0),
         drum_tune(FloorTom, "Floor tom", "fttune", "floor_tom_tune", [55.0, 82.0, 160.0]),
         muffle(FloorTom, "Floor tom", "ftmuff", "floor_tom_muffle", 0.0),
-        level(FloorTom, "Floor tom", "ftlevl", "floor_tom_level", 0.0),
+        level(FloorTom, "Floor tom", "ftlevl", "floor_tom_level", 2.0),
         cymbal_tune(Crash, "Crash", "crtune", "crash_tune"),
         muffle(Crash, "Crash", "crmuff", "crash_muffle", 0.0),
-        level(Crash, "Crash", "crlevl", "crash_level", 0.0),
+        level(Crash, "Crash", "crlevl", "crash_level", 6.0),
         cymbal_tune(Ride, "Ride", "rdtune", "ride_tune"),
         muffle(Ride, "Ride", "rdmuff", "ride_muffle", 0.0),
-        level(Ride, "Ride", "rdlevl", "ride_level", 0.0),
+        level(Ride, "Ride", "rdlevl", "ride_level", -10.0),
         cymbal_tune(Splash, "Splash", "sptune", "splash_tune"),
         muffle(Splash, "Splash", "spmuff", "splash_muffle", 0.0),
-        level(Splash, "Splash", "splevl", "splash_level", 0.0),
+        level(Splash, "Splash", "splevl", "splash_level", 3.0),
         Parameter {
             id: "master",
             name: "master_level",
             label: "Level",
             group: "Kit",
             // A groove at full velocity peaks a few decibels below full scale.
-            default: -5.0,
+            default: -4.0,
             ..decibels(Control::Master)
         },
         Parameter {
@@ -156,7 +156,8 @@ const fn muffle(
     }
 }
 
-/// A level; its default balances the kit. *By ear*: a snare by itself is far louder than a mix has it.
+/// A level; its default balances the kit. *By ear*: a ride's ping at half a metre is far louder than a mix has
+/// it, a crash from the side far softer.
 const fn level(
     piece: PieceId,
     group: &'static str,
