@@ -84,6 +84,8 @@ pub struct Sound {
     pub motion: Motion,
     /// Energy of the striker as it arrives, J.
     pub striker_energy: f64,
+    /// Energy that strikers have taken away, their bending and all, J.
+    pub striker_energy_out: f64,
     /// Greatest energy of the piece, J.
     pub energy_peak: f64,
     /// Energy of the piece at the end, J.
@@ -125,8 +127,9 @@ pub fn render(request: &Request) -> Result<Sound> {
     for sample in &mut samples {
         *sample /= FULL_SCALE_PA;
     }
+    let striker_energy_out = piece.departed_energy() + piece.striker_energy();
     let (energy_end, contact, wires) = (piece.energy(), piece.last_strike(), piece.wires());
-    Ok(Sound { samples, motion, striker_energy, energy_peak, energy_end, contact, wires })
+    Ok(Sound { samples, motion, striker_energy, striker_energy_out, energy_peak, energy_end, contact, wires })
 }
 
 /// Lets the tuning and the muffling glide to where they were set, at rest.

@@ -55,6 +55,8 @@ pub struct Measurement {
     pub wire_last_lift_s: Option<f64>,
     /// Kinetic energy of the arriving striker, J.
     pub striker_energy_in_j: f64,
+    /// What the striker took away: its flight, its bending, the head right under it, J.
+    pub striker_energy_out_j: f64,
     /// Greatest energy of the piece, J.
     pub energy_peak_j: f64,
     /// Energy of the piece at the end, J.
@@ -95,6 +97,7 @@ impl Measurement {
             wire_landings: sound.wires.landings,
             wire_last_lift_s: (sound.wires.last_lift > 0.0).then(|| exact(sound.wires.last_lift)),
             striker_energy_in_j: sound.striker_energy,
+            striker_energy_out_j: sound.striker_energy_out,
             energy_peak_j: sound.energy_peak,
             energy_end_j: sound.energy_end,
         }
