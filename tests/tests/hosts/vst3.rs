@@ -38,6 +38,13 @@ impl Drop for Scratch {
     }
 }
 
+/// Place of a parameter in DawDreamer's list: the host goes through the plugin's groups, in the order in which
+/// they first appear, and within each through its parameters.
+fn listed(index: usize) -> usize {
+    let group = |of: usize| PARAMETERS.iter().position(|other| other.group == PARAMETERS[of].group);
+    (0..PARAMETERS.len()).filter(|&other| (group(other), other) < (group(index), index)).count()
+}
+
 /// Plays a score through the VST3 bundle, parameters `(index, plain value)` set before.
 fn through_vst3(name: &str, score: &Score, parameters: &[(usize, f32)], rate: f64, block: u32) -> Sound {
     let (job, out) = (Scratch::new(&format!("{name}.json")), Scratch::new(&format!("{name}.f32")));
@@ -50,7 +57,7 @@ fn through_vst3(name: &str, score: &Score, parameters: &[(usize, f32)], rate: f6
         .collect();
     let parameters: Vec<_> = parameters
         .iter()
-        .map(|&(index, value)| json!([index, PARAMETERS[index].normalized(value)]))
+        .map(|&(index, value)| json!([listed(index), PARAMETERS[index].normalized(value)]))
         .collect();
     let description = json!({
         "plugin": bundle_path(Format::Vst3),
