@@ -100,13 +100,16 @@ fn play(
 /// Peak of each piece's share of the mix.
 fn piece_peaks(take: &Take) -> Result<Vec<(PieceId, f32)>> {
     let style = style(Source::Engine);
+    let part = |piece| {
+        let strikes = |hit: &&Hit| midi_map::stroke(hit.key).is_some_and(|stroke| stroke.piece == piece);
+        Take { hits: take.hits.iter().filter(strikes).copied().collect(), ..*take }
+    };
     PieceId::KIT
         .into_iter()
-        .map(|piece| {
-            let strikes = |hit: &&Hit| midi_map::stroke(hit.key).is_some_and(|stroke| stroke.piece == piece);
-            let part = Take { hits: take.hits.iter().filter(strikes).copied().collect(), ..*take };
-            Ok((piece, play(&part, &style, Some(piece), piece.name())?.0.peak))
-        })
+        .map(|piece| (piece, part(piece)))
+        // A groove has no use for a timpani; what it strikes must be heard.
+        .filter(|(_, part)| !part.hits.is_empty())
+        .map(|(piece, part)| Ok((piece, play(&part, &style, Some(piece), piece.name())?.0.peak)))
         .collect()
 }
 
