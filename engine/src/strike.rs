@@ -90,27 +90,16 @@ impl StrikerSpec {
         restitution: f64,
         patch_mm: f64,
     ) -> StrikerSpec {
-        let tip = Tip::Solid { material, radius: radius_mm * 1e-3 };
-        StrikerSpec {
-            mass: grams * 1e-3,
-            tip,
-            restitution,
-            patch: patch_mm * 1e-3,
-            stick: None,
-            across: None,
-        }
+        StrikerSpec::new(grams, Tip::Solid { material, radius: radius_mm * 1e-3 }, restitution, patch_mm)
     }
 
     const fn felt(grams: f64, stiffness: f64, exponent: f64, restitution: f64, patch_mm: f64) -> StrikerSpec {
-        let tip = Tip::Felt { stiffness, exponent };
-        StrikerSpec {
-            mass: grams * 1e-3,
-            tip,
-            restitution,
-            patch: patch_mm * 1e-3,
-            stick: None,
-            across: None,
-        }
+        StrikerSpec::new(grams, Tip::Felt { stiffness, exponent }, restitution, patch_mm)
+    }
+
+    const fn new(grams: f64, tip: Tip, restitution: f64, patch_mm: f64) -> StrikerSpec {
+        let (mass, patch) = (grams * 1e-3, patch_mm * 1e-3);
+        StrikerSpec { mass, tip, restitution, patch, stick: None, across: None }
     }
 
     const fn on(self, stick: Stick) -> StrikerSpec {

@@ -273,13 +273,7 @@ impl Surface {
             let new = mode(k, &self.body.modes()[k]);
             self.body.set_mode(k, new);
         }
-        self.body.tune(&mut self.pickup);
-        if let Some(force) = &mut self.beyond {
-            force.follow(&self.body, &self.pickup);
-        }
-        for n in 0..self.live_count {
-            self.connect(self.live[n]);
-        }
+        self.follow_modes();
     }
 
     /// Changes how each mode is heard, as in [`SurfaceParts::transfer`]; what rings is heard so at once.
@@ -290,6 +284,11 @@ impl Surface {
         for (place, transfer) in self.pickup.transfer_mut().iter_mut().zip(transfer) {
             *place = transfer;
         }
+        self.follow_modes();
+    }
+
+    /// Tells everything that hangs on the modes, or on how they are heard, that they have changed.
+    fn follow_modes(&mut self) {
         self.body.tune(&mut self.pickup);
         if let Some(force) = &mut self.beyond {
             force.follow(&self.body, &self.pickup);

@@ -27,20 +27,30 @@ const WAVE: RGBColor = RGBColor(240, 170, 80);
 /// # Errors
 /// If drawing or encoding fails.
 pub fn png(title: &str, left: &[f32], right: &[f32], rate: u32) -> Result<Vec<u8>> {
-    register_font("sans-serif", FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT)
-        .map_err(|_| anyhow!("the font cannot be used"))?;
-    let mut pixels = vec![0; (SIZE.0 * SIZE.1 * 3) as usize];
-    {
-        let area = BitMapBackend::with_buffer(&mut pixels, SIZE).into_drawing_area();
-        draw(&area, title, [left, right], f64::from(rate))
-            .map_err(|error| anyhow!("cannot draw: {error}"))?;
-    }
-    encode(&pixels).context("cannot encode the picture")
+    drawn(SIZE, |area| draw(area, title, [left, right], f64::from(rate)))
 }
 
-fn encode(pixels: &[u8]) -> Result<Vec<u8>> {
+/// The PNG of what `draw` draws on an area of that size, pixels.
+///
+/// # Errors
+/// If drawing or encoding fails.
+pub(crate) fn drawn(
+    size: (u32, u32),
+    draw: impl FnOnce(&Area) -> Result<(), Box<dyn std::error::Error>>,
+) -> Result<Vec<u8>> {
+    register_font("sans-serif", FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT)
+        .map_err(|_| anyhow!("the font cannot be used"))?;
+    let mut pixels = vec![0; (size.0 * size.1 * 3) as usize];
+    {
+        let area = BitMapBackend::with_buffer(&mut pixels, size).into_drawing_area();
+        draw(&area).map_err(|error| anyhow!("cannot draw: {error}"))?;
+    }
+    encode(&pixels, size).context("cannot encode the picture")
+}
+
+fn encode(pixels: &[u8], (width, height): (u32, u32)) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, SIZE.0, SIZE.1);
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
     let mut writer = encoder.write_header()?;
@@ -49,7 +59,7 @@ fn encode(pixels: &[u8]) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
-type Area<'a> = DrawingArea<BitMapBackend<'a>, plotters::coord::Shift>;
+pub(crate) type Area<'a> = DrawingArea<BitMapBackend<'a>, plotters::coord::Shift>;
 
 fn draw(
     area: &Area,

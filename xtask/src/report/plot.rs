@@ -1,8 +1,9 @@
 //! Line plots of the report, as PNG.
 
-use anyhow::{Context, Result, anyhow};
+use anyhow::Result;
 use plotters::prelude::*;
-use plotters::style::{FontStyle, register_font};
+
+use crate::picture;
 
 /// Size of a picture, pixels.
 const SIZE: (u32, u32) = (1500, 520);
@@ -40,14 +41,7 @@ impl Plot<'_> {
     /// # Errors
     /// If drawing or encoding fails.
     pub fn png(&self) -> Result<Vec<u8>> {
-        register_font("sans-serif", FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT)
-            .map_err(|_| anyhow!("the font cannot be used"))?;
-        let mut pixels = vec![0; (SIZE.0 * SIZE.1 * 3) as usize];
-        {
-            let area = BitMapBackend::with_buffer(&mut pixels, SIZE).into_drawing_area();
-            self.draw(&area).map_err(|error| anyhow!("cannot draw: {error}"))?;
-        }
-        encode(&pixels).context("cannot encode the picture")
+        picture::drawn(SIZE, |area| self.draw(area))
     }
 
     fn draw(
@@ -91,15 +85,4 @@ impl Plot<'_> {
         area.present()?;
         Ok(())
     }
-}
-
-fn encode(pixels: &[u8]) -> Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, SIZE.0, SIZE.1);
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.set_depth(png::BitDepth::Eight);
-    let mut writer = encoder.write_header()?;
-    writer.write_image_data(pixels)?;
-    writer.finish()?;
-    Ok(bytes)
 }
