@@ -117,6 +117,7 @@ fn modes(arguments: ModesArguments) -> Result<()> {
     let piece = settings::piece(&arguments.piece)?;
     let settings = settings::parse_for_piece(piece, &arguments.set)?;
     let options = arguments.options();
+    settings::check_options(piece, &options)?;
     let modes = modes::run(piece, &options, &settings)?;
     say(&if arguments.json { serde_json::to_string(&modes)? + "\n" } else { modes.to_string() })
 }

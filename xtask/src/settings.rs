@@ -3,7 +3,7 @@
 use anyhow::Result;
 use overhear::parameters::{Drives, PARAMETERS, Parameter, parse_assignment};
 use overhear_engine::kit::Control;
-use overhear_engine::piece::{Piece, PieceId};
+use overhear_engine::piece::{BuildOptions, Piece, PieceId};
 
 use crate::bad_input;
 
@@ -42,6 +42,24 @@ pub fn piece(name: &str) -> Result<PieceId> {
         let names = PieceId::ALL.map(PieceId::name).join(", ");
         bad_input!("no piece is called `{name}`, accepted: {names}")
     })
+}
+
+/// Checks that what is asked of the build is something the piece has.
+///
+/// # Errors
+/// [`BadInput`](crate::error::BadInput) naming the option: a cymbal has no heads.
+pub fn check_options(id: PieceId, options: &BuildOptions) -> Result<()> {
+    let of_drums = [
+        ("--open", options.open),
+        ("--resonant-ratio", options.resonant_ratio.is_some()),
+        ("--uneven", options.unevenness.is_some()),
+        ("--muffler", options.muffler.is_some()),
+        ("--no-high-band", !options.high_band),
+    ];
+    match of_drums.into_iter().find(|&(_, asked)| asked && !id.is_drum()) {
+        Some((option, _)) => Err(bad_input!("{option} is of drums, the {} is a cymbal", id.name())),
+        None => Ok(()),
+    }
 }
 
 /// A setting of a piece on its own: a control of the kit, in the engine's units.

@@ -239,6 +239,7 @@ impl HearArguments {
         options.unevenness = self.uneven;
         options.muffler = self.muffler;
         options.quality = self.quality.into();
+        settings::check_options(piece, &options)?;
         let settings = settings::parse_for_piece(piece, &self.set)?;
         Ok(hear::Request { piece, strike, settings, options, seconds: self.seconds, wav: self.wav })
     }
