@@ -11,15 +11,17 @@
 //! ```
 
 pub mod oscillator;
+mod paired;
 pub mod patch;
 mod sample;
 mod striking;
-mod together;
+pub mod together;
 pub mod touch;
 pub mod wires;
 
 use crate::contact::Material;
 use crate::drum::high_band::HighBand;
+use crate::hi_hat::pair::Pair;
 use crate::modal::simd::MAX_RUN;
 use crate::modal::{ModalBody, Mode, Pickup};
 use crate::potential::{NonlinearForce, Potential};
@@ -86,6 +88,8 @@ pub struct Surface {
     /// What it and the far head do above their modes; a place for each striker's point and each wire's.
     high: Option<HighBand>,
     far_high: Option<HighBand>,
+    /// Another surface underneath.
+    pair: Option<Box<Pair>>,
     /// Between present points: one-sample compliance of the modes and of what touches, m/N.
     compliance: Compliances,
     /// Each present point's coupling with the force beyond the modes.
@@ -154,6 +158,7 @@ impl Surface {
             beyond: None,
             high: None,
             far_high: None,
+            pair: None,
             compliance: [[0.0; MAX_POINTS]; MAX_POINTS],
             coupling: [0.0; MAX_POINTS],
             yielding: [[0.0; MAX_POINTS]; MAX_POINTS],
@@ -230,6 +235,7 @@ impl Surface {
     pub fn energy(&self) -> f64 {
         let wires: f64 = self.present(MAX_STRIKERS..self.touchers.len());
         let rim = self.rim.as_ref().map_or(0.0, |rim| rim.body.energy());
+        let rim = rim + self.pair.as_ref().map_or(0.0, |pair| pair.energy());
         self.body.energy() + self.beyond.as_ref().map_or(0.0, NonlinearForce::energy) + wires + rim
     }
 
@@ -293,6 +299,9 @@ impl Surface {
         if let Some(force) = &mut self.beyond {
             force.follow(&self.body, &self.pickup);
         }
+        if let Some(pair) = &mut self.pair {
+            pair.follow(&self.body, &self.pickup);
+        }
         for n in 0..self.live_count {
             self.connect(self.live[n]);
         }
@@ -321,7 +330,8 @@ impl Surface {
     /// of the potential while that acts.
     pub fn render(&mut self, out: &mut [f32]) {
         let mut done = 0;
-        while self.live_count > 0 && done < out.len() {
+        let together = self.pair.as_ref().is_some_and(|pair| pair.is_engaged());
+        while (self.live_count > 0 || together) && done < out.len() {
             out[done] = self.step(done);
             done += 1;
         }
@@ -344,6 +354,9 @@ impl Surface {
             let heard = &mut heard[..rest.len()];
             rim.body.ring(0, &rim.pickup, heard);
             rest.iter_mut().zip(heard).for_each(|(sum, x)| *sum += *x);
+        }
+        if let Some(pair) = self.pair.as_mut().filter(|_| !together) {
+            pair.ring(out, done);
         }
         self.high.iter_mut().chain(&mut self.far_high).for_each(|high| high.render(out));
     }
@@ -381,10 +394,11 @@ impl Surface {
             && self.body.is_finite()
             && self.rim.as_ref().is_none_or(|rim| rim.body.is_finite())
             && self.live[..self.live_count].iter().all(|&i| self.points[i].compression.is_finite());
+        let strikers = self.touchers[..MAX_STRIKERS].iter().any(|striker| striker.present);
+        let finite = finite && self.settle_pair(strikers);
         if !finite {
             self.reset();
         }
-        let strikers = self.touchers[..MAX_STRIKERS].iter().any(|striker| striker.present);
         let moving = self.wires.as_ref().is_some_and(|wires| wires.on && !wires.parked);
         if moving && !strikers && self.energy() < wires::STILL {
             self.park_wires();
@@ -396,7 +410,8 @@ impl Surface {
     pub fn is_still(&self) -> bool {
         let high = self.high.iter().chain(&self.far_high).all(HighBand::is_still);
         let rim = self.rim.as_ref().is_none_or(|rim| rim.body.is_still());
-        high && rim && self.live_count == 0 && self.body.is_still()
+        let pair = self.pair.as_ref().is_none_or(|pair| pair.is_still());
+        high && rim && pair && self.live_count == 0 && self.body.is_still()
     }
 
     /// Puts everything to rest; strikers are gone.
@@ -414,6 +429,7 @@ impl Surface {
         }
         self.list();
         self.park_wires();
+        self.pair.iter_mut().for_each(|pair| pair.reset());
         (self.brought_energy, self.departed_energy) = (0.0, 0.0);
     }
 }

@@ -6,6 +6,7 @@
 //! they differ by rounding.
 
 pub mod driven;
+pub mod folded;
 pub mod polar;
 
 use pulp::{Arch, Scalar128b, Simd, WithSimd};

@@ -22,10 +22,16 @@ impl Surface {
             let (high, place) = above(i, &mut self.high, &mut self.far_high);
             high.iter_mut().for_each(|high| high.complete(place, self.points[i].direct));
         }
+        if let Some(pair) = &mut self.pair {
+            pair.connect_striker(i, &self.body, &self.points[i].port);
+        }
         for &j in &self.live[..self.live_count] {
             let mut mutual = 0.0;
             if self.points[j].side == side {
                 mutual = body.compliance(&self.points[j].port, &self.points[i].port);
+            }
+            if let Some(pair) = self.pair.as_ref().filter(|_| i < FIRST_WIRE && j < FIRST_WIRE) {
+                mutual += pair.between_strikers(i, j);
             }
             if owner(i) == owner(j) {
                 mutual +=
@@ -39,6 +45,8 @@ impl Surface {
     /// One sample with something about; which of the run.
     pub(super) fn step(&mut self, sample: usize) -> f32 {
         let mean = self.step_free();
+        let divisor = self.divisor();
+        self.step_pair(mean);
         let dt = self.dt;
         for toucher in self.touchers.iter_mut().filter(|toucher| toucher.present) {
             toucher.step();
@@ -52,10 +60,16 @@ impl Surface {
                 (Some(rim), Side::Rim) => rim.body.displacement_at(&point.port),
                 _ => self.body.displacement_at(&point.port) - self.coupling[i] * mean,
             };
-            let position = self.touchers[owner(i)].position(&point.weights);
+            let mut position = self.touchers[owner(i)].position(&point.weights);
+            if let Some(pair) = &self.pair {
+                position += pair.eases_striker(i, self.coupling[i], divisor) - pair.under_striker(i);
+            }
             point.free_flight(position - surface - point.origin, self.yielding[i][i], dt);
         }
-        self.solve();
+        match self.pair {
+            Some(_) => self.solve_paired(),
+            None => self.solve(),
+        }
         let mut direct = 0.0;
         let mut pressed = 0.0;
         for &i in &self.live[..self.live_count] {
@@ -67,6 +81,9 @@ impl Surface {
                     _ => self.body.push(&point.port, force as f32),
                 }
                 self.touchers[owner(i)].push(&point.weights, force);
+                if let Some(pair) = &mut self.pair {
+                    pair.push_striker(i, force);
+                }
                 direct += force as f32 * point.direct;
                 pressed += force * self.coupling[i];
                 if point.side == Side::Surface {
@@ -75,11 +92,19 @@ impl Surface {
                 }
             }
         }
+        if let Some(pair) = &mut self.pair {
+            let (of_rims, at_once) = pair.press(&mut self.body);
+            pressed += of_rims;
+            direct += at_once;
+        }
         if let Some(beyond) = self.beyond.as_mut().filter(|beyond| beyond.is_active()) {
             direct += beyond.finish(&mut self.body, pressed);
         }
         for &i in &self.live[..self.live_count] {
-            let others = self.moved_by_others(i);
+            let mut others = self.moved_by_others(i);
+            if let Some(pair) = &self.pair {
+                others += pair.moves_striker(i, self.coupling[i], divisor);
+            }
             let before = self.points[i].touching;
             self.points[i].finish(others);
             if let Some(wires) = self.wires.as_mut().filter(|_| i >= FIRST_WIRE) {
@@ -89,9 +114,10 @@ impl Surface {
         if let Some(wires) = &mut self.wires {
             wires.age += 1;
         }
+        let below = self.finish_pair(divisor);
         self.watch_strikers();
         let rim = self.rim.as_ref().map_or(0.0, |rim| rim.body.listen(&rim.pickup));
-        self.body.listen(&self.pickup) + rim + direct
+        self.body.listen(&self.pickup) + rim + below + direct
     }
 
     /// How far the forces of all other points have brought point `i` out of the surface, m.
