@@ -25,6 +25,7 @@ pub mod foot;
 pub mod half;
 pub mod pair;
 pub mod rigid;
+pub mod rims;
 mod step;
 
 use std::f64::consts::TAU;
@@ -77,6 +78,10 @@ pub struct HiHatSpec {
     pub edge: f64,
     /// Restitution of a landing.
     pub restitution: f64,
+    /// Decay rate that rims which are clamped together add to every mode of both.
+    pub rubbing: LossLaw,
+    /// Clamping force at which they rub half as much, N.
+    pub half_rubbing: f64,
     /// Speed of a landing that a touch that lasts is as lossy as, m/s.
     pub lasting: f64,
 }
@@ -85,7 +90,7 @@ impl Default for HiHatSpec {
     fn default() -> HiHatSpec {
         let half = |plate, seed| CymbalSpec {
             plate,
-            loss: LossLaw { constant: 1.75, per_khz: 0.06 },
+            loss: LossLaw { constant: 1.0, per_khz: 0.06 },
             muffler: Muffler::Gel { sigma: 40.0, radius: 0.85, angle: 2.3 },
             splitting: Splitting { seed, ..Splitting::CYMBAL },
             ..CymbalSpec::crash()
@@ -93,12 +98,14 @@ impl Default for HiHatSpec {
         HiHatSpec {
             top: half(PlateSpec::HI_HAT_TOP, 5),
             bottom: half(PlateSpec::HI_HAT_BOTTOM, 6),
-            clutch: Mount { bounce_hz: 28.0, rock_hz: 6.0, q: 3.0, damping: 1.0, reach: 0.08 },
-            seat: Mount { bounce_hz: 35.0, rock_hz: 12.0, q: 3.0, damping: 1.0, reach: 0.12 },
+            clutch: Mount { bounce_hz: 28.0, rock_hz: 6.0, q: 3.0, damping: 0.5, reach: 0.08 },
+            seat: Mount { bounce_hz: 35.0, rock_hz: 12.0, q: 3.0, damping: 0.5, reach: 0.12 },
             tilt: 0.009,
             toward: 2.0,
             edge: 1e-3,
-            restitution: 0.35,
+            restitution: 0.2,
+            rubbing: LossLaw { constant: 15.5, per_khz: 1.0 },
+            half_rubbing: 10.0,
             lasting: 0.02,
         }
     }
@@ -112,6 +119,9 @@ pub struct HiHat {
     tuning: Glide,
     muffling: Glide,
     hand: Glide,
+    /// How much the rims rub, 0 to 1, and the clamping force at which they do half as much, N.
+    rubbing: f64,
+    half_rubbing: f64,
     stale: bool,
     /// Place of the rod at the pedal's end, m.
     closed: f64,
@@ -128,8 +138,8 @@ impl HiHat {
         SpecError::check("rim's radius (m)", spec.edge, 1e-4, 1e-2)?;
         let highest = options.quality.coupled_hz().min(cymbal::COUPLED_SHARE_OF_RATE * options.sample_rate);
         let coupled_hz = (!options.linear).then_some(highest);
-        let (top, struck) = Half::new(&spec.top, &spec.clutch, coupled_hz, options)?;
-        let (bottom, _) = Half::new(&spec.bottom, &spec.seat, None, options)?;
+        let (top, struck) = Half::new(&spec.top, (&spec.clutch, spec.rubbing), coupled_hz, options)?;
+        let (bottom, _) = Half::new(&spec.bottom, (&spec.seat, spec.rubbing), None, options)?;
         let (surface, halves) = assemble(spec, options, [top, bottom], struck);
         let (low, tuning, high) = CymbalSpec::TUNING;
         let mut hat = HiHat {
@@ -139,6 +149,8 @@ impl HiHat {
             tuning: Glide::new(tuning, low, high),
             muffling: Glide::new(0.0, 0.0, 1.0),
             hand: Glide::new(0.0, 0.0, 1.0),
+            rubbing: 0.0,
+            half_rubbing: spec.half_rubbing,
             stale: true,
             closed: GAP,
             pedal: 0.0,
@@ -206,6 +218,25 @@ impl HiHat {
         self.surface.move_pedal(|foot| foot.go(rod, speed));
     }
 
+    /// Brings the pedal down at up to a speed (m/s); a foot that is down already lifts first, as fast as it can.
+    ///
+    /// # Real-time
+    /// No allocation; linear in the number of modes.
+    pub fn stamp(&mut self, speed: f64) {
+        if speed.is_nan() {
+            return;
+        }
+        self.pedal = 1.0;
+        let closed = self.closed;
+        self.surface.move_pedal(|foot| {
+            if foot.place() > GAP - LIFT {
+                foot.turn(GAP - LIFT, closed, speed.max(SPEED.1));
+            } else {
+                foot.go(closed, speed);
+            }
+        });
+    }
+
     /// Brings the rims together at up to a speed (m/s) and the pedal up again at once, to where it was.
     ///
     /// # Real-time
@@ -217,7 +248,7 @@ impl HiHat {
         // Rims that are pressed together have to come apart to ring.
         self.pedal = self.pedal.min(SPLASHING);
         let rod = self.rod(self.pedal);
-        self.surface.move_pedal(|foot| foot.bounce(GAP + SPLASH_DEPTH, rod, speed));
+        self.surface.move_pedal(|foot| foot.turn(GAP + SPLASH_DEPTH, rod, speed));
     }
 
     /// Asks for a ratio of all frequencies to the cymbals' own.
@@ -245,8 +276,8 @@ impl HiHat {
     pub fn finish_controls(&mut self) {
         let moved = [&mut self.tuning, &mut self.muffling, &mut self.hand].map(Glide::jump);
         self.stale |= moved.contains(&true);
-        self.follow_controls();
         self.surface.rest_pedal();
+        self.follow_controls();
     }
 
     /// Brings the modes to where the controls are.
@@ -254,12 +285,21 @@ impl HiHat {
     /// # Real-time
     /// Nothing while they rest; linear in the number of modes while they move.
     pub fn follow_controls(&mut self) {
+        let clamped = self.surface.pair().map_or(0.0, Pair::clamped);
+        let rubbing = clamped / (clamped + self.half_rubbing);
+        if (rubbing - self.rubbing).abs() > RUBBING_STEP {
+            (self.rubbing, self.stale) = (rubbing, true);
+        }
         if !std::mem::take(&mut self.stale) {
             return;
         }
         let tuning = self.tuning.value();
-        let damping =
-            Damping { muffling: self.muffling.value(), hand: self.hand.value(), lossless: self.lossless };
+        let damping = Damping {
+            muffling: self.muffling.value(),
+            hand: self.hand.value(),
+            rubbing: self.rubbing,
+            lossless: self.lossless,
+        };
         let [top, bottom] = &self.halves;
         self.surface.retune_pair(|k, _: &Mode| top.mode(k, tuning, &damping), &|k, _: &Mode| {
             bottom.mode(k, tuning, &damping)
@@ -295,7 +335,13 @@ impl HiHat {
 }
 
 /// A splash leaves the pedal no farther down than this: the rims well apart.
-const SPLASHING: f64 = 0.2;
+pub const SPLASHING: f64 = 0.2;
+
+/// Change of the rubbing that the modes follow: to follow every one would cost a block's time while the pedal moves.
+const RUBBING_STEP: f64 = 0.01;
+
+/// How far apart a foot that is down lifts the rims before it stamps, m. *By ear*: enough to be heard to close.
+const LIFT: f64 = 3e-3;
 
 /// How far beyond the first touch a splash brings the rod, m. *By ear*: all around the tilted rims touch.
 const SPLASH_DEPTH: f64 = 0.5e-3;
@@ -308,7 +354,7 @@ fn assemble(
     struck: Struck,
 ) -> (Surface, [Half; 2]) {
     let lossless = options.lossless;
-    let undamped = Damping { muffling: 0.0, hand: 0.0, lossless: true };
+    let undamped = Damping { muffling: 0.0, hand: 0.0, rubbing: 0.0, lossless: true };
     let bare = |half: &Half| (0..half.modes.len()).map(|k| half.mode(k, 1.0, &undamped)).collect();
     let mut surface = Surface::new(SurfaceParts {
         modes: bare(&top),

@@ -16,6 +16,8 @@ mod gain;
 pub use control::Control;
 pub use gain::{LOUDEST_DB, SILENT_DB};
 
+use crate::hi_hat::SPLASHING;
+use crate::hi_hat::foot::SPEED;
 use crate::layout::Placement;
 use crate::piece::{Piece, PieceId};
 use crate::snapshot::KitSnapshot;
@@ -37,6 +39,7 @@ struct Slot {
     muffling: f64,
     preload: f64,
     wires: bool,
+    pedal: f64,
     level: Gain,
     pan: Pan,
     /// Largest share in the mix since the last snapshot.
@@ -64,6 +67,7 @@ impl Kit {
             muffling: 0.0,
             preload: PRELOAD.1,
             wires: true,
+            pedal: 0.0,
             level: Gain::new(sample_rate),
             pan: Pan::new(sample_rate, Placement::of(id).side()),
             peak: 0.0,
@@ -87,6 +91,7 @@ impl Kit {
         piece.set_muffling(slot.muffling);
         piece.set_preload(slot.preload);
         piece.throw_wires(slot.wires);
+        piece.press_pedal(slot.pedal, SPEED.1);
         piece.finish_controls();
         piece.align((self.clock % BLOCK as u64) as usize);
         slot.piece.replace(piece)
@@ -146,6 +151,7 @@ impl Kit {
                     slot.piece.iter_mut().for_each(|piece| piece.throw_wires(slot.wires));
                 }
             }
+            Control::Pedal => self.press_pedal(value, SPEED.1),
             Control::Tuning(id) => {
                 if let Some(slot) = id.slot().map(|slot| &mut self.slots[slot]) {
                     slot.tuning = value;
@@ -158,6 +164,42 @@ impl Kit {
                     slot.piece.iter_mut().for_each(|piece| piece.set_muffling(value));
                 }
             }
+        }
+    }
+
+    /// Brings the hi-hat's pedal to a place, 0 (up) to 1 (down), at up to a speed (m/s); see
+    /// [`Piece::press_pedal`]. A NaN is ignored.
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn press_pedal(&mut self, pedal: f64, speed: f64) {
+        if let Some(slot) =
+            PieceId::HiHat.slot().map(|slot| &mut self.slots[slot]).filter(|_| !pedal.is_nan())
+        {
+            slot.pedal = pedal;
+            slot.piece.iter_mut().for_each(|piece| piece.press_pedal(pedal, speed));
+        }
+    }
+
+    /// Stamps on the hi-hat's pedal, at up to a speed (m/s); see [`Piece::stamp_pedal`].
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn stamp_pedal(&mut self, speed: f64) {
+        if let Some(slot) = PieceId::HiHat.slot().map(|slot| &mut self.slots[slot]) {
+            slot.pedal = 1.0;
+            slot.piece.iter_mut().for_each(|piece| piece.stamp_pedal(speed));
+        }
+    }
+
+    /// Splashes with the hi-hat's pedal, at up to a speed (m/s); see [`Piece::splash_pedal`].
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn splash_pedal(&mut self, speed: f64) {
+        if let Some(slot) = PieceId::HiHat.slot().map(|slot| &mut self.slots[slot]) {
+            slot.pedal = slot.pedal.min(SPLASHING);
+            slot.piece.iter_mut().for_each(|piece| piece.splash_pedal(speed));
         }
     }
 

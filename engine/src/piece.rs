@@ -4,6 +4,7 @@ use crate::cymbal::{Cymbal, CymbalSpec};
 use crate::damping::Muffler;
 use crate::drum::{Drum, DrumSpec};
 use crate::error::SpecError;
+use crate::hi_hat::{HiHat, HiHatSpec};
 use crate::kit::BLOCK;
 use crate::snapshot::{FieldShapes, PieceSnapshot, StrikeSnapshot, WireSnapshot};
 use crate::strike::Strike;
@@ -28,11 +29,13 @@ pub enum PieceId {
     Splash,
     /// 26 in timpani.
     Timpani,
+    /// 14 in hi-hat.
+    HiHat,
 }
 
 impl PieceId {
     /// The pieces of the kit, in the order of every per-piece table.
-    pub const KIT: [PieceId; 8] = [
+    pub const KIT: [PieceId; 9] = [
         PieceId::Kick,
         PieceId::Snare,
         PieceId::RackTom,
@@ -41,10 +44,11 @@ impl PieceId {
         PieceId::Ride,
         PieceId::Splash,
         PieceId::Timpani,
+        PieceId::HiHat,
     ];
 
     /// Every piece that can be built.
-    pub const ALL: [PieceId; 8] = PieceId::KIT;
+    pub const ALL: [PieceId; 9] = PieceId::KIT;
 
     /// Place in [`PieceId::KIT`], if the piece belongs to the kit.
     pub fn slot(self) -> Option<usize> {
@@ -62,6 +66,7 @@ impl PieceId {
             PieceId::Ride => "ride",
             PieceId::Splash => "splash",
             PieceId::Timpani => "timpani",
+            PieceId::HiHat => "hi-hat",
         }
     }
 
@@ -72,7 +77,7 @@ impl PieceId {
 
     /// Whether the piece is a drum (it has a pitch to tune); the others are cymbals.
     pub fn is_drum(self) -> bool {
-        !matches!(self, PieceId::Crash | PieceId::Ride | PieceId::Splash)
+        !matches!(self, PieceId::Crash | PieceId::Ride | PieceId::Splash | PieceId::HiHat)
     }
 }
 
@@ -225,6 +230,7 @@ pub struct Piece {
 enum Voice {
     Drum(Box<Drum>),
     Cymbal(Box<Cymbal>),
+    HiHat(Box<HiHat>),
 }
 
 impl Voice {
@@ -232,6 +238,7 @@ impl Voice {
         match self {
             Voice::Drum(drum) => drum.surface(),
             Voice::Cymbal(cymbal) => cymbal.surface(),
+            Voice::HiHat(hat) => hat.surface(),
         }
     }
 
@@ -239,6 +246,7 @@ impl Voice {
         match self {
             Voice::Drum(drum) => drum.surface_mut(),
             Voice::Cymbal(cymbal) => cymbal.surface_mut(),
+            Voice::HiHat(hat) => hat.surface_mut(),
         }
     }
 }
@@ -263,6 +271,9 @@ impl Piece {
             PieceId::Crash => cymbal(CymbalSpec::crash())?,
             PieceId::Ride => cymbal(CymbalSpec::ride())?,
             PieceId::Splash => cymbal(CymbalSpec::splash())?,
+            PieceId::HiHat => {
+                HiHat::new(&HiHatSpec::default(), options).map(|hat| Voice::HiHat(Box::new(hat)))?
+            }
         };
         Ok(Piece {
             id,
@@ -289,7 +300,7 @@ impl Piece {
             PieceId::RackTom => DrumSpec::rack_tom().pitch_hz,
             PieceId::FloorTom => DrumSpec::floor_tom().pitch_hz,
             PieceId::Timpani => DrumSpec::timpani().pitch_hz,
-            PieceId::Crash | PieceId::Ride | PieceId::Splash => CymbalSpec::TUNING,
+            PieceId::Crash | PieceId::Ride | PieceId::Splash | PieceId::HiHat => CymbalSpec::TUNING,
         }
     }
 
@@ -304,6 +315,7 @@ impl Piece {
         match &mut self.voice {
             Voice::Drum(drum) => drum.set_tuning(tuning),
             Voice::Cymbal(cymbal) => cymbal.set_tuning(tuning),
+            Voice::HiHat(hat) => hat.set_tuning(tuning),
         }
     }
 
@@ -316,6 +328,7 @@ impl Piece {
         match &mut self.voice {
             Voice::Drum(drum) => drum.set_muffling(amount),
             Voice::Cymbal(cymbal) => cymbal.set_muffling(amount),
+            Voice::HiHat(hat) => hat.set_muffling(amount),
         }
     }
 
@@ -326,8 +339,44 @@ impl Piece {
     /// No allocation, no lock.
     pub fn choke(&mut self, strength: f64) {
         self.glide();
-        if let Voice::Cymbal(cymbal) = &mut self.voice {
-            cymbal.choke(strength);
+        match &mut self.voice {
+            Voice::Drum(_) => {}
+            Voice::Cymbal(cymbal) => cymbal.choke(strength),
+            Voice::HiHat(hat) => hat.choke(strength),
+        }
+    }
+
+    /// Brings a hi-hat's pedal to a place, 0 (up, open) to 1 (down, clamped), from the next sample on, at up to a
+    /// speed (m/s, see [`SPEED`](crate::hi_hat::foot::SPEED)). Other pieces have no such pedal.
+    ///
+    /// # Real-time
+    /// No allocation, no lock; linear in the number of modes.
+    pub fn press_pedal(&mut self, pedal: f64, speed: f64) {
+        if let Voice::HiHat(hat) = &mut self.voice {
+            hat.press(pedal, speed);
+            self.asleep = false;
+        }
+    }
+
+    /// Stamps on a hi-hat's pedal: brings it down at up to a speed (m/s); one that is down already is lifted first.
+    ///
+    /// # Real-time
+    /// No allocation, no lock; linear in the number of modes.
+    pub fn stamp_pedal(&mut self, speed: f64) {
+        if let Voice::HiHat(hat) = &mut self.voice {
+            hat.stamp(speed);
+            self.asleep = false;
+        }
+    }
+
+    /// Splashes with a hi-hat's pedal: brings the rims together at up to a speed (m/s) and lets them go at once.
+    ///
+    /// # Real-time
+    /// No allocation, no lock; linear in the number of modes.
+    pub fn splash_pedal(&mut self, speed: f64) {
+        if let Voice::HiHat(hat) = &mut self.voice {
+            hat.splash(speed);
+            self.asleep = false;
         }
     }
 
@@ -368,6 +417,7 @@ impl Piece {
         match &mut self.voice {
             Voice::Drum(drum) => drum.finish_controls(),
             Voice::Cymbal(cymbal) => cymbal.finish_controls(),
+            Voice::HiHat(hat) => hat.finish_controls(),
         }
     }
 
@@ -377,6 +427,7 @@ impl Piece {
         match &mut self.voice {
             Voice::Drum(drum) => drum.advance_controls(seconds),
             Voice::Cymbal(cymbal) => cymbal.advance_controls(seconds),
+            Voice::HiHat(hat) => hat.advance_controls(seconds),
         }
     }
 
@@ -393,6 +444,7 @@ impl Piece {
         match &mut self.voice {
             Voice::Drum(drum) => drum.strike(strike),
             Voice::Cymbal(cymbal) => cymbal.surface_mut().strike(strike),
+            Voice::HiHat(hat) => hat.surface_mut().strike(strike),
         }
     }
 
@@ -426,6 +478,7 @@ impl Piece {
         match &mut self.voice {
             Voice::Drum(drum) => drum.follow_controls(),
             Voice::Cymbal(cymbal) => cymbal.follow_controls(),
+            Voice::HiHat(hat) => hat.follow_controls(),
         }
         if self.asleep {
             return;
@@ -485,6 +538,7 @@ impl Piece {
         match &self.voice {
             Voice::Drum(drum) => drum.modes(),
             Voice::Cymbal(cymbal) => cymbal.modes(),
+            Voice::HiHat(hat) => hat.modes(),
         }
     }
 
@@ -492,7 +546,7 @@ impl Piece {
     pub fn tensions(&self) -> Vec<(&'static str, f64)> {
         match &self.voice {
             Voice::Drum(drum) => drum.tensions(),
-            Voice::Cymbal(_) => Vec::new(),
+            Voice::Cymbal(_) | Voice::HiHat(_) => Vec::new(),
         }
     }
 

@@ -155,10 +155,11 @@ mod tests {
     use overhear_engine::piece::Piece;
 
     /// Changing this list breaks every project that was ever saved.
-    const FROZEN_IDS: [&str; 28] = [
+    const FROZEN_IDS: [&str; 32] = [
         "kktune", "kkmuff", "kklevl", "sntune", "snmuff", "snlevl", "rttune", "rtmuff", "rtlevl", "fttune",
         "ftmuff", "ftlevl", "crtune", "crmuff", "crlevl", "rdtune", "rdmuff", "rdlevl", "sptune", "spmuff",
-        "splevl", "master", "dynam", "snprel", "snwire", "tptune", "tpmuff", "tplevl",
+        "splevl", "master", "dynam", "snprel", "snwire", "tptune", "tpmuff", "tplevl", "hhtune", "hhmuff",
+        "hhlevl", "hhpedl",
     ];
 
     #[test]

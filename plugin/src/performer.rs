@@ -6,12 +6,13 @@
 
 use no_denormals::no_denormals;
 use overhear_engine::error::SpecError;
+use overhear_engine::hi_hat::foot::SPEED;
 use overhear_engine::kit::{Control, Kit};
 use overhear_engine::piece::{BuildOptions, Piece, PieceId};
 use overhear_engine::snapshot::KitSnapshot;
 use overhear_engine::strike::Strike;
 
-use crate::midi_map;
+use crate::midi_map::{self, Foot};
 use crate::parameters::{Drives, PARAMETERS};
 
 /// Stick speed of the softest note, m/s. *By ear*: the faintest tap a pad reports.
@@ -33,6 +34,14 @@ pub fn stick_speed(velocity: f32, full: f64) -> f64 {
     SOFTEST * libm::pow(full / SOFTEST, share.clamp(0.0, 1.0))
 }
 
+/// Slowest and fastest of a foot on the hi-hat's pedal, m/s. *By ear*: what the softest and the loudest note sound like.
+const FOOT: (f64, f64) = (0.15, 2.0);
+
+/// Speed of a foot, m/s, of a velocity (0 to 1); spaced as [`stick_speed`] is.
+fn foot_speed(velocity: f32) -> f64 {
+    FOOT.0 * libm::pow(FOOT.1 / FOOT.0, f64::from(velocity).clamp(0.0, 1.0))
+}
+
 /// A kit and who plays it.
 pub struct Performer {
     kit: Kit,
@@ -42,6 +51,8 @@ pub struct Performer {
     values: [f32; PARAMETERS.len()],
     /// Stick speed at full velocity, m/s.
     dynamics: f64,
+    /// Whether a controller plays the hi-hat's pedal.
+    pedal_played: bool,
     /// Whether anything was played or rendered since the start or the latest reset.
     started: bool,
 }
@@ -54,6 +65,7 @@ impl Performer {
             asked: [f32::NAN; PARAMETERS.len()],
             values: [f32::NAN; PARAMETERS.len()],
             dynamics: 0.0,
+            pedal_played: false,
             started: false,
         };
         for (index, parameter) in PARAMETERS.iter().enumerate() {
@@ -90,6 +102,12 @@ impl Performer {
     pub fn note_on(&mut self, note: u8, velocity: f32, _channel: u8) -> bool {
         // Written so that a velocity that is not a number is silent as well.
         let sounds = velocity > 0.0;
+        if let Some(foot) = midi_map::foot(note).filter(|_| sounds) {
+            self.step(foot, velocity);
+            if midi_map::stroke(note).is_none() {
+                return true;
+            }
+        }
         let Some(stroke) = midi_map::stroke(note).filter(|_| sounds) else {
             return false;
         };
@@ -102,6 +120,32 @@ impl Performer {
         self.start();
         flushed(|| self.kit.strike(stroke.piece, &strike));
         true
+    }
+
+    /// What a note does with the hi-hat's pedal.
+    fn step(&mut self, foot: Foot, velocity: f32) {
+        let speed = foot_speed(velocity);
+        if !matches!(foot, Foot::Brought(_)) {
+            self.start();
+        }
+        flushed(|| match foot {
+            Foot::Brought(_) if self.pedal_played => {}
+            // As fast as can be: a drummer would have been there before the stroke.
+            Foot::Brought(pedal) => self.kit.press_pedal(pedal, SPEED.2),
+            Foot::Chick => self.kit.stamp_pedal(speed),
+            Foot::Splash => self.kit.splash_pedal(speed),
+        });
+    }
+
+    /// Moves the hi-hat's pedal, 0 (up) to 1 (down), as a foot controller does; from then on notes leave it where it
+    /// is.
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn press_pedal(&mut self, pedal: f32) {
+        self.pedal_played = true;
+        self.start();
+        flushed(|| self.kit.set(Control::Pedal, f64::from(pedal)));
     }
 
     /// Moves a parameter, by its index in [`PARAMETERS`], to a plain value from the next sample
@@ -159,6 +203,12 @@ impl Performer {
     /// # Real-time
     /// No allocation, no lock.
     pub fn reset(&mut self) {
+        if !self.pedal_played {
+            // Where notes have left it is forgotten, where a foot is is not.
+            let pedal = PARAMETERS.iter().zip(self.values);
+            let pedal = pedal.filter(|(parameter, _)| parameter.drives == Drives::Control(Control::Pedal));
+            pedal.for_each(|(_, value)| self.kit.set(Control::Pedal, f64::from(value)));
+        }
         flushed(|| self.kit.reset());
         self.started = false;
     }
@@ -221,7 +271,7 @@ mod tests {
     fn only_notes_of_the_map_with_a_velocity_strike() {
         let mut performer = Performer::new(RATE);
         assert!(performer.note_on(38, 0.5, 9));
-        for (note, velocity) in [(38, 0.0), (38, -1.0), (38, f32::NAN), (42, 1.0), (200, 1.0)] {
+        for (note, velocity) in [(38, 0.0), (38, -1.0), (38, f32::NAN), (39, 1.0), (200, 1.0)] {
             assert!(!performer.note_on(note, velocity, 0), "{note} at {velocity}");
         }
         let mut snapshot = KitSnapshot::default();

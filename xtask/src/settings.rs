@@ -2,6 +2,7 @@
 
 use anyhow::Result;
 use overhear::parameters::{Drives, PARAMETERS, Parameter, parse_assignment};
+use overhear_engine::hi_hat::foot::SPEED;
 use overhear_engine::kit::Control;
 use overhear_engine::piece::{BuildOptions, Piece, PieceId};
 
@@ -79,6 +80,7 @@ impl PieceSetting {
             Control::Muffling(_) => piece.set_muffling(self.value),
             Control::SnarePreload => piece.set_preload(self.value),
             Control::SnareWires => piece.throw_wires(self.value >= 0.5),
+            Control::Pedal => piece.press_pedal(self.value, SPEED.1),
             // A piece by itself has no mix.
             _ => {}
         }
@@ -129,6 +131,7 @@ fn piece_parameters(id: PieceId) -> Vec<Parameter> {
             piece == id
         }
         Drives::Control(Control::SnarePreload | Control::SnareWires) => id == PieceId::Snare,
+        Drives::Control(Control::Pedal) => id == PieceId::HiHat,
         _ => false,
     };
     PARAMETERS.iter().filter(acts).copied().collect()

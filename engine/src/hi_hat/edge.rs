@@ -14,45 +14,58 @@ pub fn angle(place: usize) -> f64 {
     TAU * place as f64 / POINTS as f64
 }
 
-/// `cos(2 pi i / POINTS)`; a sine is a quarter of the way back.
-const COSINES: [f64; POINTS] = {
-    // Of pi / 8 and its double; all others by symmetry.
+/// Classes of waves.
+const CLASSES: usize = POINTS / 2 + 1;
+
+/// Cosine and sine of every class's wave, `[class][cosine, sine][place]`.
+static WAVES: [[[f64; POINTS]; 2]; CLASSES] = {
+    // Of pi / 8 and its multiples; all others by symmetry.
     const A: f64 = 0.923_879_532_511_286_8;
     const B: f64 = std::f64::consts::FRAC_1_SQRT_2;
     const C: f64 = 0.382_683_432_365_089_8;
-    [1.0, A, B, C, 0.0, -C, -B, -A, -1.0, -A, -B, -C, 0.0, C, B, A]
+    const COSINES: [f64; POINTS] = [1.0, A, B, C, 0.0, -C, -B, -A, -1.0, -A, -B, -C, 0.0, C, B, A];
+    let mut waves = [[[0.0; POINTS]; 2]; CLASSES];
+    let mut class = 0;
+    while class < CLASSES {
+        let mut place = 0;
+        while place < POINTS {
+            let turn = class * place % POINTS;
+            waves[class][0][place] = COSINES[turn];
+            // A sine is the cosine a quarter of a turn before.
+            waves[class][1][place] = COSINES[(turn + 3 * POINTS / 4) % POINTS];
+            place += 1;
+        }
+        class += 1;
+    }
+    waves
 };
 
-/// Cosine and sine of a class's wave at a place.
-fn wave(class: usize, place: usize) -> [f64; 2] {
-    let turn = class * place % POINTS;
-    [COSINES[turn], COSINES[(turn + 3 * POINTS / 4) % POINTS]]
-}
-
 /// What amplitudes amount to at each place.
+#[inline(always)]
 pub fn at_points(amplitudes: &Amplitudes) -> [f64; POINTS] {
     let mut out = [0.0; POINTS];
-    for (class, [c, s]) in amplitudes.iter().enumerate().take(POINTS / 2 + 1) {
-        let (c, s) = (f64::from(*c), f64::from(*s));
-        for (place, out) in out.iter_mut().enumerate() {
-            let [cos, sin] = wave(class, place);
-            *out += c * cos + s * sin;
+    for (amplitude, waves) in amplitudes.iter().flatten().zip(WAVES.as_flattened()) {
+        let amplitude = f64::from(*amplitude);
+        for (out, wave) in out.iter_mut().zip(waves) {
+            *out += amplitude * wave;
         }
     }
     out
 }
 
 /// What forces at the places (N) amount to on each amplitude.
+#[inline(always)]
 pub fn amplitudes(forces: &[f64; POINTS]) -> Amplitudes {
     let mut out = Amplitudes::default();
-    for (class, out) in out.iter_mut().enumerate().take(POINTS / 2 + 1) {
-        let mut sums = [0.0; 2];
-        for (place, force) in forces.iter().enumerate() {
-            let [cos, sin] = wave(class, place);
-            sums[0] += force * cos;
-            sums[1] += force * sin;
+    for (out, waves) in out.as_flattened_mut().iter_mut().zip(WAVES.as_flattened()) {
+        // Sums side by side, so that the compiler may use all lanes.
+        let mut sums = [0.0; 4];
+        for (force, wave) in forces.as_chunks::<4>().0.iter().zip(waves.as_chunks::<4>().0) {
+            for i in 0..4 {
+                sums[i] += force[i] * wave[i];
+            }
         }
-        *out = sums.map(|sum| sum as f32);
+        *out = (sums[0] + sums[1] + sums[2] + sums[3]) as f32;
     }
     out
 }
@@ -60,12 +73,11 @@ pub fn amplitudes(forces: &[f64; POINTS]) -> Amplitudes {
 /// Compliance between each two places, m/N.
 pub fn between_points(classes: &ClassCompliances) -> [[f64; POINTS]; POINTS] {
     let mut out = [[0.0; POINTS]; POINTS];
-    for (class, yields) in classes.iter().enumerate().take(POINTS / 2 + 1) {
+    for (yields, waves) in classes.iter().zip(&WAVES) {
         for (i, row) in out.iter_mut().enumerate() {
-            let a = wave(class, i);
             for (j, out) in row.iter_mut().enumerate() {
-                let b = wave(class, j);
-                *out += (0..2).map(|k| a[k] * (yields[k][0] * b[0] + yields[k][1] * b[1])).sum::<f64>();
+                let to = |k: usize| yields[k][0] * waves[0][j] + yields[k][1] * waves[1][j];
+                *out += waves[0][i] * to(0) + waves[1][i] * to(1);
             }
         }
     }
@@ -78,9 +90,9 @@ mod tests {
 
     #[test]
     fn waves_are_cosines_and_sines() {
-        for class in 0..=POINTS / 2 {
+        for class in 0..CLASSES {
             for place in 0..POINTS {
-                let [cos, sin] = wave(class, place);
+                let [cos, sin] = [WAVES[class][0][place], WAVES[class][1][place]];
                 let (want_sin, want_cos) = (class as f64 * angle(place)).sin_cos();
                 assert!((cos - want_cos).abs() < 1e-14 && (sin - want_sin).abs() < 1e-14);
             }

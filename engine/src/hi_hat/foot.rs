@@ -26,8 +26,16 @@ pub struct Foot {
     v: f64,
     target: f64,
     fastest: f64,
-    /// Where to turn, and where to go then, m.
-    turn: Option<(f64, f64)>,
+    turn: Option<Turn>,
+}
+
+/// Where to turn, and where to go then, m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Turn {
+    at: f64,
+    then: f64,
+    /// Whether the way to the turn is down.
+    down: bool,
 }
 
 impl Foot {
@@ -56,17 +64,19 @@ impl Foot {
         (self.target, self.fastest, self.turn) = (target, fastest.clamp(SPEED.0, SPEED.2), None);
     }
 
-    /// Goes down past `turn` (m) at up to a speed (m/s), and from there at once to `then` (m).
-    pub fn bounce(&mut self, turn: f64, then: f64, fastest: f64) {
-        // Aimed below, so as not to slow down before the turn.
-        self.go(turn + 2.0 * fastest / LEG, fastest);
-        self.turn = Some((turn, then));
+    /// Goes past `at` (m) at up to a speed (m/s), and from there at once to `then` (m).
+    pub fn turn(&mut self, at: f64, then: f64, fastest: f64) {
+        let down = at > self.y;
+        // Aimed beyond, so as not to slow down before the turn.
+        let beyond = 2.0 * fastest / LEG;
+        self.go(if down { at + beyond } else { at - beyond }, fastest);
+        self.turn = Some(Turn { at, then, down });
     }
 
     /// Is there at once.
     pub fn jump(&mut self) {
-        if let Some((_, then)) = self.turn.take() {
-            self.target = then;
+        if let Some(turn) = self.turn.take() {
+            self.target = turn.then;
         }
         (self.y, self.v) = (self.target, 0.0);
     }
@@ -79,10 +89,8 @@ impl Foot {
         let pull = LEG * (LEG * (self.target - self.y) - 2.0 * self.v);
         self.v = (self.v + pull * dt).clamp(-self.fastest, self.fastest);
         self.y += self.v * dt;
-        if let Some((turn, then)) = self.turn.filter(|&(turn, _)| self.y >= turn) {
-            debug_assert!(then <= turn);
-            // What came down goes up.
-            (self.target, self.turn) = (then, None);
+        if let Some(turn) = self.turn.filter(|turn| (self.y >= turn.at) == turn.down) {
+            (self.target, self.turn) = (turn.then, None);
         }
         if (self.y - self.target).abs() < THERE.0 && self.v.abs() < THERE.1 {
             (self.y, self.v) = (self.target, 0.0);
@@ -115,9 +123,9 @@ mod tests {
     }
 
     #[test]
-    fn a_foot_that_bounces_comes_back() {
+    fn a_foot_that_turns_comes_back() {
         let mut foot = Foot::new(0.0);
-        foot.bounce(0.03, 0.005, 1.0);
+        foot.turn(0.03, 0.005, 1.0);
         let mut deepest = 0.0_f64;
         while foot.moves() {
             foot.step(DT);
@@ -125,5 +133,13 @@ mod tests {
         }
         assert!(deepest > 0.03 && deepest < 0.036, "{deepest}");
         assert_eq!(foot.place(), 0.005);
+        foot.turn(0.001, 0.01, 1.0);
+        let mut highest = 1.0_f64;
+        while foot.moves() {
+            foot.step(DT);
+            highest = highest.min(foot.place());
+        }
+        assert!(highest < 0.001 && highest > -0.006, "{highest}");
+        assert_eq!(foot.place(), 0.01);
     }
 }

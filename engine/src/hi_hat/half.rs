@@ -54,6 +54,8 @@ pub struct Damping {
     pub muffling: f64,
     /// How firmly a hand holds it, 0 to 1.
     pub hand: f64,
+    /// How much the rims rub, 0 to 1.
+    pub rubbing: f64,
     /// Nothing is lost.
     pub lossless: bool,
 }
@@ -68,6 +70,7 @@ pub struct Half {
     pub folded: Folded,
     loss: LossLaw,
     heat: Thermoelastic,
+    rubbing: LossLaw,
     /// Of the plate, kg.
     pub mass: f64,
 }
@@ -94,7 +97,7 @@ impl Half {
     /// [`SpecError`] if a number is out of range.
     pub fn new(
         spec: &CymbalSpec,
-        mount: &Mount,
+        (mount, rubbing): (&Mount, LossLaw),
         coupled_hz: Option<f64>,
         options: &BuildOptions,
     ) -> Result<(Half, Struck), SpecError> {
@@ -146,6 +149,7 @@ impl Half {
             folded: Folded::new(&shares),
             loss: spec.loss,
             heat: Thermoelastic::bronze(&spec.plate),
+            rubbing,
             mass: spec.plate.mass,
         };
         half.lay(spec, &shapes);
@@ -174,7 +178,9 @@ impl Half {
         let built = &self.modes[k];
         let omega = built.omega * tuning;
         let own = self.loss.sigma(omega) + self.heat.sigma(omega) + built.radiated + built.mounted;
-        let laid = damping.muffling * built.muffling + damping.hand * built.choking;
+        let laid = damping.muffling * built.muffling
+            + damping.hand * built.choking
+            + damping.rubbing * self.rubbing.sigma(omega);
         Mode { omega, sigma: if damping.lossless { 0.0 } else { own + laid }, mass: self.mass }
     }
 }
@@ -236,8 +242,8 @@ mod tests {
         let spec = HiHatSpec::default();
         let options = BuildOptions::new(44_100.0);
         let (half, Struck { shapes, .. }) =
-            Half::new(&spec.top, &spec.clutch, Some(2000.0), &options).unwrap();
-        let damping = Damping { muffling: 0.0, hand: 0.0, lossless: false };
+            Half::new(&spec.top, (&spec.clutch, spec.rubbing), Some(2000.0), &options).unwrap();
+        let damping = Damping { muffling: 0.0, hand: 0.0, rubbing: 0.0, lossless: false };
         let modes: Vec<Mode> = (0..half.modes.len()).map(|k| half.mode(k, 1.0, &damping)).collect();
         let mut body = ModalBody::new(modes, 44_100.0);
         let bent: Vec<f32> = (0..body.len()).map(|k| ((k * 37 % 101) as f32 - 50.0) * 1e-6).collect();

@@ -25,6 +25,7 @@
 //! displacement); motion along the rims; the air between.
 
 use crate::contact::ContactLaw;
+use crate::modal::simd::Kernels;
 use crate::modal::simd::folded::{Amplitudes, Folded};
 use crate::modal::{ModalBody, Mode, Pickup};
 use crate::snapshot::WireSnapshot;
@@ -144,6 +145,7 @@ pub struct Pair {
     pub(super) touching: [bool; POINTS],
     pub(super) free: [f64; POINTS],
     /// Of the present sample: force of the clutch's damper, N, and where the upper cymbal was, m.
+    pub(super) kernels: Kernels,
     pub(super) damper: f64,
     pub(super) from: f64,
     pub(super) pedal_work: f64,
@@ -190,6 +192,7 @@ impl Pair {
             lambda: [0.0; POINTS],
             touching: [false; POINTS],
             free: [0.0; POINTS],
+            kernels: Kernels::detect(),
             damper: 0.0,
             from: 0.0,
             pedal_work: 0.0,
@@ -233,6 +236,11 @@ impl Pair {
     /// Forces at the places now, N.
     pub fn forces(&self) -> &[f64; POINTS] {
         &self.force
+    }
+
+    /// Force that clamps the rims together in balance, N.
+    pub fn clamped(&self) -> f64 {
+        self.rest.preload.iter().sum()
     }
 
     /// Work of the pedal since the last reset beyond what it takes to bring resting cymbals from one rest to another, J.
@@ -357,9 +365,14 @@ impl Pair {
 
     /// Overlap at the places with both shells as they are, m.
     pub(super) fn overlaps(&self, top: &ModalBody) -> [f64; POINTS] {
-        let [a, b] = [(top, &self.folded[0]), (&self.bottom, &self.folded[1])]
-            .map(|(body, folded)| edge::at_points(&body.folded_displacement(folded)));
-        std::array::from_fn(|j| a[j] - b[j] + self.apart(j))
+        let mut shells = top.folded_displacement(&self.folded[0]);
+        let below = self.bottom.folded_displacement(&self.folded[1]);
+        shells.as_flattened_mut().iter_mut().zip(below.as_flattened()).for_each(|(a, b)| *a -= b);
+        let shells = self.kernels.vectorized(
+            #[inline(always)]
+            || edge::at_points(&shells),
+        );
+        std::array::from_fn(|j| shells[j] + self.apart(j))
     }
 
     /// What of the overlap is not the shells' motion, m.

@@ -14,6 +14,7 @@ use super::POINTS;
 use super::edge;
 use super::pair::{MARGIN, Pair, SETTLING};
 use super::rigid::Rigid;
+use super::rims::Rims;
 
 impl Pair {
     /// A striker comes down at `radius` (share of it) in direction `angle` (rad).
@@ -99,8 +100,8 @@ impl Pair {
         self.bottom.step();
         let overlaps = self.overlaps(top);
         let beyond = mean - self.preloads_coupled() / divisor;
-        for j in 0..POINTS {
-            let free = overlaps[j] + self.eased[j] + self.coupling[j] * beyond;
+        for (j, overlap) in overlaps.into_iter().enumerate() {
+            let free = overlap + self.eased[j] + self.coupling[j] * beyond;
             if !self.touching[j] && free > 0.0 {
                 self.lambda[j] = self.law.lambda((free - self.compression[j]) / self.dt);
             } else if self.touching[j] {
@@ -113,6 +114,21 @@ impl Pair {
     /// Whether a rim may be touching by the end of the sample.
     pub fn is_near(&self) -> bool {
         self.engaged && (0..POINTS).any(|j| self.free[j].max(self.compression[j]) > -MARGIN)
+    }
+
+    /// Finds the forces at the rims if nothing else touches; whether that succeeded.
+    pub fn solve_alone(&mut self, divisor: f64) -> bool {
+        let rims = Rims {
+            law: &self.law,
+            yields: &self.whole,
+            coupling: &self.coupling,
+            divisor,
+            before: &self.compression,
+            free: &self.free,
+            lambda: &self.lambda,
+            dt: self.dt,
+        };
+        rims.solve(&self.kernels, &mut self.force)
     }
 
     /// Compliance between a place and another, m/N; `divisor` tells of the force beyond the modes.
@@ -169,7 +185,10 @@ impl Pair {
             self.rigid[0].push(weights, -force);
             self.rigid[1].push(weights, force);
         }
-        let down = edge::amplitudes(&beyond);
+        let down = self.kernels.vectorized(
+            #[inline(always)]
+            || edge::amplitudes(&beyond),
+        );
         let up: Amplitudes = down.map(|pair| pair.map(|x| -x));
         top.push_folded(&self.folded[0], &up);
         self.bottom.push_folded(&self.folded[1], &down);
@@ -190,11 +209,14 @@ impl Pair {
         let of_strikers: f64 = strikers.clone().map(|(_, force, u)| force * u).sum();
         let of_rims: f64 = self.force.iter().zip(&self.coupling).map(|(force, u)| force * u).sum();
         let coupled = (of_strikers + of_rims) / divisor;
-        for j in 0..POINTS {
-            let rims: f64 = self.whole[j].iter().zip(&self.force).map(|(y, force)| y * force).sum();
-            let from_strikers: f64 =
-                strikers.clone().map(|(point, force, _)| self.strikers[point].whole[j] * force).sum();
-            self.compression[j] = self.free[j] - rims - from_strikers + self.coupling[j] * coupled;
+        let mut moved = [0.0; POINTS];
+        let rims = self.whole.iter().zip(self.force);
+        let pressing = strikers.map(|(point, force, _)| (&self.strikers[point].whole, force));
+        for (row, force) in rims.chain(pressing).filter(|&(_, force)| force != 0.0) {
+            moved.iter_mut().zip(row).for_each(|(moved, y)| *moved += y * force);
+        }
+        for (j, moved) in moved.into_iter().enumerate() {
+            self.compression[j] = self.free[j] - moved + self.coupling[j] * coupled;
             let touches = self.compression[j] > 0.0;
             match (self.touching[j], touches) {
                 (false, true) => self.landings = self.landings.saturating_add(1),

@@ -13,6 +13,8 @@ pub enum Control {
     SnarePreload,
     /// Whether the snare wires lie against the head: below one half they are off.
     SnareWires,
+    /// The hi-hat's pedal, 0 (up) to 1 (down); see [`Piece::press_pedal`](crate::piece::Piece::press_pedal).
+    Pedal,
     /// Level of a piece in the mix, dB; at or below [`SILENT_DB`] the piece is silent.
     Level(PieceId),
     /// Where a piece lies in the stereo, -1 (left) to 1 (right); see [`Placement::side`].

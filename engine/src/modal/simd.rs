@@ -68,6 +68,15 @@ impl Kernels {
         }
     }
 
+    /// Runs plain loops compiled for this instruction set; `op` must be inlined.
+    #[inline(always)]
+    pub fn vectorized<R>(&self, op: impl FnOnce() -> R) -> R {
+        match self.level {
+            Level::Baseline => op(),
+            Level::Detected(arch) => arch.dispatch(op),
+        }
+    }
+
     /// `z <- z + turn * z`, complex, for every mode.
     pub fn rotate(&self, re: &mut [f32], im: &mut [f32], turn_re: &[f32], turn_im: &[f32]) {
         self.run(Rotate { re, im, turn_re, turn_im });

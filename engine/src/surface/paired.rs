@@ -13,6 +13,9 @@ use super::{STRIKER_PLACES, Surface};
 /// Contacts of strikers and of rims.
 const MOST: usize = STRIKER_PLACES + POINTS;
 
+/// A striker farther off than this does not meet the surface within a sample, m.
+const APART: f64 = 1e-3;
+
 impl Surface {
     /// Puts the other surface underneath. Allocates.
     pub fn set_pair(&mut self, mut pair: Pair) {
@@ -71,14 +74,9 @@ impl Surface {
     /// Lets what is underneath step freely. `mean` as [`step_free`](Self::step_free) returned it.
     pub(super) fn step_pair(&mut self, mean: f64) {
         let divisor = self.divisor();
-        let Surface { pair: Some(pair), body, beyond, .. } = self else {
-            return;
-        };
-        let beyond = beyond.as_ref().filter(|force| force.is_active());
-        if pair.is_engaged() {
-            pair.couple(body, beyond);
+        if let Surface { pair: Some(pair), body, .. } = self {
+            pair.step_free(body, mean, divisor);
         }
-        pair.step_free(body, mean, divisor);
     }
 
     /// Forces of all contacts for this sample, those of the rims among them.
@@ -92,6 +90,16 @@ impl Surface {
             return self.solve();
         }
         let live = &self.live[..self.live_count];
+        let apart = |&i: &usize| {
+            let step = &self.points[i].step;
+            step.free.max(step.before) < -APART
+        };
+        if live.iter().all(apart) && pair.solve_alone(divisor) {
+            for &i in live {
+                self.points[i].force = 0.0;
+            }
+            return;
+        }
         let n = live.len();
         let mut yielding: Compliances<MOST> = [[0.0; MOST]; MOST];
         let meetings: [Meeting; MOST] = std::array::from_fn(|k| {

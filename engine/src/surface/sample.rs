@@ -131,11 +131,13 @@ impl Surface {
     pub(super) fn step_free(&mut self) -> f64 {
         self.yielding = self.compliance;
         let Some(force) = self.beyond.as_mut().filter(|force| force.is_active()) else {
+            self.pair.iter_mut().for_each(|pair| pair.couple(&self.body, None));
             self.body.step();
             return 0.0;
         };
         let live = &self.live[..self.live_count];
         if force.begin(&mut self.body, &self.pickup) {
+            self.pair.iter_mut().for_each(|pair| pair.couple(&self.body, Some(force)));
             for &i in live {
                 if self.points[i].side == Side::Surface {
                     self.coupling[i] = force.coupling(&self.body, &self.points[i].port);

@@ -225,6 +225,7 @@ fn title(piece: PieceId) -> &'static str {
         PieceId::Ride => "Ride",
         PieceId::Splash => "Splash",
         PieceId::Timpani => "Timpani",
+        PieceId::HiHat => "Hi-hat",
     }
 }
 

@@ -6,7 +6,7 @@ use overhear_engine::piece::PieceId;
 use super::{Drives, Parameter};
 
 /// Every parameter, in the order hosts see. Frozen: append only.
-pub static PARAMETERS: [Parameter; 28] = {
+pub static PARAMETERS: [Parameter; 32] = {
     use PieceId::*;
     [
         drum_tune(Kick, "Kick", "kktune", "kick_tune", [35.0, 55.0, 90.0]),
@@ -88,6 +88,23 @@ pub static PARAMETERS: [Parameter; 28] = {
         drum_tune(Timpani, "Timpani", "tptune", "timpani_tune", [87.3, 130.8, 196.0]),
         muffle(Timpani, "Timpani", "tpmuff", "timpani_muffle", 0.0),
         level(Timpani, "Timpani", "tplevl", "timpani_level", 0.0),
+        cymbal_tune(HiHat, "Hi-hat", "hhtune", "hi_hat_tune"),
+        muffle(HiHat, "Hi-hat", "hhmuff", "hi_hat_muffle", 0.0),
+        level(HiHat, "Hi-hat", "hhlevl", "hi_hat_level", 0.0),
+        Parameter {
+            id: "hhpedl",
+            name: "hihat_pedal",
+            label: "Pedal",
+            group: "Hi-hat",
+            unit: "",
+            min: 0.0,
+            max: 1.0,
+            default: 0.0,
+            centre: 0.5,
+            step: 0.001,
+            decimals: 3,
+            drives: Drives::Control(Control::Pedal),
+        },
     ]
 };
 

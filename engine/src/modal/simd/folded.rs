@@ -97,7 +97,7 @@ struct SpreadAll<'a, 'b> {
 }
 
 impl Kernels {
-    /// Sums a row `[mode]` into amplitudes.
+    /// Sums a row `[mode]` into amplitudes; modes that it does not reach count as zero.
     pub fn gather_folded(&self, folded: &Folded, x: &[f32]) -> Amplitudes {
         self.run(Gather { folded, x })
     }
@@ -121,6 +121,9 @@ impl Kernel for Gather<'_> {
         let (mut class, mut sums) = (0, [zero; 2]);
         let sum = |sums: [S::f32s; 2]| sums.map(|sum| simd.reduce_sum_f32s(sum));
         for (group, (cos, sin)) in self.folded.groups.iter().zip(rows) {
+            if (group.lanes + 1) * per > x.len() {
+                continue;
+            }
             if group.class != class {
                 out[class] = sum(sums);
                 (class, sums) = (group.class, [zero; 2]);
