@@ -1,13 +1,20 @@
 //! The kit: pieces rendered in short blocks on the kit's own clock and mixed to stereo.
 //!
 //! ```text
-//! strike, set --> Kit --> piece --> level --> pan \
-//!                     --> piece --> level --> pan  +--> master --> left, right
-//!                     --> ...                     /
+//! strike, set --> Kit --> piece --> level --> pan --+--> output of the piece
+//!                                                   +--> master --> left, right
+//!                     --> piece --> level --> pan --+--> output of the piece
+//!                     --> ...
 //! ```
 //!
 //! Time is cut at multiples of [`BLOCK`] samples of the kit's clock, whatever lengths are asked
 //! for; control-rate work happens there only. Nothing depends on how a caller cuts time.
+
+mod control;
+mod gain;
+
+pub use control::Control;
+pub use gain::{LOUDEST_DB, SILENT_DB};
 
 use crate::layout::Placement;
 use crate::piece::{Piece, PieceId};
@@ -15,68 +22,13 @@ use crate::snapshot::KitSnapshot;
 use crate::strike::Strike;
 use crate::surface::wires::PRELOAD;
 
+use gain::{Gain, Pan};
+
 /// Longest stretch a piece renders at once, samples.
 pub const BLOCK: usize = 32;
 
 /// Sound pressure of full scale before the levels, Pa.
 pub const FULL_SCALE: f32 = 20.0;
-
-/// A live control of the kit. Acts from the next sample on, smoothed.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Control {
-    /// Pitch of a drum, Hz, or of a cymbal, ratio; see [`Piece::tuning_range`].
-    Tuning(PieceId),
-    /// Muffling of a piece, 0 to 1.
-    Muffling(PieceId),
-    /// Force that presses the snare wires on, N.
-    SnarePreload,
-    /// Whether the snare wires lie against the head: below one half they are off.
-    SnareWires,
-    /// Level of a piece in the mix, dB; at or below [`SILENT_DB`] the piece is silent.
-    Level(PieceId),
-    /// Level of the whole mix, dB.
-    Master,
-}
-
-/// Levels at or below this are silence, dB.
-pub const SILENT_DB: f64 = -60.0;
-
-/// Highest level, dB.
-pub const LOUDEST_DB: f64 = 24.0;
-
-/// Time constant of a level change, s. *By ear*: without zipper noise, without lag.
-const LEVEL_TIME: f64 = 0.005;
-
-/// A gain that follows its target exponentially, sample by sample.
-#[derive(Debug, Clone, Copy)]
-struct Gain {
-    value: f32,
-    target: f32,
-    /// Share of the way left after a sample.
-    keep: f32,
-}
-
-impl Gain {
-    fn new(sample_rate: f64) -> Gain {
-        Gain { value: 1.0, target: 1.0, keep: (-1.0 / (LEVEL_TIME * sample_rate)).exp() as f32 }
-    }
-
-    fn set_db(&mut self, db: f64) {
-        let db = db.min(LOUDEST_DB);
-        self.target = if db <= SILENT_DB { 0.0 } else { 10.0_f64.powf(db / 20.0) as f32 };
-    }
-
-    fn next(&mut self) -> f32 {
-        if self.value != self.target {
-            self.value = self.target + (self.value - self.target) * self.keep;
-            // -140 dB away is there; the last step cannot be heard.
-            if (self.value - self.target).abs() < 1e-7 {
-                self.value = self.target;
-            }
-        }
-        self.value
-    }
-}
 
 /// A piece's place in the kit.
 struct Slot {
@@ -86,10 +38,13 @@ struct Slot {
     preload: f64,
     wires: bool,
     level: Gain,
-    pan: [f32; 2],
+    pan: Pan,
     /// Largest share in the mix since the last snapshot.
     peak: f32,
 }
+
+/// Two outputs of one length: left, right.
+pub type Stereo<'a> = [&'a mut [f32]; 2];
 
 /// The drum kit. Owns its pieces; renders them; the only way sound leaves the engine.
 pub struct Kit {
@@ -110,7 +65,7 @@ impl Kit {
             preload: PRELOAD.1,
             wires: true,
             level: Gain::new(sample_rate),
-            pan: Placement::of(id).pan(),
+            pan: Pan::new(sample_rate, Placement::of(id).side()),
             peak: 0.0,
         });
         Kit { slots, master: Gain::new(sample_rate), clock: 0, dropped_strikes: 0, peak: [0.0; 2] }
@@ -174,6 +129,11 @@ impl Kit {
                     self.slots[slot].level.set_db(value);
                 }
             }
+            Control::Pan(id) => {
+                if let Some(slot) = id.slot() {
+                    self.slots[slot].pan.set(value);
+                }
+            }
             Control::SnarePreload => {
                 if let Some(slot) = PieceId::Snare.slot().map(|slot| &mut self.slots[slot]) {
                     slot.preload = value;
@@ -206,9 +166,10 @@ impl Kit {
     /// # Real-time
     /// No allocation, no lock; linear in the number of modes.
     pub fn finish_controls(&mut self) {
-        self.master.value = self.master.target;
+        self.master.jump();
         for slot in &mut self.slots {
-            slot.level.value = slot.level.target;
+            slot.level.jump();
+            slot.pan.jump();
             slot.piece.iter_mut().for_each(|piece| piece.finish_controls());
         }
     }
@@ -221,34 +182,59 @@ impl Kit {
     /// # Real-time
     /// No allocation, no lock.
     pub fn render(&mut self, left: &mut [f32], right: &mut [f32]) {
+        self.render_outputs([left, right], &mut []);
+    }
+
+    /// [`render`](Self::render), and in the same pass each piece by itself.
+    ///
+    /// `pieces` are in the order of [`PieceId::KIT`]: with their level and pan, before the master. Pairs
+    /// that are left out at the end, or shorter than the main one, are not written: an output that
+    /// nobody listens to is a pair of empty slices. What is written to `main` does not depend on them.
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn render_outputs(&mut self, main: Stereo<'_>, pieces: &mut [Stereo<'_>]) {
+        let [left, right] = main;
         let frames = left.len().min(right.len());
         let mut done = 0;
         while done < frames {
             let phase = (self.clock % BLOCK as u64) as usize;
-            let run = (frames - done).min(BLOCK - phase);
-            self.render_run(&mut left[done..done + run], &mut right[done..done + run]);
-            self.clock += run as u64;
-            done += run;
+            let run = done..done + (frames - done).min(BLOCK - phase);
+            self.render_run([&mut left[run.clone()], &mut right[run.clone()]], pieces, run.start);
+            self.clock += run.len() as u64;
+            done = run.end;
         }
     }
 
-    /// Renders within one block.
-    fn render_run(&mut self, left: &mut [f32], right: &mut [f32]) {
+    /// Renders within one block; pieces are written from sample `at` on.
+    fn render_run(&mut self, main: Stereo<'_>, pieces: &mut [Stereo<'_>], at: usize) {
+        let [left, right] = main;
         left.fill(0.0);
         right.fill(0.0);
-        let mut sound = [0.0_f32; BLOCK];
-        let sound = &mut sound[..left.len()];
+        let mut pieces = pieces.iter_mut();
+        let mut shares = [[0.0_f32; BLOCK]; 3];
+        let [sound, mut shares @ ..] = shares.each_mut().map(|row| &mut row[..left.len()]);
         for slot in &mut self.slots {
             // Levels move even where nothing plays yet: when a piece is ready must not matter.
             match &mut slot.piece {
                 Some(piece) => piece.render(sound),
                 None => sound.fill(0.0),
             }
-            for ((left, right), sound) in left.iter_mut().zip(right.iter_mut()).zip(&*sound) {
+            for (i, sound) in sound.iter().enumerate() {
                 let sound = sound * (slot.level.next() / FULL_SCALE);
                 slot.peak = slot.peak.max(sound.abs());
-                *left += slot.pan[0] * sound;
-                *right += slot.pan[1] * sound;
+                for (share, gain) in shares.iter_mut().zip(slot.pan.next()) {
+                    share[i] = gain * sound;
+                }
+            }
+            let alone = pieces.next().into_iter().flatten();
+            for (alone, share) in alone.zip(&shares) {
+                if let Some(alone) = alone.get_mut(at..at + share.len()) {
+                    alone.copy_from_slice(share);
+                }
+            }
+            for (sum, share) in [&mut *left, &mut *right].into_iter().zip(&shares) {
+                sum.iter_mut().zip(share.iter()).for_each(|(sum, share)| *sum += share);
             }
         }
         for (left, right) in left.iter_mut().zip(right.iter_mut()) {

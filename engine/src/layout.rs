@@ -32,14 +32,12 @@ impl Placement {
         Placement { centre, normal: normal.map(|x| x / length) }
     }
 
-    /// Gains of the left and right output, constant in power, as the drummer hears it.
-    pub fn pan(&self) -> [f32; 2] {
+    /// Where the piece lies in the stereo as the drummer hears it, -1 (left) to 1 (right).
+    pub fn side(&self) -> f64 {
         /// Half the width of the kit, m.
         const HALF_WIDTH: f64 = 0.8;
         /// How far to the side the outermost pieces go, 0 to 1. *By ear*.
         const SPREAD: f64 = 0.7;
-        let side = (self.centre[0] / HALF_WIDTH).clamp(-1.0, 1.0) * SPREAD;
-        let angle = (side + 1.0) * std::f64::consts::FRAC_PI_4;
-        [angle.cos() as f32, angle.sin() as f32]
+        (self.centre[0] / HALF_WIDTH).clamp(-1.0, 1.0) * SPREAD
     }
 }

@@ -80,7 +80,7 @@ impl PieceSetting {
             Control::SnarePreload => piece.set_preload(self.value),
             Control::SnareWires => piece.throw_wires(self.value >= 0.5),
             // A piece by itself has no mix.
-            Control::Level(_) | Control::Master => {}
+            _ => {}
         }
     }
 }
