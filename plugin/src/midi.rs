@@ -15,4 +15,3 @@ pub mod assignments;
 pub mod document;
 pub mod maps;
 pub mod playing;
-

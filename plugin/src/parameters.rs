@@ -28,6 +28,8 @@ pub use table::PARAMETERS;
 pub enum Drives {
     /// A control of the engine, in the control's own unit.
     Control(Control),
+    /// A control of the engine, in hundredths of its own unit.
+    Percent(Control),
     /// The tuning of a cymbal, given in semitones where the engine takes a ratio.
     Semitones(PieceId),
     /// How notes become strokes.
@@ -219,10 +221,14 @@ mod tests {
     use overhear_engine::piece::Piece;
 
     /// Changing this list breaks every project that was ever saved.
-    const FROZEN_IDS: [&str; 28] = [
+    const FROZEN_IDS: [&str; 65] = [
         "kktune", "kkmuff", "kklevl", "sntune", "snmuff", "snlevl", "rttune", "rtmuff", "rtlevl", "fttune",
         "ftmuff", "ftlevl", "crtune", "crmuff", "crlevl", "rdtune", "rdmuff", "rdlevl", "sptune", "spmuff",
-        "splevl", "master", "dynam", "snprel", "snwire", "tptune", "tpmuff", "tplevl",
+        "splevl", "master", "dynam", "snprel", "snwire", "tptune", "tpmuff", "tplevl", "kkpan", "snpan",
+        "rtpan", "ftpan", "crpan", "rdpan", "sppan", "tppan", "kkplac", "snplac", "rtplac", "ftplac",
+        "crplac", "rdplac", "spplac", "tpplac", "kkstik", "snstik", "rtstik", "ftstik", "crstik", "rdstik",
+        "spstik", "tpstik", "velcur", "humpla", "humspd", "notmap", "midchn", "chokes", "poscc", "qualit",
+        "offqua", "kkreso", "snreso", "rtreso", "ftreso",
     ];
 
     #[test]

@@ -88,9 +88,9 @@ impl Assignments {
     /// # Real-time
     /// One load.
     pub fn of(&self, note: u8) -> Assignment {
-        self.notes.get(usize::from(note)).map_or(Assignment::Mapped, |byte| {
-            Assignment::from_byte(byte.load(Ordering::Relaxed))
-        })
+        self.notes
+            .get(usize::from(note))
+            .map_or(Assignment::Mapped, |byte| Assignment::from_byte(byte.load(Ordering::Relaxed)))
     }
 
     /// Lets a note play something else. Notes beyond 127 are ignored, as is a note that nobody plays.

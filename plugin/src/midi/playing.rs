@@ -156,12 +156,8 @@ struct PlayingState {
 }
 
 impl PlayingState {
-    const REST: PlayingState = PlayingState {
-        positions: [None; 4],
-        fine: [0.0; CHANNELS],
-        gripped: [false; PIECES],
-        strokes: 0,
-    };
+    const REST: PlayingState =
+        PlayingState { positions: [None; 4], fine: [0.0; CHANNELS], gripped: [false; PIECES], strokes: 0 };
 }
 
 /// A player: the style, the user's assignments, and what the controllers say.

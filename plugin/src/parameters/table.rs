@@ -8,7 +8,7 @@ use crate::midi::maps::NoteMap;
 use crate::midi::playing::ChokeRule;
 
 /// Every parameter, in the order hosts see. Frozen: append only.
-pub static PARAMETERS: [Parameter; 58] = {
+pub static PARAMETERS: [Parameter; 65] = {
     use PieceId::*;
     [
         drum_tune(Kick, "Kick", "kktune", "kick_tune", [35.0, 55.0, 90.0]),
@@ -93,6 +93,14 @@ pub static PARAMETERS: [Parameter; 58] = {
         drum_tune(Timpani, "Timpani", "tptune", "timpani_tune", [87.3, 130.8, 196.0]),
         muffle(Timpani, "Timpani", "tpmuff", "timpani_muffle", 0.0),
         level(Timpani, "Timpani", "tplevl", "timpani_level", 0.0),
+        pan(Kick, "Kick", "kkpan", "kick_pan", 0.0),
+        pan(Snare, "Snare", "snpan", "snare_pan", -35.0),
+        pan(RackTom, "Rack tom", "rtpan", "rack_tom_pan", -12.0),
+        pan(FloorTom, "Floor tom", "ftpan", "floor_tom_pan", 41.0),
+        pan(Crash, "Crash", "crpan", "crash_pan", -56.0),
+        pan(Ride, "Ride", "rdpan", "ride_pan", 60.0),
+        pan(Splash, "Splash", "sppan", "splash_pan", 14.0),
+        pan(Timpani, "Timpani", "tppan", "timpani_pan", 70.0),
         place(Kick, "Kick", "kkplac", "kick_place"),
         place(Snare, "Snare", "snplac", "snare_place"),
         place(RackTom, "Rack tom", "rtplac", "rack_tom_place"),
@@ -143,8 +151,18 @@ pub static PARAMETERS: [Parameter; 58] = {
             decimals: 2,
             ..playing(Manner::SpeedSpread)
         },
-        Parameter { id: "notmap", name: "note_map", label: "Note map", ..choice(Manner::Map, &NoteMap::NAMES) },
-        Parameter { id: "midchn", name: "midi_channel", label: "Channel", ..choice(Manner::Channel, &CHANNELS) },
+        Parameter {
+            id: "notmap",
+            name: "note_map",
+            label: "Note map",
+            ..choice(Manner::Map, &NoteMap::NAMES)
+        },
+        Parameter {
+            id: "midchn",
+            name: "midi_channel",
+            label: "Channel",
+            ..choice(Manner::Channel, &CHANNELS)
+        },
         Parameter {
             id: "chokes",
             name: "chokes",
@@ -163,6 +181,7 @@ pub static PARAMETERS: [Parameter; 58] = {
             id: "qualit",
             name: "quality",
             label: "Quality",
+            group: "Rendering",
             default: 1.0,
             ..built(Construction::Quality, &["eco", "standard", "high", "offline"])
         },
@@ -170,6 +189,7 @@ pub static PARAMETERS: [Parameter; 58] = {
             id: "offqua",
             name: "offline_quality",
             label: "Offline quality",
+            group: "Rendering",
             // Nobody waits for a bounce as for a buffer.
             default: 4.0,
             ..built(Construction::OfflineQuality, &["as played", "eco", "standard", "high", "offline"])
@@ -299,6 +319,29 @@ const STRIKERS: [&str; 11] = [
     "cross-stick",
 ];
 
+/// Where a piece lies in the stereo; its default is where it stands, seen from the stool.
+const fn pan(
+    piece: PieceId,
+    group: &'static str,
+    id: &'static str,
+    name: &'static str,
+    default: f32,
+) -> Parameter {
+    Parameter {
+        id,
+        name,
+        label: "Pan",
+        group,
+        unit: " %",
+        min: -100.0,
+        max: 100.0,
+        default,
+        centre: 0.0,
+        drives: Drives::Percent(Control::Pan(piece)),
+        ..playing(Manner::Dynamics)
+    }
+}
+
 /// What strokes on a piece are moved by: outward above 0.
 const fn place(piece: PieceId, group: &'static str, id: &'static str, name: &'static str) -> Parameter {
     Parameter {
@@ -347,7 +390,7 @@ const fn playing(manner: Manner) -> Parameter {
         id: "",
         name: "",
         label: "",
-        group: "Kit",
+        group: "Playing",
         unit: "",
         min: 0.0,
         max: 1.0,

@@ -97,10 +97,7 @@ fn fine_velocity_lies_between_two_velocities_and_is_used_once() {
 #[test]
 fn pressure_grips_cymbals_and_lets_go() {
     let mut playing = playing();
-    assert_eq!(
-        playing.pressure(49, 1.0, 9),
-        Some(Grip { piece: PieceId::Crash, strength: 1.0 })
-    );
+    assert_eq!(playing.pressure(49, 1.0, 9), Some(Grip { piece: PieceId::Crash, strength: 1.0 }));
     assert_eq!(playing.pressure(49, 0.0, 9).unwrap().strength, 0.0);
     assert_eq!(playing.pressure(38, 1.0, 9), None, "drums are not choked");
     assert_eq!(playing.note_off(49, 9), None, "not by default");
