@@ -1,4 +1,4 @@
-//! The General MIDI drum map: which note strikes what, where, and with what.
+//! The reference notes: the General MIDI drum map and beyond. Which note strikes what, where, and with what.
 //!
 //! | note | General MIDI name | struck |
 //! |---|---|---|
@@ -15,7 +15,7 @@
 //! | 64 | low conga | floor tom, soft mallet for a hand |
 //! | 65, 66 | timbales | rack tom, floor tom, stick |
 //! | 42, 46 | closed, open hi-hat | hi-hat, stick on the edge; brings the pedal down, or up |
-//! | 44 | pedal hi-hat | the pedal, down, as fast as the note is loud |
+//! | 44 | pedal hi-hat | the hi-hat's pedal, down, as fast as the note is loud |
 //! | 39, 54, 56, 58, 67 to 81 | hand percussion | silent: nothing in the kit sounds like it |
 //!
 //! Beyond General MIDI's notes:
@@ -25,8 +25,13 @@
 //! | 88 | timpani, soft mallet where timpanists play |
 //! | 89 | timpani, hard mallet at the same place |
 //! | 90 | timpani, soft mallet in the middle: a thud |
-//! | 91 | the hi-hat's pedal, down and up at once: a foot splash |
-//! | 92 | hi-hat, stick on the bow, the pedal where it is |
+//! | 91, 92 | crash, stick on the bow and on the bell |
+//! | 93 | ride, stick shoulder on the edge |
+//! | 94 | snare, stick near the rim |
+//! | 95, 96 | rack tom, floor tom, rimshots |
+//! | 97 | the hi-hat's pedal, down and up at once: a foot splash |
+//! | 98, 99 | hi-hat, stick on the bow and on the bell, the pedal where it is |
+//! | 100 | hi-hat, half open: stick shoulder on the edge; brings the pedal to where the rims just meet |
 //!
 //! All others outside 35 to 81 are silent. Places are where drummers play: a third of the way out on a
 //! drum rather than dead centre, where only the round modes answer.
@@ -53,6 +58,21 @@ pub struct Stroke {
     pub angle: f64,
     /// What is swung.
     pub striker: Striker,
+}
+
+impl Stroke {
+    /// Whether a position controller moves the stroke: those with a stick's tip or a mallet between bell and edge.
+    pub fn moves_with_hand(&self) -> bool {
+        let (inner, outer) = self.reach();
+        let tip = !matches!(self.striker, Striker::CrossStick | Striker::RimShot | Striker::Shoulder);
+        tip && (inner..=outer).contains(&self.radius)
+    }
+
+    /// Least and greatest distance from the centre that a position controller reaches, shares of the radius.
+    pub fn reach(&self) -> (f64, f64) {
+        // The bell has its own notes.
+        if self.piece.is_drum() { (0.0, 0.95) } else { (0.25, 0.97) }
+    }
 }
 
 /// What a note means.
@@ -82,11 +102,12 @@ pub enum Foot {
 /// # Real-time
 /// A table look-up.
 pub fn foot(note: u8) -> Option<Foot> {
-    match (note, &find(note)?.meaning) {
+    match (note, &row_of(note)?.meaning) {
         (_, Meaning::Steps(foot)) => Some(*foot),
-        // Where drummers have them: firmly closed, and open enough for the rims not to meet.
-        (42, _) => Some(Foot::Brought(0.85)),
+        // Where drummers have them: firmly closed; open, the rims clear of each other; resting on one side.
+        (42, _) => Some(Foot::Brought(0.9)),
         (46, _) => Some(Foot::Brought(0.25)),
+        (100, _) => Some(Foot::Brought(0.5)),
         _ => None,
     }
 }
@@ -103,7 +124,10 @@ pub struct Row {
 }
 
 /// The row of a note, if it is in the map.
-fn find(note: u8) -> Option<&'static Row> {
+///
+/// # Real-time
+/// A table look-up.
+pub fn row_of(note: u8) -> Option<&'static Row> {
     let general = note.checked_sub(FIRST_NOTE).and_then(|index| MAP.get(usize::from(index)));
     general.or_else(|| BEYOND.iter().find(|row| row.note == note))
 }
@@ -113,7 +137,7 @@ fn find(note: u8) -> Option<&'static Row> {
 /// # Real-time
 /// A table look-up.
 pub fn stroke(note: u8) -> Option<&'static Stroke> {
-    match &find(note)?.meaning {
+    match &row_of(note)?.meaning {
         Meaning::Strikes(stroke) => Some(stroke),
         Meaning::Steps(_) | Meaning::Silent(_) => None,
     }
@@ -185,15 +209,23 @@ pub static MAP: [Row; (LAST_NOTE - FIRST_NOTE + 1) as usize] = {
 };
 
 /// Notes of our own, beyond the General MIDI drum map. Places are by ear.
-pub static BEYOND: [Row; 5] = {
-    use PieceId::{HiHat, Timpani};
-    use Striker::{HardMallet, Stick, TimpaniMallet};
+pub static BEYOND: [Row; 13] = {
+    use PieceId::*;
+    use Striker::*;
     [
         row(88, "Timpani", strikes(Timpani, 0.75, 0.0, TimpaniMallet)),
         row(89, "Timpani Hard", strikes(Timpani, 0.75, 0.0, HardMallet)),
         row(90, "Timpani Centre", strikes(Timpani, 0.10, 0.0, TimpaniMallet)),
-        row(91, "Hi-Hat Foot Splash", Meaning::Steps(Foot::Splash)),
-        row(92, "Hi-Hat Bow", strikes(HiHat, 0.65, 0.0, Stick)),
+        row(91, "Crash Bow", strikes(Crash, 0.60, 0.0, Stick)),
+        row(92, "Crash Bell", strikes(Crash, 0.12, 0.0, Stick)),
+        row(93, "Ride Edge", strikes(Ride, 0.97, 0.0, Shoulder)),
+        row(94, "Snare Edge", strikes(Snare, 0.85, 0.3, Stick)),
+        row(95, "Rack Tom Rim Shot", strikes(RackTom, 0.40, 0.2, RimShot)),
+        row(96, "Floor Tom Rim Shot", strikes(FloorTom, 0.40, -0.4, RimShot)),
+        row(97, "Hi-Hat Foot Splash", Meaning::Steps(Foot::Splash)),
+        row(98, "Hi-Hat Bow", strikes(HiHat, 0.65, 0.0, Stick)),
+        row(99, "Hi-Hat Bell", strikes(HiHat, 0.12, 0.0, Stick)),
+        row(100, "Hi-Hat Half Open", strikes(HiHat, 0.97, 0.0, Shoulder)),
     ]
 };
 
@@ -233,7 +265,7 @@ mod tests {
     #[test]
     fn notes_outside_the_map_are_silent() {
         for note in (0..FIRST_NOTE).chain(LAST_NOTE + 1..=u8::MAX) {
-            assert_eq!(stroke(note).is_some() || foot(note).is_some(), (88..=92).contains(&note));
+            assert_eq!(stroke(note).is_some() || foot(note).is_some(), (88..=100).contains(&note));
         }
     }
 
@@ -250,8 +282,13 @@ mod tests {
             (&[51, 53, 59], Some(PieceId::Ride)),
             (&[55], Some(PieceId::Splash)),
             (&[88, 89, 90], Some(PieceId::Timpani)),
-            (&[42, 46, 92], Some(PieceId::HiHat)),
-            (&[44, 91, 39, 54, 56, 58, 67, 81], None),
+            (&[91, 92], Some(PieceId::Crash)),
+            (&[93], Some(PieceId::Ride)),
+            (&[94], Some(PieceId::Snare)),
+            (&[95], Some(PieceId::RackTom)),
+            (&[96], Some(PieceId::FloorTom)),
+            (&[42, 46, 98, 99, 100], Some(PieceId::HiHat)),
+            (&[44, 97, 39, 54, 56, 58, 67, 81], None),
         ] {
             assert!(notes.iter().all(|&note| piece(note) == expected), "{notes:?}");
         }

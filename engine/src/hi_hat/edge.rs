@@ -90,9 +90,8 @@ mod tests {
 
     #[test]
     fn waves_are_cosines_and_sines() {
-        for class in 0..CLASSES {
-            for place in 0..POINTS {
-                let [cos, sin] = [WAVES[class][0][place], WAVES[class][1][place]];
+        for (class, [cosines, sines]) in WAVES.iter().enumerate() {
+            for (place, (cos, sin)) in cosines.iter().zip(sines).enumerate() {
                 let (want_sin, want_cos) = (class as f64 * angle(place)).sin_cos();
                 assert!((cos - want_cos).abs() < 1e-14 && (sin - want_sin).abs() < 1e-14);
             }

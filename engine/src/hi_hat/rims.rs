@@ -147,13 +147,12 @@ mod tests {
         };
         let dt = 1.0 / 44_100.0;
         for _ in 0..300 {
-            let mut yields = [[0.0; POINTS]; POINTS];
-            for i in 0..POINTS {
-                for j in 0..i {
-                    let mutual = 3e-8 * (chance() - 0.5);
-                    (yields[i][j], yields[j][i]) = (mutual, mutual);
+            let scattered: [Places; POINTS] = [(); POINTS].map(|()| [(); POINTS].map(|()| chance() - 0.5));
+            let mut yields = scattered;
+            for (i, row) in yields.iter_mut().enumerate() {
+                for (j, y) in row.iter_mut().enumerate() {
+                    *y = if i == j { 5e-7 } else { 2e-8 * (scattered[i][j] + scattered[j][i]) };
                 }
-                yields[i][i] = 5e-7;
             }
             let coupling: Places = std::array::from_fn(|_| 2e-4 * (chance() - 0.5));
             let divisor = 2.3;
