@@ -98,14 +98,14 @@ impl Default for HiHatSpec {
         HiHatSpec {
             top: half(PlateSpec::HI_HAT_TOP, 5),
             bottom: half(PlateSpec::HI_HAT_BOTTOM, 6),
-            clutch: Mount { bounce_hz: 28.0, rock_hz: 6.0, q: 3.0, damping: 0.5, reach: 0.08 },
-            seat: Mount { bounce_hz: 35.0, rock_hz: 12.0, q: 3.0, damping: 0.5, reach: 0.12 },
+            clutch: Mount { bounce_hz: 60.0, rock_hz: 6.0, q: 2.0, damping: 0.5, reach: 0.08 },
+            seat: Mount { bounce_hz: 50.0, rock_hz: 12.0, q: 2.0, damping: 0.5, reach: 0.12 },
             tilt: 0.009,
             toward: 2.0,
             edge: 1e-3,
             restitution: 0.2,
-            rubbing: LossLaw { constant: 15.5, per_khz: 1.0 },
-            half_rubbing: 10.0,
+            rubbing: LossLaw { constant: 17.0, per_khz: 1.1 },
+            half_rubbing: 25.0,
             lasting: 0.02,
         }
     }
@@ -228,13 +228,7 @@ impl HiHat {
         }
         self.pedal = 1.0;
         let closed = self.closed;
-        self.surface.move_pedal(|foot| {
-            if foot.place() > GAP - LIFT {
-                foot.turn(GAP - LIFT, closed, speed.max(SPEED.1));
-            } else {
-                foot.go(closed, speed);
-            }
-        });
+        self.surface.move_pedal(|foot| foot.stamp(GAP - LIFT, closed, speed));
     }
 
     /// Brings the rims together at up to a speed (m/s) and the pedal up again at once, to where it was.
@@ -344,7 +338,7 @@ const RUBBING_STEP: f64 = 0.01;
 const LIFT: f64 = 3e-3;
 
 /// How far beyond the first touch a splash brings the rod, m. *By ear*: all around the tilted rims touch.
-const SPLASH_DEPTH: f64 = 0.5e-3;
+const SPLASH_DEPTH: f64 = 0.0;
 
 /// The upper cymbal as what is struck, with all else hung on it.
 fn assemble(

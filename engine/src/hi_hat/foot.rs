@@ -27,6 +27,8 @@ pub struct Foot {
     target: f64,
     fastest: f64,
     turn: Option<Turn>,
+    /// Where a stamp ends, m.
+    end: Option<f64>,
 }
 
 /// Where to turn, and where to go then, m.
@@ -36,12 +38,14 @@ struct Turn {
     then: f64,
     /// Whether the way to the turn is down.
     down: bool,
+    /// Whether the way from there is a stamp.
+    stamps: bool,
 }
 
 impl Foot {
     /// At rest.
     pub fn new(y: f64) -> Foot {
-        Foot { y, v: 0.0, target: y, fastest: SPEED.1, turn: None }
+        Foot { y, v: 0.0, target: y, fastest: SPEED.1, turn: None, end: None }
     }
 
     /// How far down the rod is, m.
@@ -61,7 +65,20 @@ impl Foot {
 
     /// Sets out for a place (m) at up to a speed (m/s).
     pub fn go(&mut self, target: f64, fastest: f64) {
-        (self.target, self.fastest, self.turn) = (target, fastest.clamp(SPEED.0, SPEED.2), None);
+        (self.target, self.fastest) = (target, fastest.clamp(SPEED.0, SPEED.2));
+        (self.turn, self.end) = (None, None);
+    }
+
+    /// Goes down to a place (m) at up to a speed (m/s) and does not slow down before: what is there stops it. One
+    /// that is lower than `from` (m) goes up there first.
+    pub fn stamp(&mut self, from: f64, target: f64, fastest: f64) {
+        if self.y > from {
+            self.turn(from, target, fastest);
+            self.turn.iter_mut().for_each(|turn| turn.stamps = true);
+        } else {
+            self.go(target + 2.0 * fastest / LEG, fastest);
+            self.end = Some(target);
+        }
     }
 
     /// Goes past `at` (m) at up to a speed (m/s), and from there at once to `then` (m).
@@ -70,14 +87,12 @@ impl Foot {
         // Aimed beyond, so as not to slow down before the turn.
         let beyond = 2.0 * fastest / LEG;
         self.go(if down { at + beyond } else { at - beyond }, fastest);
-        self.turn = Some(Turn { at, then, down });
+        self.turn = Some(Turn { at, then, down, stamps: false });
     }
 
     /// Is there at once.
     pub fn jump(&mut self) {
-        if let Some(turn) = self.turn.take() {
-            self.target = turn.then;
-        }
+        self.target = self.turn.take().map(|turn| turn.then).or(self.end.take()).unwrap_or(self.target);
         (self.y, self.v) = (self.target, 0.0);
     }
 
@@ -90,7 +105,14 @@ impl Foot {
         self.v = (self.v + pull * dt).clamp(-self.fastest, self.fastest);
         self.y += self.v * dt;
         if let Some(turn) = self.turn.filter(|turn| (self.y >= turn.at) == turn.down) {
-            (self.target, self.turn) = (turn.then, None);
+            // On the way down the cymbals stop it.
+            (self.target, self.turn, self.v) = (turn.then, None, 0.0);
+            if turn.stamps {
+                self.stamp(self.y, turn.then, self.fastest);
+            }
+        }
+        if let Some(end) = self.end.filter(|&end| self.y >= end) {
+            (self.y, self.v, self.target, self.end) = (end, 0.0, end, None);
         }
         if (self.y - self.target).abs() < THERE.0 && self.v.abs() < THERE.1 {
             (self.y, self.v) = (self.target, 0.0);
@@ -141,5 +163,22 @@ mod tests {
         }
         assert!(highest < 0.001 && highest > -0.006, "{highest}");
         assert_eq!(foot.place(), 0.01);
+    }
+
+    #[test]
+    fn a_stamp_arrives_at_speed_and_one_that_is_down_lifts_first() {
+        let mut foot = Foot::new(0.0);
+        for _ in 0..2 {
+            foot.stamp(0.027, 0.031, 1.5);
+            let (mut highest, mut arriving) = (foot.place(), 0.0);
+            while foot.moves() {
+                arriving = foot.speed();
+                foot.step(DT);
+                highest = highest.min(foot.place());
+            }
+            assert!(arriving > 0.7, "{arriving} m/s");
+            assert!(highest <= 0.027, "{highest}");
+            assert_eq!(foot.place(), 0.031);
+        }
     }
 }

@@ -277,6 +277,7 @@ impl Pair {
     /// Linear in the number of modes, and some microseconds.
     pub fn follow(&mut self, top: &ModalBody, heard: &Pickup) {
         self.bottom.tune(&mut self.pickup);
+        let steady_before = self.steady;
         let bodies = [(top, &self.folded[0]), (&self.bottom, &self.folded[1])];
         let [a, b] = bodies.map(|(body, folded)| edge::between_points(&body.class_compliances(folded)));
         let [c, d] = bodies.map(|(body, folded)| edge::between_points(&body.static_compliances(folded)));
@@ -295,8 +296,10 @@ impl Pair {
             top.folded_direct(&self.folded[0], heard),
             self.bottom.folded_direct(&self.folded[1], &self.pickup),
         ];
-        // The balance is another one too.
-        self.goal_place = f64::NAN;
+        if self.steady != steady_before {
+            // The balance is another one too.
+            self.goal_place = f64::NAN;
+        }
         self.ease();
     }
 

@@ -48,6 +48,13 @@ impl Surface {
         }
     }
 
+    /// Takes care of the rims from now on, after a change by hand; for tests.
+    pub fn wake_pair(&mut self) {
+        if let Surface { pair: Some(pair), body, .. } = self {
+            pair.engage(body);
+        }
+    }
+
     /// Lets the pedal arrive and what it moves rest there.
     pub fn rest_pedal(&mut self) {
         if let Some(pair) = self.pair.as_mut().filter(|pair| pair.foot().moves()) {
