@@ -105,7 +105,7 @@ pub fn foot(note: u8) -> Option<Foot> {
     match (note, &row_of(note)?.meaning) {
         (_, Meaning::Steps(foot)) => Some(*foot),
         // Where drummers have them: firmly closed; open, the rims clear of each other; resting on one side.
-        (42, _) => Some(Foot::Brought(0.9)),
+        (42, _) => Some(Foot::Brought(0.8)),
         (46, _) => Some(Foot::Brought(0.25)),
         (100, _) => Some(Foot::Brought(0.5)),
         _ => None,

@@ -34,7 +34,9 @@ fn edge(speed: f64) -> Strike {
 fn without_losses_the_whole_keeps_its_energy_within_a_thousandth_over_a_second() {
     let mut hat = lossless_piece(PieceId::HiHat, RATE);
     for pedal in PLACES {
-        for strike in [edge(5.0), stroke(Striker::Shoulder, 3.0, 1.0, 2.0), stroke(Striker::Stick, 6.0, 0.1, 0.0)] {
+        for strike in
+            [edge(5.0), stroke(Striker::Shoulder, 3.0, 1.0, 2.0), stroke(Striker::Stick, 6.0, 0.1, 0.0)]
+        {
             hat.reset();
             hold(&mut hat, pedal);
             hat.strike(&strike);
@@ -111,7 +113,10 @@ fn energy_never_rises_but_by_the_work_of_strikers_and_pedal() {
                 let after = unpaid(&mut hat);
                 largest = largest.max(hat.energy() + hat.surface_mut().brought_energy());
                 // Of single precision, over what has gone through it.
-                prop_assert!(after - before < 1e-6 * largest + 1e-12, "{event:?}: {before} J, then {after} J");
+                prop_assert!(
+                    after - before < 1e-6 * largest + 1e-12,
+                    "{event:?}: {before} J, then {after} J"
+                );
                 before = after;
             }
         }
@@ -146,8 +151,7 @@ fn without_losses_the_pedal_s_work_is_all_that_is_gained() {
 fn swapped_and_upside_down_two_equal_cymbals_move_the_same() {
     let spec = HiHatSpec::default();
     let spec = HiHatSpec { bottom: spec.top, seat: spec.clutch, ..spec };
-    let options =
-        BuildOptions { lossless: true, linear: true, unsplit: true, ..BuildOptions::new(RATE) };
+    let options = BuildOptions { lossless: true, linear: true, unsplit: true, ..BuildOptions::new(RATE) };
     // As far below the touching place as the tilt: one side is pressed.
     let motion = |swapped: bool| {
         let mut hat = HiHat::new(&spec, &options).expect("a hi-hat");
@@ -155,7 +159,8 @@ fn swapped_and_upside_down_two_equal_cymbals_move_the_same() {
         hat.finish_controls();
         let surface = hat.surface_mut();
         let count = surface.body().len();
-        let bent: Vec<f32> = (0..count).map(|k| 2e-5 * ((k * k % 13) as f32 - 6.0) / (1.0 + k as f32)).collect();
+        let bent: Vec<f32> =
+            (0..count).map(|k| 2e-5 * ((k * k % 13) as f32 - 6.0) / (1.0 + k as f32)).collect();
         let pair = surface.pair_mut().expect("a pair");
         if swapped {
             let mirrored: Vec<f32> = bent.iter().map(|q| -q).collect();
@@ -171,9 +176,8 @@ fn swapped_and_upside_down_two_equal_cymbals_move_the_same() {
             surface.render(&mut out);
         }
         let pair = surface.pair().expect("a pair");
-        let [top, bottom] = [surface.body(), pair.bottom()].map(|body| {
-            (0..count).map(|k| f64::from(body.displacement(k))).collect::<Vec<f64>>()
-        });
+        let [top, bottom] = [surface.body(), pair.bottom()]
+            .map(|body| (0..count).map(|k| f64::from(body.displacement(k))).collect::<Vec<f64>>());
         let rest = pair.foot().place();
         let [a, b] = [pair.rigid()[0].place(), pair.rigid()[1].place()];
         (top, bottom, [a[0] - rest, a[1], a[2]], b, *pair.forces(), pair.landings().landings)
@@ -183,8 +187,18 @@ fn swapped_and_upside_down_two_equal_cymbals_move_the_same() {
     assert!(landings > 5 && forces.iter().any(|&force| force > 0.0), "{landings} landings, {forces:?}");
     let largest = top.iter().chain(&bottom).fold(0.0_f64, |most, q| most.max(q.abs()));
     for k in 0..top.len() {
-        assert!((top[k] + other_bottom[k]).abs() < 1e-4 * largest, "mode {k}: {} {}", top[k], other_bottom[k]);
-        assert!((bottom[k] + other_top[k]).abs() < 1e-4 * largest, "mode {k}: {} {}", bottom[k], other_top[k]);
+        assert!(
+            (top[k] + other_bottom[k]).abs() < 1e-4 * largest,
+            "mode {k}: {} {}",
+            top[k],
+            other_bottom[k]
+        );
+        assert!(
+            (bottom[k] + other_top[k]).abs() < 1e-4 * largest,
+            "mode {k}: {} {}",
+            bottom[k],
+            other_top[k]
+        );
     }
     for i in 0..3 {
         assert!((stiff_top[i] + other_stiff_bottom[i]).abs() < 1e-7, "{stiff_top:?} {other_stiff_bottom:?}");
@@ -220,11 +234,15 @@ fn the_farther_down_the_pedal_the_shorter_the_sound() {
         let mean = mean.exp();
         let shot = OneShot::new(&out, RATE).expect("a sound");
         let centroid = envelope::temporal_centroid_ms(&shot).expect("a sound");
-        println!("pedal {pedal:.2}: T60 {decays:.2?} s, mean {mean:.3} s, centroid {centroid:.0} ms, {landings} landings");
+        println!(
+            "pedal {pedal:.2}: T60 {decays:.2?} s, mean {mean:.3} s, centroid {centroid:.0} ms, {landings} landings"
+        );
         assert!(mean < before, "pedal {pedal}: {mean} s after {before} s");
         before = mean;
         match pedal {
-            p if p < 0.3 => assert!((2.0..5.0).contains(&mean) && centroid > 90.0, "open: {mean} s, {centroid} ms"),
+            p if p < 0.3 => {
+                assert!((2.0..5.0).contains(&mean) && centroid > 90.0, "open: {mean} s, {centroid} ms")
+            }
             p if p > 0.8 => assert!((0.25..0.5).contains(&mean) && centroid < 51.0, "closed: {mean} s"),
             _ => {}
         }
