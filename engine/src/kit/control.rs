@@ -5,7 +5,7 @@ use crate::piece::PieceId;
 /// A live control of the kit. Acts from the next sample on, smoothed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Control {
-    /// Pitch of a drum, Hz, or of a cymbal, ratio; see [`Piece::tuning_range`].
+    /// Pitch of a drum, Hz, or of a cymbal, ratio; see [`Piece::tuning_range`](crate::piece::Piece::tuning_range).
     Tuning(PieceId),
     /// Muffling of a piece, 0 to 1.
     Muffling(PieceId),
@@ -15,7 +15,7 @@ pub enum Control {
     SnareWires,
     /// The hi-hat's pedal, 0 (up) to 1 (down); see [`Piece::press_pedal`](crate::piece::Piece::press_pedal).
     Pedal,
-    /// Level of a piece in the mix, dB; at or below [`SILENT_DB`] the piece is silent.
+    /// Level of a piece in the mix, dB; at or below [`SILENT_DB`](crate::kit::SILENT_DB) the piece is silent.
     Level(PieceId),
     /// Where a piece lies in the stereo, -1 (left) to 1 (right); see [`Placement::side`].
     ///
