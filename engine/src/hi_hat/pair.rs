@@ -296,11 +296,16 @@ impl Pair {
             top.folded_direct(&self.folded[0], heard),
             self.bottom.folded_direct(&self.folded[1], &self.pickup),
         ];
-        if self.steady != steady_before {
-            // The balance is another one too.
+        self.ease();
+        if self.steady == steady_before {
+            return;
+        }
+        // The balance is another one too: what rests is there at once, what moves is led there.
+        if self.still {
+            self.come_to_rest();
+        } else {
             self.goal_place = f64::NAN;
         }
-        self.ease();
     }
 
     /// Works out what hangs on the preloads.

@@ -102,6 +102,11 @@ impl Rigid {
         (self.stiffness[0] * y + damper, damper)
     }
 
+    /// Adds what many forces at once did, summed as each part feels them (N).
+    pub fn push_parts(&mut self, forces: &Weights) {
+        self.parts.iter_mut().zip(forces).for_each(|(part, force)| part.push(*force));
+    }
+
     /// Energy with the mount held at `y`, J.
     pub fn energy(&self, y: f64) -> f64 {
         let absolute: f64 = self.parts.iter().map(Oscillator::energy).sum();

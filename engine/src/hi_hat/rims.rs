@@ -89,15 +89,8 @@ impl Rims<'_> {
     /// `Y x`.
     #[inline(always)]
     fn times(&self, x: &Places) -> Places {
-        let mut out = [0.0; POINTS];
-        let mut along = 0.0;
-        for (row, (&x, &u)) in self.yields.iter().zip(x.iter().zip(self.coupling)) {
-            along += u * x;
-            for (out, y) in out.iter_mut().zip(row) {
-                *out += y * x;
-            }
-        }
-        let along = along / self.divisor;
+        let out = product(self.yields, x);
+        let along = self.coupling.iter().zip(x).map(|(u, x)| u * x).sum::<f64>() / self.divisor;
         std::array::from_fn(|i| out[i] - self.coupling[i] * along)
     }
 
@@ -128,6 +121,18 @@ impl Rims<'_> {
         }
         (forces, slopes)
     }
+}
+
+/// A symmetric matrix times a vector.
+#[inline(always)]
+pub fn product(matrix: &[Places; POINTS], x: &Places) -> Places {
+    let mut out = [0.0; POINTS];
+    for (row, x) in matrix.iter().zip(x) {
+        for (out, y) in out.iter_mut().zip(row) {
+            *out += y * x;
+        }
+    }
+    out
 }
 
 #[cfg(test)]

@@ -14,7 +14,7 @@ use super::POINTS;
 use super::edge;
 use super::pair::{MARGIN, Pair, SETTLING};
 use super::rigid::Rigid;
-use super::rims::Rims;
+use super::rims::{self, Rims};
 
 impl Pair {
     /// A striker comes down at `radius` (share of it) in direction `angle` (rad).
@@ -181,10 +181,12 @@ impl Pair {
         if beyond == [0.0; POINTS] && self.force == [0.0; POINTS] {
             return (0.0, 0.0);
         }
-        for (weights, &force) in self.weights.iter().zip(&self.force).filter(|&(_, &force)| force != 0.0) {
-            self.rigid[0].push(weights, -force);
-            self.rigid[1].push(weights, force);
+        let mut felt = [0.0; 3];
+        for (weights, force) in self.weights.iter().zip(&self.force) {
+            felt.iter_mut().zip(weights).for_each(|(felt, weight)| *felt += weight * force);
         }
+        self.rigid[0].push_parts(&felt.map(|force| -force));
+        self.rigid[1].push_parts(&felt);
         let down = self.kernels.vectorized(
             #[inline(always)]
             || edge::amplitudes(&beyond),
@@ -209,11 +211,13 @@ impl Pair {
         let of_strikers: f64 = strikers.clone().map(|(_, force, u)| force * u).sum();
         let of_rims: f64 = self.force.iter().zip(&self.coupling).map(|(force, u)| force * u).sum();
         let coupled = (of_strikers + of_rims) / divisor;
-        let mut moved = [0.0; POINTS];
-        let rims = self.whole.iter().zip(self.force);
-        let pressing = strikers.map(|(point, force, _)| (&self.strikers[point].whole, force));
-        for (row, force) in rims.chain(pressing).filter(|&(_, force)| force != 0.0) {
-            moved.iter_mut().zip(row).for_each(|(moved, y)| *moved += y * force);
+        let (whole, force) = (&self.whole, &self.force);
+        let mut moved = self.kernels.vectorized(
+            #[inline(always)]
+            || rims::product(whole, force),
+        );
+        for (point, force, _) in strikers {
+            moved.iter_mut().zip(&self.strikers[point].whole).for_each(|(moved, y)| *moved += y * force);
         }
         for (j, moved) in moved.into_iter().enumerate() {
             self.compression[j] = self.free[j] - moved + self.coupling[j] * coupled;

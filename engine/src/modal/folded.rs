@@ -65,7 +65,7 @@ impl ModalBody {
     /// Sum over all modes of how far each can be from rest, weighted by its largest share of the rim, m:
     /// no place on the rim is farther.
     pub fn folded_reach(&self, folded: &Folded) -> f64 {
-        let far = |k: usize| f64::from(self.state.re[k]).hypot(f64::from(self.state.im[k]));
-        folded.shares().map(|(k, _, [c, s])| c.hypot(s) * far(k)).sum()
+        let far = |k: usize| self.state.re[k] * self.state.re[k] + self.state.im[k] * self.state.im[k];
+        f64::from(folded.sizes().map(|(k, square)| (square * far(k)).sqrt()).sum::<f32>())
     }
 }

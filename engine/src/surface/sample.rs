@@ -129,7 +129,9 @@ impl Surface {
     /// Lets the body step by itself; works out how what touches meets it. Returns what multiplies their
     /// coupling to give how far the force beyond the modes has moved the surface by itself.
     pub(super) fn step_free(&mut self) -> f64 {
-        self.yielding = self.compliance;
+        if self.live_count > 0 {
+            self.yielding = self.compliance;
+        }
         let Some(force) = self.beyond.as_mut().filter(|force| force.is_active()) else {
             self.pair.iter_mut().for_each(|pair| pair.couple(&self.body, None));
             self.body.step();

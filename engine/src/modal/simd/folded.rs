@@ -63,6 +63,13 @@ impl Folded {
         Folded { groups, cos, sin }
     }
 
+    /// Square of every mode's amplitude at the rim, `(mode, square)`, but those that have none.
+    pub fn sizes(&self) -> impl Iterator<Item = (usize, f32)> + '_ {
+        let rows = self.cos.iter().zip(self.sin.iter()).enumerate();
+        rows.filter(|&(_, (&c, &s))| c != 0.0 || s != 0.0)
+            .map(|(at, (&c, &s))| (self.groups[at / LANES].lanes * LANES + at % LANES, c * c + s * s))
+    }
+
     /// Every mode's share of its class, `(mode, class, [cosine, sine])`, but those that have none.
     pub fn shares(&self) -> impl Iterator<Item = (usize, usize, [f64; 2])> + '_ {
         let rows = self.cos.iter().zip(self.sin.iter()).enumerate();
