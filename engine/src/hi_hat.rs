@@ -271,7 +271,16 @@ impl HiHat {
         let moved = [&mut self.tuning, &mut self.muffling, &mut self.hand].map(Glide::jump);
         self.stale |= moved.contains(&true);
         self.surface.rest_pedal();
+        let rubbing = self.rubbing_now();
+        self.stale |= rubbing != self.rubbing;
+        self.rubbing = rubbing;
         self.follow_controls();
+    }
+
+    /// How much the rims rub where they are, 0 to 1.
+    fn rubbing_now(&self) -> f64 {
+        let clamped = self.surface.pair().map_or(0.0, Pair::clamped);
+        clamped / (clamped + self.half_rubbing)
     }
 
     /// Brings the modes to where the controls are.
@@ -279,8 +288,7 @@ impl HiHat {
     /// # Real-time
     /// Nothing while they rest; linear in the number of modes while they move.
     pub fn follow_controls(&mut self) {
-        let clamped = self.surface.pair().map_or(0.0, Pair::clamped);
-        let rubbing = clamped / (clamped + self.half_rubbing);
+        let rubbing = self.rubbing_now();
         if (rubbing - self.rubbing).abs() > RUBBING_STEP {
             (self.rubbing, self.stale) = (rubbing, true);
         }
