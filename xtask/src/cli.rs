@@ -13,8 +13,10 @@ use anyhow::Result;
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser};
 
-use crate::{bundle, demo, error, groove, hear, modes, output, realism, render, report, settings, suite};
-use arguments::{HearArguments, ModesArguments, RealismArguments, RenderArguments, Task};
+use crate::{
+    bench, bundle, demo, error, groove, hear, modes, output, realism, render, report, settings, suite,
+};
+use arguments::{BenchArguments, HearArguments, ModesArguments, RealismArguments, RenderArguments, Task};
 
 /// Developer and user commands of Overhear.
 #[derive(Debug, Parser)]
@@ -83,6 +85,8 @@ fn dispatch(task: Task) -> Result<()> {
         Task::Hear(arguments) => hear(arguments),
         Task::Modes(arguments) => modes(arguments),
         Task::Realism(arguments) => realism(arguments),
+        Task::Bench(arguments) => bench(arguments),
+        Task::BenchScene { index, quality, simd } => bench::count_this(index, quality.into(), simd.into()),
         Task::Report { pages, output } => report::run(&pages, &output.unwrap_or_else(report::folder)),
         Task::Groove { output } => output::write(&output, &groove::file()),
     }
@@ -110,6 +114,12 @@ fn hear(arguments: HearArguments) -> Result<()> {
 fn realism(arguments: RealismArguments) -> Result<()> {
     let (json, request) = (arguments.json, arguments.into_request()?);
     let report = realism::run(&request)?;
+    say(&if json { serde_json::to_string(&report)? + "\n" } else { report.to_string() })
+}
+
+fn bench(arguments: BenchArguments) -> Result<()> {
+    let json = arguments.json;
+    let report = bench::run(&arguments.into_request())?;
     say(&if json { serde_json::to_string(&report)? + "\n" } else { report.to_string() })
 }
 
