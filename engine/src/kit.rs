@@ -12,6 +12,7 @@
 
 mod control;
 mod gain;
+mod leaving;
 
 pub use control::Control;
 pub use gain::{LOUDEST_DB, SILENT_DB};
@@ -23,6 +24,7 @@ use crate::strike::Strike;
 use crate::surface::wires::PRELOAD;
 
 use gain::{Gain, Pan};
+use leaving::Leaving;
 
 /// Longest stretch a piece renders at once, samples.
 pub const BLOCK: usize = 32;
@@ -33,6 +35,7 @@ pub const FULL_SCALE: f32 = 20.0;
 /// A piece's place in the kit.
 struct Slot {
     piece: Option<Box<Piece>>,
+    leaving: Leaving,
     tuning: f64,
     muffling: f64,
     preload: f64,
@@ -60,6 +63,7 @@ impl Kit {
     pub fn new(sample_rate: f64) -> Kit {
         let slots = PieceId::KIT.map(|id| Slot {
             piece: None,
+            leaving: Leaving::new(sample_rate),
             tuning: Piece::tuning_range(id).1,
             muffling: 0.0,
             preload: PRELOAD.1,
@@ -73,7 +77,8 @@ impl Kit {
 
     /// Puts a piece in its place and returns what stood there, to be dropped elsewhere.
     ///
-    /// The piece takes over the present tuning and muffling. A piece that does not belong to the
+    /// The piece takes over the present tuning and muffling. What stood there and still sounds fades out
+    /// first; it is handed back by [`retire`](Self::retire) once it has. A piece that does not belong to the
     /// kit is handed back.
     ///
     /// # Real-time
@@ -89,7 +94,16 @@ impl Kit {
         piece.throw_wires(slot.wires);
         piece.finish_controls();
         piece.align((self.clock % BLOCK as u64) as usize);
-        slot.piece.replace(piece)
+        let former = slot.piece.replace(piece)?;
+        slot.leaving.see_off(former)
+    }
+
+    /// Hands back a replaced piece that has faded out, to be dropped elsewhere; one a call.
+    ///
+    /// # Real-time
+    /// No allocation; nothing is dropped here.
+    pub fn retire(&mut self) -> Option<Box<Piece>> {
+        self.slots.iter_mut().find_map(|slot| slot.leaving.gone())
     }
 
     /// Whether every piece has been installed.
@@ -110,6 +124,18 @@ impl Kit {
         match id.slot().and_then(|slot| self.slots[slot].piece.as_mut()) {
             Some(piece) => piece.strike(strike),
             None => self.dropped_strikes = self.dropped_strikes.saturating_add(1),
+        }
+    }
+
+    /// Lets a hand take hold of a cymbal, firmly at 1, or let go of it, 0; see [`Piece::choke`]. A NaN is ignored.
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn choke(&mut self, id: PieceId, strength: f64) {
+        if let Some(piece) = id.slot().and_then(|slot| self.slots[slot].piece.as_mut())
+            && !strength.is_nan()
+        {
+            piece.choke(strength);
         }
     }
 
@@ -220,6 +246,7 @@ impl Kit {
                 Some(piece) => piece.render(sound),
                 None => sound.fill(0.0),
             }
+            slot.leaving.render(sound);
             for (i, sound) in sound.iter().enumerate() {
                 let sound = sound * (slot.level.next() / FULL_SCALE);
                 slot.peak = slot.peak.max(sound.abs());
@@ -254,6 +281,7 @@ impl Kit {
         self.finish_controls();
         for slot in &mut self.slots {
             slot.piece.iter_mut().for_each(|piece| piece.reset());
+            slot.leaving.cut();
             slot.peak = 0.0;
         }
         self.peak = [0.0; 2];

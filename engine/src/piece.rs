@@ -436,6 +436,11 @@ impl Piece {
         self.asleep = self.voice.surface().is_still();
     }
 
+    /// Whether nothing moves and nothing is about: there is nothing to hear until the next stroke.
+    pub fn is_asleep(&self) -> bool {
+        self.asleep
+    }
+
     /// Puts the piece's block grid at `phase` samples into a block, as its kit's is.
     pub fn align(&mut self, phase: usize) {
         self.phase = phase % BLOCK;

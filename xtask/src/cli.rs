@@ -14,7 +14,7 @@ use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser};
 
 use crate::{
-    bench, bundle, demo, error, groove, hear, modes, output, realism, render, report, settings, suite,
+    bench, bundle, demo, error, groove, hear, manual, modes, output, realism, render, report, settings, suite,
 };
 use arguments::{BenchArguments, HearArguments, ModesArguments, RealismArguments, RenderArguments, Task};
 
@@ -88,6 +88,7 @@ fn dispatch(task: Task) -> Result<()> {
         Task::Bench(arguments) => bench(arguments),
         Task::BenchScene { index, quality, simd } => bench::count_this(index, quality.into(), simd.into()),
         Task::Report { pages, output } => report::run(&pages, &output.unwrap_or_else(report::folder)),
+        Task::Docs => manual::write(),
         Task::Groove { output } => output::write(&output, &groove::file()),
     }
 }
