@@ -28,7 +28,7 @@ pub const SPEED_OF_SOUND: f64 = 343.0;
 
 /// Chebyshev nodes of a mass curve. *Measured*: the mass is met within 1e-4, a fortieth of a cent; of modes of thirty
 /// circles, whose air weighs next to nothing, within 2e-4.
-const NODES: usize = 20;
+const NODES: usize = 28;
 
 /// Highest `omega a / c` over `j` that a mass curve follows. *Derived*: the peak at 1 is some `1 / sqrt(j)` wide.
 const SUBSONIC: f64 = 0.8;
