@@ -5,7 +5,7 @@ use crate::piece::PieceId;
 /// A live control of the kit. Acts from the next sample on, smoothed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Control {
-    /// Pitch of a drum, Hz, or of a cymbal, ratio; see [`Piece::tuning_range`].
+    /// Pitch of a drum, Hz, or of a cymbal, ratio; see [`Piece::tuning_range`](crate::piece::Piece::tuning_range).
     Tuning(PieceId),
     /// Muffling of a piece, 0 to 1.
     Muffling(PieceId),
@@ -13,7 +13,7 @@ pub enum Control {
     SnarePreload,
     /// Whether the snare wires lie against the head: below one half they are off.
     SnareWires,
-    /// Level of a piece in the mix, dB; at or below [`SILENT_DB`] the piece is silent.
+    /// Level of a piece in the mix, dB; at or below [`SILENT_DB`](crate::kit::SILENT_DB) the piece is silent.
     Level(PieceId),
     /// Where a piece lies in the stereo, -1 (left) to 1 (right); see [`Placement::side`].
     ///
