@@ -12,6 +12,7 @@ mod report;
 mod workload;
 
 use std::path::PathBuf;
+use std::process::Command;
 use std::time::Instant;
 
 use anyhow::{Context, Result};
@@ -21,6 +22,7 @@ use overhear_engine::piece::{BuildOptions, Piece, PieceId, Quality};
 
 use crate::bad_input;
 use crate::progress::Progress;
+use crate::workspace;
 use measure::Blocks;
 use report::Report;
 use workload::{Scene, Workload};
@@ -91,6 +93,23 @@ pub fn run(request: &Request) -> Result<Report> {
         Some(before) => report.beside(before),
         None => report,
     })
+}
+
+/// Builds this program for release and has that measure, with the same arguments.
+///
+/// What a development build measures is not what is installed, least of all its calibration loop.
+///
+/// # Errors
+/// If it cannot be built. Whatever else goes wrong it has said itself: this process ends as it did.
+pub fn as_released() -> Result<()> {
+    let status = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
+        .args(["run", "--release", "--quiet", "--package", "xtask", "--manifest-path"])
+        .arg(workspace::root().join("Cargo.toml"))
+        .arg("--")
+        .args(std::env::args_os().skip(1))
+        .status()
+        .context("cannot run cargo")?;
+    if status.success() { Ok(()) } else { std::process::exit(status.code().unwrap_or(1)) }
 }
 
 /// Everything that is measured: the kit's scenes, then each piece struck by itself.

@@ -90,6 +90,7 @@ fn dispatch(task: Task) -> Result<()> {
         Task::Hear(arguments) => hear(arguments),
         Task::Modes(arguments) => modes(arguments),
         Task::Realism(arguments) => realism(arguments),
+        Task::Bench(_) if cfg!(debug_assertions) => bench::as_released(),
         Task::Bench(arguments) => bench(arguments),
         Task::BenchScene { index, quality, simd } => bench::count_this(index, quality.into(), simd.into()),
         Task::Report { pages, output } => report::run(&pages, &output.unwrap_or_else(report::folder)),

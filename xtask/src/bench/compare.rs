@@ -32,8 +32,15 @@ struct Cost {
 /// [`BadInput`](crate::error::BadInput) naming the file and what is wrong with it.
 pub fn read(path: &Path) -> Result<Before> {
     let text = std::fs::read_to_string(path).map_err(|error| bad_input!("{}: {error}", path.display()))?;
-    let wrong = |error| bad_input!("{} is no report of `bench --json`: {error}", path.display());
-    let Older { groove, all_at_once, idle, pieces } = serde_json::from_str(&text).map_err(wrong)?;
+    parse(&text).map_err(|error| bad_input!("{} is no report of `bench --json`: {error}", path.display()))
+}
+
+/// Takes the costs out of a report.
+///
+/// # Errors
+/// What of it is missing or not a number.
+pub fn parse(text: &str) -> serde_json::Result<Before> {
+    let Older { groove, all_at_once, idle, pieces } = serde_json::from_str(text)?;
     let mut before = Before::from([
         ("groove".to_owned(), groove.calibrations),
         ("all-at-once".to_owned(), all_at_once.calibrations),

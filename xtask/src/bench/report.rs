@@ -181,3 +181,53 @@ impl fmt::Display for Report {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use overhear_engine::piece::PieceId;
+
+    use super::super::compare;
+    use super::*;
+
+    #[test]
+    fn a_report_names_every_scene_and_can_be_compared_with() {
+        let cost = Cost { share: 0.05, calibrations: 0.6, spread: [0.5, 0.7], calibration_s: 0.08 };
+        let quality = Quality::Standard;
+        let kit = [Scene::Groove(quality), Scene::AllAtOnce(quality), Scene::Idle];
+        let crash = Quality::ALL.map(|quality| Scene::Piece(PieceId::Crash, quality));
+        let scenes = kit.into_iter().chain(crash).chain([Scene::Piece(PieceId::Kick, quality)]);
+        let request = Request { runs: 7, quality, simd: None, compare: None, callgrind: false };
+        let report = Report::new(Measured {
+            request: &request,
+            costs: scenes.map(|scene| (scene, cost)).collect(),
+            blocks: Blocks::default(),
+            build_cold_s: 1.0,
+            build_warm_s: 0.5,
+            memory_mb: 40.0,
+            simd: "avx2",
+            counts: Vec::new(),
+        });
+        let json = serde_json::to_value(&report).unwrap();
+        for key in [
+            "calibration_s",
+            "groove",
+            "all_at_once",
+            "pieces",
+            "idle",
+            "worst_block_share",
+            "build_cold_s",
+            "build_warm_s",
+            "memory_mb",
+            "simd",
+        ] {
+            assert!(json.get(key).is_some(), "{key}");
+        }
+        assert_eq!(json["groove"]["calibrations"], 0.6);
+        assert_eq!(json["pieces"]["crash"]["tiers"].as_object().unwrap().len(), Quality::ALL.len());
+        let before = compare::parse(&json.to_string()).unwrap();
+        assert_eq!(before.get("crash high"), Some(&0.6));
+        let table = report.beside(before).to_string();
+        assert!(table.lines().filter(|line| line.ends_with("x1.00")).count() >= 8, "{table}");
+        assert!(compare::parse("{}").unwrap_err().to_string().contains("groove"));
+    }
+}
