@@ -207,6 +207,11 @@ impl Membrane {
         self.stiffness(mode, tension) * self.spec.area()
     }
 
+    /// Volume that a mode without nodal diameters displaces, per modal displacement, m2.
+    pub fn volume(&self, mode: &MembraneMode) -> f64 {
+        2.0 * self.spec.area() * mode.norm * libm::j1(mode.zero) / mode.zero
+    }
+
     /// Mass of the air on one face at an angular frequency, kg.
     pub fn face_mass(&self, mode: &MembraneMode, omega: f64) -> f64 {
         let u = omega * self.spec.radius / air::SPEED_OF_SOUND;

@@ -1,7 +1,7 @@
 //! From a drum's description to its modes: heads stretched, orders solved at every pitch, all laid
 //! out as one modal body.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{SQRT_2, TAU};
 
 use crate::air::DENSITY;
 use crate::cavity::{CavityOrder, HeadShape};
@@ -228,6 +228,24 @@ impl Blueprint {
         tuned::follow(m, &solved, self.head_shapes(m).len(), grid, keep)
     }
 
+    /// Volume by which a mode without nodal diameters makes the drum smaller, per modal displacement, m2: that of
+    /// the point in free air that loses as much by radiation as the mode does.
+    ///
+    /// # Real-time
+    /// Linear in the head modes it mixes.
+    pub fn volume(&self, mode: &TunedMode, place: &Place) -> f64 {
+        let (first, near) = self.batter.order(0);
+        let volume = |head: &TunedHead, at: usize, skip: usize| -> f64 {
+            let modes = head.membrane.modes()[at..].iter().take_while(|mode| mode.m == 0).enumerate();
+            modes.map(|(i, head_mode)| mode.share(skip + i, place) * head.membrane.volume(head_mode)).sum()
+        };
+        let far = self.resonant.as_ref().map_or(0.0, |head| volume(head, head.order(0).0, near));
+        // Along the stroke is into the drum at the one and out of it at the other.
+        let moved = volume(&self.batter, first, 0) - far;
+        // A point in free air loses half of what it would in a baffle.
+        (SQRT_2 * mode.reference.monopole_area * mode.at(place).mass.sqrt()).copysign(moved)
+    }
+
     /// Shapes on the batter of every mode of the body, `[mode]`, pairs as two.
     pub fn batter_shapes(&self, splitting: Splitting) -> ShapeTable {
         self.shapes(&self.batter, splitting)
@@ -252,7 +270,8 @@ impl Blueprint {
 
     /// What the batter does above its modes.
     pub fn high_band(&self, spec: &DrumSpec, options: &BuildOptions) -> HighBandSpec {
-        let ear = Ear { point: spec.listening_point, outside: spec.outside, far: false };
+        let ear =
+            Ear { point: spec.listening_point, away: spec.far_point, outside: spec.outside, far: false };
         self.batter.high_band(ear, options, STRIKER_PLACES)
     }
 
@@ -260,7 +279,7 @@ impl Blueprint {
     pub fn far_high_band(&self, spec: &DrumSpec, options: &BuildOptions) -> Option<HighBandSpec> {
         let behind = spec.cavity.map_or(0.0, |cavity| cavity.depth);
         let point = spec.listening_point.from_behind(behind);
-        let ear = Ear { point, outside: spec.outside, far: true };
+        let ear = Ear { point, away: spec.far_point, outside: spec.outside, far: true };
         let head = self.resonant.as_ref()?;
         Some(head.high_band(ear, options, wires::GROUPS))
     }
