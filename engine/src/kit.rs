@@ -14,6 +14,7 @@
 mod air;
 mod control;
 mod gain;
+mod leaving;
 mod line;
 mod mix;
 mod post;
@@ -85,7 +86,7 @@ impl Kit {
     /// An empty kit that stands so.
     pub fn with_layout(sample_rate: f64, layout: &Layout) -> Kit {
         Kit {
-            posts: std::array::from_fn(|_| Some(Box::new(Post::new()))),
+            posts: std::array::from_fn(|_| Some(Box::new(Post::new(sample_rate)))),
             seats: PieceId::KIT.map(|id| Seat {
                 tuning: Piece::tuning_range(id).1,
                 muffling: 0.0,
@@ -145,7 +146,8 @@ impl Kit {
 
     /// Puts a piece in its place and returns what stood there, to be dropped elsewhere.
     ///
-    /// The piece takes over the present tuning and muffling. A piece that does not belong to the
+    /// The piece takes over the present tuning and muffling. What stood there and still sounds fades out
+    /// first; it is handed back by [`retire`](Self::retire) once it has. A piece that does not belong to the
     /// kit is handed back.
     ///
     /// # Real-time
@@ -163,7 +165,16 @@ impl Kit {
         piece.finish_controls();
         piece.align((self.clock % BLOCK as u64) as usize);
         self.air.place_close(slot, piece.close().distance);
-        post.piece.replace(piece)
+        let former = post.piece.replace(piece)?;
+        post.leaving.see_off(former)
+    }
+
+    /// Hands back a replaced piece that has faded out, to be dropped elsewhere; one a call.
+    ///
+    /// # Real-time
+    /// No allocation; nothing is dropped here.
+    pub fn retire(&mut self) -> Option<Box<Piece>> {
+        self.posts.iter_mut().flatten().find_map(|post| post.leaving.gone())
     }
 
     /// Whether every piece has been installed.
@@ -184,6 +195,16 @@ impl Kit {
         match self.mut_piece(id) {
             Some(piece) => piece.strike(strike),
             None => self.dropped_strikes = self.dropped_strikes.saturating_add(1),
+        }
+    }
+
+    /// Lets a hand take hold of a cymbal, firmly at 1, or let go of it, 0; see [`Piece::choke`]. A NaN is ignored.
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn choke(&mut self, id: PieceId, strength: f64) {
+        if let Some(piece) = self.mut_piece(id).filter(|_| !strength.is_nan()) {
+            piece.choke(strength);
         }
     }
 
@@ -360,8 +381,9 @@ impl Kit {
     /// No allocation, no lock; linear in the number of modes.
     pub fn reset(&mut self) {
         self.finish_controls();
-        for piece in self.posts.iter_mut().flatten().filter_map(|post| post.piece.as_mut()) {
-            piece.reset();
+        for post in self.posts.iter_mut().flatten() {
+            post.piece.iter_mut().for_each(|piece| piece.reset());
+            post.leaving.cut();
         }
         self.air.reset();
         self.desk.reset();

@@ -514,11 +514,6 @@ impl Piece {
         }
     }
 
-    /// Whether it sleeps: nothing moves, and nothing is to be rendered.
-    pub fn is_asleep(&self) -> bool {
-        self.asleep
-    }
-
     /// Where its close microphone stands, seen from the middle of the struck surface.
     pub fn close(&self) -> ListeningPoint {
         self.close
@@ -538,6 +533,11 @@ impl Piece {
             self.quarantines = self.quarantines.saturating_add(1);
         }
         self.asleep = self.voice.surface().is_still();
+    }
+
+    /// Whether nothing moves and nothing is about: there is nothing to hear until the next stroke.
+    pub fn is_asleep(&self) -> bool {
+        self.asleep
     }
 
     /// Puts the piece's block grid at `phase` samples into a block, as its kit's is.

@@ -12,7 +12,9 @@
 //! Replaced pieces go back to be dropped here, as dropping frees memory. Every order has a
 //! number; pieces of an older one are returned unplayed. The thread starts with the first order,
 //! never when an instance is merely created, and looks between pieces whether it is still wanted,
-//! so that dropping the builder waits for one piece at most. One thread per instance, because the
+//! so that dropping the builder waits for one piece at most. From then on it looks a few times a second
+//! whether the [plan](BuildPlan) has changed, and builds those pieces anew that it concerns: parameters
+//! are moved on threads that must not wake another. One thread per instance, because the
 //! framework's shared one does not survive instances that come and go while it works.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -26,17 +28,22 @@ use overhear_engine::error::SpecError;
 use overhear_engine::piece::{BuildOptions, Piece, PieceId};
 use overhear_engine::snapshot::FieldShapes;
 
+use crate::building::BuildPlan;
+
 /// Pieces of a kit.
 const PIECES: usize = PieceId::KIT.len();
 
-/// How often the thread looks for returned pieces while some are still out.
-const COLLECT_INTERVAL: Duration = Duration::from_millis(250);
+/// How often the thread looks for returned pieces and for a change of plan.
+const LOOK_INTERVAL: Duration = Duration::from_millis(100);
 
 /// Order that stands for none.
 const NO_ORDER: u32 = 0;
 
-/// Computes one piece for a sample rate in Hz.
-type Make = fn(PieceId, f64) -> Result<Piece, SpecError>;
+/// Computes one piece.
+type Make = fn(PieceId, &BuildOptions) -> Result<Piece, SpecError>;
+
+/// Says what is wanted now; asked by any thread but the audio thread.
+pub type Wanted = Arc<dyn Fn() -> BuildPlan + Send + Sync>;
 
 /// How an order stands after waiting for it.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,6 +60,7 @@ pub enum Outcome {
 pub struct Builder {
     shared: Arc<Shared>,
     make: Make,
+    wanted: Wanted,
     thread: Option<JoinHandle<()>>,
 }
 
@@ -85,10 +93,21 @@ struct Shared {
 struct Desk {
     sample_rate: f64,
     order: u32,
+    /// The plan of what has been built or is being built for the latest order.
+    plan: Option<BuildPlan>,
     /// The latest order that came to an end.
     ended: u32,
     failure: Option<String>,
     stop: bool,
+}
+
+/// One run of the builder thread.
+struct Job {
+    order: u32,
+    sample_rate: f64,
+    /// What the pieces in use were built for, if this order has brought any.
+    former: Option<BuildPlan>,
+    plan: BuildPlan,
 }
 
 struct Built {
@@ -96,25 +115,24 @@ struct Built {
     piece: Box<Piece>,
 }
 
-impl Default for Builder {
-    fn default() -> Self {
-        Builder::with(|id, sample_rate| Piece::new(id, &BuildOptions::new(sample_rate)))
-    }
-}
-
 impl Builder {
-    fn with(make: Make) -> Builder {
+    /// A builder that follows a plan. Has no thread until something is ordered.
+    pub fn new(wanted: Wanted) -> Builder {
+        Builder::with(Piece::new, wanted)
+    }
+
+    fn with(make: Make, wanted: Wanted) -> Builder {
         let shared = Shared {
             desk: Mutex::default(),
             changed: Condvar::new(),
             latest: AtomicU32::new(NO_ORDER),
             built: ArrayQueue::new(PIECES),
-            // The audio thread returns at most one piece for each it takes, and the thread
-            // empties this queue before it adds to the other: this can never be full.
-            returned: ArrayQueue::new(2 * PIECES + 1),
+            // The audio thread returns at most one piece for each it takes and those that faded out, at most one
+            // of each kind; the thread empties this queue before it adds to the other: this can never be full.
+            returned: ArrayQueue::new(4 * PIECES),
             shapes: Mutex::default(),
         };
-        Builder { shared: Arc::new(shared), make, thread: None }
+        Builder { shared: Arc::new(shared), make, wanted, thread: None }
     }
 
     /// Orders every piece of the kit for a sample rate (Hz); gives up any earlier order.
@@ -125,15 +143,16 @@ impl Builder {
             let mut desk = lock(&self.shared.desk);
             desk.order = desk.order.wrapping_add(1).max(NO_ORDER + 1);
             desk.sample_rate = sample_rate;
+            desk.plan = None;
             desk.failure = None;
             self.shared.latest.store(desk.order, Ordering::Release);
             desk.order
         };
         self.shared.changed.notify_all();
         if self.thread.is_none() {
-            let (shared, make) = (self.shared.clone(), self.make);
+            let (shared, make, wanted) = (self.shared.clone(), self.make, self.wanted.clone());
             let name = "overhear-builder".to_owned();
-            match thread::Builder::new().name(name).spawn(move || shared.work(make)) {
+            match thread::Builder::new().name(name).spawn(move || shared.work(make, &wanted)) {
                 Ok(thread) => self.thread = Some(thread),
                 Err(error) => self.shared.end(order, Some(format!("no thread: {error}"))),
             }
@@ -141,10 +160,15 @@ impl Builder {
         Delivery { shared: self.shared.clone(), order }
     }
 
-    /// Waits until the latest order has come to an end, or for as long as given.
+    /// Waits until everything is built as it is wanted now, or for as long as given.
     pub fn wait(&self, timeout: Duration) -> Outcome {
         let deadline = Instant::now() + timeout;
+        let plan = (self.wanted)();
         let mut desk = lock(&self.shared.desk);
+        if desk.plan.is_some_and(|known| known != plan) {
+            desk.ended = NO_ORDER;
+            self.shared.changed.notify_all();
+        }
         while desk.ended != desk.order {
             let left = deadline.saturating_duration_since(Instant::now());
             if left.is_zero() {
@@ -185,13 +209,21 @@ impl Delivery {
         for _ in 0..PIECES {
             let Some(Built { order, piece }) = self.shared.built.pop() else { return };
             let replaced = if order == self.order { install(piece) } else { Some(piece) };
-            if let Some(replaced) = replaced
-                && let Err(homeless) = self.shared.returned.push(replaced)
-            {
-                // Cannot happen, see the queue's size; leaking is the one thing left that is
-                // allowed on the audio thread.
-                std::mem::forget(homeless);
+            if let Some(replaced) = replaced {
+                self.give_back(replaced);
             }
+        }
+    }
+
+    /// Sends a piece back to be dropped.
+    ///
+    /// # Real-time
+    /// No allocation, no lock, nothing dropped.
+    pub fn give_back(&self, piece: Box<Piece>) {
+        if let Err(homeless) = self.shared.returned.push(piece) {
+            // Cannot happen, see the queue's size; leaking is the one thing left that is
+            // allowed on the audio thread.
+            std::mem::forget(homeless);
         }
     }
 }
@@ -205,33 +237,46 @@ impl Shapes {
 
 impl Shared {
     /// The builder thread.
-    fn work(&self, make: Make) {
-        let mut done = NO_ORDER;
-        loop {
-            let (order, sample_rate) = {
-                let mut desk = lock(&self.desk);
-                while !desk.stop && desk.order == done {
-                    // Pieces still queued may send others back when they are taken.
-                    let out = !self.built.is_empty() || !self.returned.is_empty();
-                    desk = wait(&self.changed, desk, out.then_some(COLLECT_INTERVAL));
-                    self.collect();
-                }
-                if desk.stop {
-                    return;
-                }
-                (desk.order, desk.sample_rate)
-            };
-            let failure = self.build(order, sample_rate, make).err();
-            self.end(order, failure);
-            done = order;
+    fn work(&self, make: Make, wanted: &Wanted) {
+        while let Some(job) = self.next_job(wanted) {
+            let failure = self.build(&job, make).err();
+            self.end(job.order, failure);
         }
     }
 
-    /// Builds the kit until done or until the order is no longer the latest.
-    fn build(&self, order: u32, sample_rate: f64, make: Make) -> Result<(), String> {
+    /// Waits for something to build; none once the builder is dropped.
+    fn next_job(&self, wanted: &Wanted) -> Option<Job> {
+        let mut desk = lock(&self.desk);
+        loop {
+            if desk.stop {
+                return None;
+            }
+            let (former, plan) = (desk.plan, wanted());
+            let failed = desk.failure.is_some() && former == Some(plan);
+            if desk.order != NO_ORDER && former != Some(plan) && !failed {
+                desk.plan = Some(plan);
+                return Some(Job { order: desk.order, sample_rate: desk.sample_rate, former, plan });
+            }
+            // Asked to wait for a change of plan that was taken back meanwhile.
+            if desk.order != desk.ended {
+                desk.ended = desk.order;
+                self.changed.notify_all();
+            }
+            let interval = (desk.order != NO_ORDER).then_some(LOOK_INTERVAL);
+            desk = wait(&self.changed, desk, interval);
+            self.collect();
+        }
+    }
+
+    /// Builds what a job asks for until done or until its order is no longer the latest.
+    fn build(&self, job: &Job, make: Make) -> Result<(), String> {
         for (slot, id) in PieceId::KIT.into_iter().enumerate() {
+            let options = job.plan.options(id, job.sample_rate);
+            if job.former.is_some_and(|former| former.options(id, job.sample_rate) == options) {
+                continue;
+            }
             let made = catch_unwind(AssertUnwindSafe(|| {
-                let piece = make(id, sample_rate)?;
+                let piece = make(id, &options)?;
                 let shapes = Arc::new(piece.field_shapes());
                 Ok::<_, SpecError>((Box::new(piece), shapes))
             }));
@@ -240,11 +285,11 @@ impl Shared {
                 Ok(Err(error)) => return Err(format!("{}: {error}", id.name())),
                 Err(_) => return Err(format!("{}: building it panicked", id.name())),
             };
-            if self.latest.load(Ordering::Acquire) != order {
+            if self.latest.load(Ordering::Acquire) != job.order {
                 return Ok(());
             }
             lock(&self.shapes)[slot] = Some(shapes);
-            self.deliver(Built { order, piece });
+            self.deliver(Built { order: job.order, piece });
         }
         Ok(())
     }

@@ -7,6 +7,7 @@ use crossbeam::atomic::AtomicCell;
 use nice_plug::params::persist::{deserialize_field, serialize_field};
 use nice_plug::prelude::*;
 
+use crate::midi::assignments::Assignments;
 use crate::parameters::{PARAMETERS, Parameter};
 use crate::state;
 
@@ -27,6 +28,7 @@ pub struct HostParameters {
     /// `[parameter]`, in the order of [`PARAMETERS`]. Boxed, as the framework keeps pointers.
     values: Box<[FloatParam]>,
     window: AtomicCell<WindowSize>,
+    assignments: Arc<Assignments>,
 }
 
 impl Default for HostParameters {
@@ -34,6 +36,7 @@ impl Default for HostParameters {
         HostParameters {
             values: PARAMETERS.iter().map(host_parameter).collect(),
             window: AtomicCell::new(DEFAULT_WINDOW),
+            assignments: Arc::default(),
         }
     }
 }
@@ -42,6 +45,11 @@ impl HostParameters {
     /// The parameters, in the order of [`PARAMETERS`].
     pub fn values(&self) -> &[FloatParam] {
         &self.values
+    }
+
+    /// The user's assignments of notes.
+    pub fn assignments(&self) -> Arc<Assignments> {
+        self.assignments.clone()
     }
 
     /// Logical size of the editor's window.
@@ -62,11 +70,12 @@ fn host_parameter(parameter: &'static Parameter) -> FloatParam {
     let Parameter { group, label, min, max, .. } = *parameter;
     let range = FloatRange::Skewed { min, max, factor: parameter.skew() };
     // Hosts list names without their groups.
-    FloatParam::new(format!("{group} {label}"), parameter.default, range)
+    let value = FloatParam::new(format!("{group} {label}"), parameter.default, range)
         .with_unit(parameter.unit)
         .with_step_size(parameter.step)
         .with_value_to_string(Arc::new(|value| parameter.text(value)))
-        .with_string_to_value(Arc::new(|text| parameter.from_text(text)))
+        .with_string_to_value(Arc::new(|text| parameter.from_text(text)));
+    if parameter.is_automatable() { value } else { value.non_automatable() }
 }
 
 // SAFETY: the pointers lead into a boxed slice that lives as long as `self` and never moves.
@@ -84,10 +93,14 @@ unsafe impl Params for HostParameters {
         if let Ok(window) = serialize_field(&self.window()) {
             fields.insert(state::WINDOW_FIELD.to_owned(), window);
         }
+        fields.insert(state::NOTES_FIELD.to_owned(), state::notes_text(&self.assignments.changed()));
         fields
     }
 
     fn deserialize_fields(&self, fields: &BTreeMap<String, String>) {
+        // A state older than assignments has none.
+        let notes = fields.get(state::NOTES_FIELD).map(|text| state::notes(text)).unwrap_or_default();
+        self.assignments.replace(&notes);
         let Some(window) = fields.get(state::WINDOW_FIELD) else { return };
         match deserialize_field(window) {
             Ok(window) => self.set_window(window),

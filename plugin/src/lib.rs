@@ -11,13 +11,17 @@
 
 #[cfg(feature = "framework")]
 pub mod builder;
+pub mod building;
 #[cfg(feature = "framework")]
 pub mod editor;
 #[cfg(feature = "framework")]
 pub mod host_parameters;
+pub mod midi;
 pub mod midi_map;
 #[cfg(feature = "framework")]
 pub mod monitor;
+#[cfg(feature = "framework")]
+pub mod outputs;
 pub mod parameters;
 pub mod performer;
 #[cfg(feature = "framework")]
@@ -30,6 +34,12 @@ pub const NAME: &str = "Overhear";
 
 /// The plugin's id in CLAP hosts. Frozen: projects find it by this.
 pub const CLAP_ID: &str = "org.overhear.overhear";
+
+/// Name in hosts of the instrument with an output for every piece.
+pub const MULTI_NAME: &str = "Overhear Multi";
+
+/// Id in CLAP hosts of the instrument with an output for every piece. Frozen.
+pub const MULTI_CLAP_ID: &str = "org.overhear.overhear-multi";
 
 /// The entry points that hosts look for in the library.
 #[cfg(feature = "framework")]

@@ -1,4 +1,4 @@
-//! The General MIDI drum map: which note strikes what, where, and with what.
+//! The reference notes: the General MIDI drum map and beyond. Which note strikes what, where, and with what.
 //!
 //! | note | General MIDI name | struck |
 //! |---|---|---|
@@ -24,6 +24,10 @@
 //! | 88 | timpani, soft mallet where timpanists play |
 //! | 89 | timpani, hard mallet at the same place |
 //! | 90 | timpani, soft mallet in the middle: a thud |
+//! | 91, 92 | crash, stick on the bow and on the bell |
+//! | 93 | ride, stick shoulder on the edge |
+//! | 94 | snare, stick near the rim |
+//! | 95, 96 | rack tom, floor tom, rimshots |
 //!
 //! All others outside 35 to 81 are silent. Places are where drummers play: a third of the way out on a
 //! drum rather than dead centre, where only the round modes answer.
@@ -52,6 +56,21 @@ pub struct Stroke {
     pub striker: Striker,
 }
 
+impl Stroke {
+    /// Whether a position controller moves the stroke: those with a stick's tip or a mallet between bell and edge.
+    pub fn moves_with_hand(&self) -> bool {
+        let (inner, outer) = self.reach();
+        let tip = !matches!(self.striker, Striker::CrossStick | Striker::RimShot | Striker::Shoulder);
+        tip && (inner..=outer).contains(&self.radius)
+    }
+
+    /// Least and greatest distance from the centre that a position controller reaches, shares of the radius.
+    pub fn reach(&self) -> (f64, f64) {
+        // The bell has its own notes.
+        if self.piece.is_drum() { (0.0, 0.95) } else { (0.25, 0.97) }
+    }
+}
+
 /// What a note means.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Meaning {
@@ -73,7 +92,10 @@ pub struct Row {
 }
 
 /// The row of a note, if it is in the map.
-fn find(note: u8) -> Option<&'static Row> {
+///
+/// # Real-time
+/// A table look-up.
+pub fn row_of(note: u8) -> Option<&'static Row> {
     let general = note.checked_sub(FIRST_NOTE).and_then(|index| MAP.get(usize::from(index)));
     general.or_else(|| BEYOND.iter().find(|row| row.note == note))
 }
@@ -83,7 +105,7 @@ fn find(note: u8) -> Option<&'static Row> {
 /// # Real-time
 /// A table look-up.
 pub fn stroke(note: u8) -> Option<&'static Stroke> {
-    match &find(note)?.meaning {
+    match &row_of(note)?.meaning {
         Meaning::Strikes(stroke) => Some(stroke),
         Meaning::Silent(_) => None,
     }
@@ -156,13 +178,19 @@ pub static MAP: [Row; (LAST_NOTE - FIRST_NOTE + 1) as usize] = {
 };
 
 /// Notes of our own, beyond the General MIDI drum map. Places are by ear.
-pub static BEYOND: [Row; 3] = {
-    use PieceId::Timpani;
-    use Striker::{HardMallet, TimpaniMallet};
+pub static BEYOND: [Row; 9] = {
+    use PieceId::*;
+    use Striker::*;
     [
         row(88, "Timpani", strikes(Timpani, 0.75, 0.0, TimpaniMallet)),
         row(89, "Timpani Hard", strikes(Timpani, 0.75, 0.0, HardMallet)),
         row(90, "Timpani Centre", strikes(Timpani, 0.10, 0.0, TimpaniMallet)),
+        row(91, "Crash Bow", strikes(Crash, 0.60, 0.0, Stick)),
+        row(92, "Crash Bell", strikes(Crash, 0.12, 0.0, Stick)),
+        row(93, "Ride Edge", strikes(Ride, 0.97, 0.0, Shoulder)),
+        row(94, "Snare Edge", strikes(Snare, 0.85, 0.3, Stick)),
+        row(95, "Rack Tom Rim Shot", strikes(RackTom, 0.40, 0.2, RimShot)),
+        row(96, "Floor Tom Rim Shot", strikes(FloorTom, 0.40, -0.4, RimShot)),
     ]
 };
 
@@ -201,7 +229,7 @@ mod tests {
     #[test]
     fn notes_outside_the_map_are_silent() {
         for note in (0..FIRST_NOTE).chain(LAST_NOTE + 1..=u8::MAX) {
-            assert_eq!(stroke(note).is_some(), (88..=90).contains(&note));
+            assert_eq!(stroke(note).is_some(), (88..=96).contains(&note));
         }
     }
 
@@ -218,6 +246,11 @@ mod tests {
             (&[51, 53, 59], Some(PieceId::Ride)),
             (&[55], Some(PieceId::Splash)),
             (&[88, 89, 90], Some(PieceId::Timpani)),
+            (&[91, 92], Some(PieceId::Crash)),
+            (&[93], Some(PieceId::Ride)),
+            (&[94], Some(PieceId::Snare)),
+            (&[95], Some(PieceId::RackTom)),
+            (&[96], Some(PieceId::FloorTom)),
             (&[42, 44, 46, 39, 54, 56, 58, 67, 81], None),
         ] {
             assert!(notes.iter().all(|&note| piece(note) == expected), "{notes:?}");

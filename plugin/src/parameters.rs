@@ -9,10 +9,17 @@
 
 use overhear_engine::kit::Control;
 use overhear_engine::piece::PieceId;
+#[cfg(doc)]
+use {
+    crate::midi::{maps::NoteMap, playing::ChokeRule},
+    overhear_engine::{piece::Quality, strike::Striker},
+};
 
+mod document;
 mod error;
 mod table;
 
+pub use document::document;
 pub use error::ParameterError;
 pub use table::PARAMETERS;
 
@@ -21,10 +28,50 @@ pub use table::PARAMETERS;
 pub enum Drives {
     /// A control of the engine, in the control's own unit.
     Control(Control),
+    /// A control of the engine, in hundredths of its own unit.
+    Percent(Control),
     /// The tuning of a cymbal, given in semitones where the engine takes a ratio.
     Semitones(PieceId),
-    /// Stick speed at full velocity, m/s; see [`Performer`](crate::performer::Performer).
+    /// How notes become strokes.
+    Playing(Manner),
+    /// How pieces are built: acts once they have been built anew.
+    Building(Construction),
+}
+
+/// What of [`Style`](crate::midi::playing::Style) a parameter moves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Manner {
+    /// Stick speed at full velocity, m/s.
     Dynamics,
+    /// Exponent of the velocity curve.
+    Curve,
+    /// Mean distance from where a stroke is aimed, hundredths of the radius.
+    PlaceSpread,
+    /// Mean difference of speed, dB.
+    SpeedSpread,
+    /// The map of the instrument played, by its place in [`NoteMap::ALL`].
+    Map,
+    /// The only MIDI channel heard, 1 to 16, or 0 for all.
+    Channel,
+    /// What chokes cymbals, by its place in [`ChokeRule::ALL`].
+    Chokes,
+    /// Whether controllers move the place of strokes.
+    FollowsPosition,
+    /// Added to the place of strokes on a piece, share of the radius.
+    Offset(PieceId),
+    /// What is swung at a piece: 0 for what the map says, then by its place in [`Striker::ALL`] from 1 on.
+    Striker(PieceId),
+}
+
+/// What of [`BuildOptions`](overhear_engine::piece::BuildOptions) a parameter sets.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Construction {
+    /// Quality while playing, by its place in [`Quality::ALL`].
+    Quality,
+    /// Quality while a host renders faster or slower than real time: 0 for that of playing, then as above from 1 on.
+    OfflineQuality,
+    /// Pitch of a drum's resonant head over the batter head's.
+    ResonantRatio(PieceId),
 }
 
 /// One parameter. Plain values are in [`unit`](Self::unit)s.
@@ -55,6 +102,8 @@ pub struct Parameter {
     pub decimals: usize,
     /// What it moves.
     pub drives: Drives,
+    /// Names of the values from [`min`](Self::min) on, if they have names.
+    pub choices: &'static [&'static str],
 }
 
 impl Parameter {
@@ -82,6 +131,9 @@ impl Parameter {
         if self.is_level() && value <= self.min {
             return "-inf".to_owned();
         }
+        if let Some(choice) = self.choice(value) {
+            return choice.to_owned();
+        }
         let text = format!("{value:.*}", self.decimals);
         // Values that round to zero from below.
         if text.trim_start_matches(['-', '0', '.']).is_empty() {
@@ -96,6 +148,9 @@ impl Parameter {
         let number = text.trim().trim_end_matches(self.unit.trim()).trim_end();
         if self.is_level() && number == "-inf" {
             return Some(self.min);
+        }
+        if let Some(index) = self.choices.iter().position(|choice| choice.eq_ignore_ascii_case(number)) {
+            return Some(self.min + index as f32);
         }
         number.parse().ok().filter(|value: &f32| value.is_finite())
     }
@@ -120,6 +175,17 @@ impl Parameter {
             let value = value.to_string().parse().unwrap_or(f64::from(value));
             Err(ParameterError::OutOfRange { name, value, min, max, unit })
         }
+    }
+
+    /// The name of a value, if values have names.
+    pub fn choice(&self, value: f32) -> Option<&'static str> {
+        let index = self.snap(value) - self.min;
+        self.choices.get(index as usize).copied()
+    }
+
+    /// Whether hosts may move it while it sounds: all but those that ask for pieces to be built.
+    pub fn is_automatable(&self) -> bool {
+        !matches!(self.drives, Drives::Building(_))
     }
 
     fn is_level(&self) -> bool {
@@ -155,10 +221,14 @@ mod tests {
     use overhear_engine::piece::Piece;
 
     /// Changing this list breaks every project that was ever saved.
-    const FROZEN_IDS: [&str; 28] = [
+    const FROZEN_IDS: [&str; 65] = [
         "kktune", "kkmuff", "kklevl", "sntune", "snmuff", "snlevl", "rttune", "rtmuff", "rtlevl", "fttune",
         "ftmuff", "ftlevl", "crtune", "crmuff", "crlevl", "rdtune", "rdmuff", "rdlevl", "sptune", "spmuff",
-        "splevl", "master", "dynam", "snprel", "snwire", "tptune", "tpmuff", "tplevl",
+        "splevl", "master", "dynam", "snprel", "snwire", "tptune", "tpmuff", "tplevl", "kkpan", "snpan",
+        "rtpan", "ftpan", "crpan", "rdpan", "sppan", "tppan", "kkplac", "snplac", "rtplac", "ftplac",
+        "crplac", "rdplac", "spplac", "tpplac", "kkstik", "snstik", "rtstik", "ftstik", "crstik", "rdstik",
+        "spstik", "tpstik", "velcur", "humpla", "humspd", "notmap", "midchn", "chokes", "poscc", "qualit",
+        "offqua", "kkreso", "snreso", "rtreso", "ftreso",
     ];
 
     #[test]

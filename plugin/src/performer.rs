@@ -4,34 +4,22 @@
 //! that whoever drives a performer with the same notes, values and sample times, be it a host or
 //! a command line, hears the same samples.
 
+use std::sync::Arc;
+
 use no_denormals::no_denormals;
 use overhear_engine::error::SpecError;
-use overhear_engine::kit::{Control, Kit};
-use overhear_engine::piece::{BuildOptions, Piece, PieceId};
+use overhear_engine::kit::{Control, Kit, Stereo};
+use overhear_engine::piece::{Piece, PieceId};
 use overhear_engine::snapshot::KitSnapshot;
-use overhear_engine::strike::Strike;
+use overhear_engine::strike::Striker;
 
-use crate::midi_map;
-use crate::parameters::{Drives, PARAMETERS};
+use crate::building::{BuildPlan, Pace};
+use crate::midi::assignments::Assignments;
+use crate::midi::maps::NoteMap;
+use crate::midi::playing::{ChokeRule, Grip, Playing};
+use crate::parameters::{Drives, Manner, PARAMETERS};
 
-/// Stick speed of the softest note, m/s. *By ear*: the faintest tap a pad reports.
-pub const SOFTEST: f64 = 0.4;
-
-/// Velocity of the softest note: 1 of MIDI's 127.
-const LEAST_VELOCITY: f64 = 1.0 / 127.0;
-
-/// A MIDI velocity, 0 to 127, as a share of full velocity.
-pub fn velocity_from_midi(velocity: u8) -> f32 {
-    f32::from(velocity) / 127.0
-}
-
-/// Stick speed, m/s, of a velocity (0 to 1), given the speed at full velocity.
-///
-/// Equal steps of velocity are equal ratios of speed, as loudness is heard.
-pub fn stick_speed(velocity: f32, full: f64) -> f64 {
-    let share = (f64::from(velocity) - LEAST_VELOCITY) / (1.0 - LEAST_VELOCITY);
-    SOFTEST * libm::pow(full / SOFTEST, share.clamp(0.0, 1.0))
-}
+pub use crate::midi::playing::velocity_from_midi;
 
 /// A kit and who plays it.
 pub struct Performer {
@@ -40,8 +28,7 @@ pub struct Performer {
     asked: [f32; PARAMETERS.len()],
     /// Plain values, `[parameter]`.
     values: [f32; PARAMETERS.len()],
-    /// Stick speed at full velocity, m/s.
-    dynamics: f64,
+    playing: Playing,
     /// Whether anything was played or rendered since the start or the latest reset.
     started: bool,
 }
@@ -49,11 +36,16 @@ pub struct Performer {
 impl Performer {
     /// A performer at a kit that has no pieces yet, every parameter at its default.
     pub fn new(sample_rate: f64) -> Performer {
+        Performer::with_assignments(sample_rate, Arc::default())
+    }
+
+    /// As [`new`](Self::new), with the user's assignments of notes.
+    pub fn with_assignments(sample_rate: f64, assignments: Arc<Assignments>) -> Performer {
         let mut performer = Performer {
             kit: Kit::new(sample_rate),
             asked: [f32::NAN; PARAMETERS.len()],
             values: [f32::NAN; PARAMETERS.len()],
-            dynamics: 0.0,
+            playing: Playing::new(assignments),
             started: false,
         };
         for (index, parameter) in PARAMETERS.iter().enumerate() {
@@ -67,8 +59,9 @@ impl Performer {
     /// # Errors
     /// [`SpecError`] if the sample rate is out of range.
     pub fn install_kit(&mut self, sample_rate: f64) -> Result<(), SpecError> {
+        let plan = BuildPlan::of(|index| self.values[index], Pace::RealTime);
         for id in PieceId::KIT {
-            self.install(Box::new(Piece::new(id, &BuildOptions::new(sample_rate))?));
+            self.install(Box::new(Piece::new(id, &plan.options(id, sample_rate))?));
         }
         Ok(())
     }
@@ -81,27 +74,72 @@ impl Performer {
         flushed(|| self.kit.install(piece))
     }
 
-    /// Plays a note at the next sample: velocity 0 to 1, any channel. Says whether it strikes.
+    /// Hands back a replaced piece that has faded out, to be dropped elsewhere; one a call.
     ///
-    /// A velocity of nothing is MIDI's other way to end a note and is silent.
+    /// # Real-time
+    /// No allocation; nothing is dropped here.
+    pub fn retire(&mut self) -> Option<Box<Piece>> {
+        self.kit.retire()
+    }
+
+    /// Plays a note at the next sample: velocity 0 to 1, channel 0 to 15. Says whether it strikes.
     ///
     /// # Real-time
     /// No allocation, no lock.
-    pub fn note_on(&mut self, note: u8, velocity: f32, _channel: u8) -> bool {
-        // Written so that a velocity that is not a number is silent as well.
-        let sounds = velocity > 0.0;
-        let Some(stroke) = midi_map::stroke(note).filter(|_| sounds) else {
+    pub fn note_on(&mut self, note: u8, velocity: f32, channel: u8) -> bool {
+        let Some(played) = self.playing.note_on(note, velocity, channel) else {
             return false;
         };
-        let strike = Strike {
-            speed: stick_speed(velocity, self.dynamics),
-            radius: stroke.radius,
-            angle: stroke.angle,
-            striker: stroke.striker,
-        };
         self.start();
-        flushed(|| self.kit.strike(stroke.piece, &strike));
+        flushed(|| {
+            if played.releases {
+                self.kit.choke(played.piece, 0.0);
+            }
+            self.kit.strike(played.piece, &played.strike);
+        });
         true
+    }
+
+    /// Ends a note: chokes its cymbal if the rule says so.
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn note_off(&mut self, note: u8, channel: u8) {
+        let grip = self.playing.note_off(note, channel);
+        self.grip(grip);
+    }
+
+    /// Chokes the cymbal of a note, whatever the rule, until its next stroke.
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn choke(&mut self, note: u8, channel: u8) {
+        let grip = self.playing.choke(note, channel);
+        self.grip(grip);
+    }
+
+    /// Presses on the cymbal of a note, 0 to 1, if the rule says so.
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn pressure(&mut self, note: u8, pressure: f32, channel: u8) {
+        let grip = self.playing.pressure(note, pressure, channel);
+        self.grip(grip);
+    }
+
+    /// Moves a MIDI controller to a value, 0 to 1.
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn control_change(&mut self, controller: u8, value: f32, channel: u8) {
+        self.playing.control_change(controller, value, channel);
+    }
+
+    fn grip(&mut self, grip: Option<Grip>) {
+        if let Some(Grip { piece, strength }) = grip {
+            self.start();
+            flushed(|| self.kit.choke(piece, strength));
+        }
     }
 
     /// Moves a parameter, by its index in [`PARAMETERS`], to a plain value from the next sample
@@ -126,12 +164,45 @@ impl Performer {
         let value = f64::from(value);
         match parameter.drives {
             Drives::Control(control) => flushed(|| self.kit.set(control, value)),
+            Drives::Percent(control) => flushed(|| self.kit.set(control, value / 100.0)),
             Drives::Semitones(piece) => {
                 let ratio = libm::exp2(value / 12.0);
                 flushed(|| self.kit.set(Control::Tuning(piece), ratio));
             }
-            Drives::Dynamics => self.dynamics = value,
+            Drives::Playing(manner) => self.set_manner(manner, value),
+            // The builder reads it; new pieces will arrive.
+            Drives::Building(_) => {}
         }
+    }
+
+    fn set_manner(&mut self, manner: Manner, value: f64) {
+        let style = &mut self.playing.style;
+        let place = value as usize;
+        match manner {
+            Manner::Dynamics => style.dynamics = value,
+            Manner::Curve => style.curve = value,
+            Manner::PlaceSpread => style.place_spread = value / 100.0,
+            Manner::SpeedSpread => style.speed_spread = value,
+            Manner::Map => style.map = NoteMap::ALL.get(place).copied().unwrap_or_default(),
+            Manner::Channel => style.channel = place.checked_sub(1).map(|channel| channel as u8),
+            Manner::Chokes => style.chokes = ChokeRule::ALL.get(place).copied().unwrap_or_default(),
+            Manner::FollowsPosition => style.follows_position = value >= 0.5,
+            Manner::Offset(piece) => {
+                if let Some(slot) = piece.slot() {
+                    style.offsets[slot] = value;
+                }
+            }
+            Manner::Striker(piece) => {
+                if let Some(slot) = piece.slot() {
+                    style.strikers[slot] = place.checked_sub(1).and_then(|at| Striker::ALL.get(at).copied());
+                }
+            }
+        }
+    }
+
+    /// The piece that a note strikes, if it sounds.
+    pub fn piece_of(&self, note: u8) -> Option<PieceId> {
+        self.playing.stroke(note).map(|stroke| stroke.piece)
     }
 
     /// The present plain value of a parameter, by its index in [`PARAMETERS`].
@@ -149,6 +220,16 @@ impl Performer {
         flushed(|| self.kit.render(left, right));
     }
 
+    /// [`render`](Self::render), and each piece to an output of its own, in the order of [`PieceId::KIT`]; see
+    /// [`Kit::render_outputs`].
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn render_outputs(&mut self, main: Stereo<'_>, pieces: &mut [Stereo<'_>]) {
+        self.start();
+        flushed(|| self.kit.render_outputs(main, pieces));
+    }
+
     /// Whether every piece has been installed.
     pub fn is_complete(&self) -> bool {
         self.kit.is_complete()
@@ -159,7 +240,12 @@ impl Performer {
     /// # Real-time
     /// No allocation, no lock.
     pub fn reset(&mut self) {
-        flushed(|| self.kit.reset());
+        flushed(|| {
+            // Whatever hand was on a cymbal is gone with the note it belonged to.
+            PieceId::KIT.into_iter().for_each(|piece| self.kit.choke(piece, 0.0));
+            self.kit.reset();
+        });
+        self.playing.reset();
         self.started = false;
     }
 
@@ -194,149 +280,4 @@ fn flushed<T>(engine: impl FnOnce() -> T) -> T {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    const RATE: f64 = 48_000.0;
-
-    #[test]
-    fn velocity_runs_from_the_softest_tap_to_the_dynamics() {
-        assert_eq!(stick_speed(velocity_from_midi(1), 6.0) as f32, 0.4);
-        assert_eq!(stick_speed(velocity_from_midi(127), 6.0), 6.0);
-        assert_eq!(stick_speed(1.0, 10.0), 10.0);
-        assert_eq!(stick_speed(0.001, 6.0), SOFTEST);
-        assert_eq!(stick_speed(2.0, 6.0), 6.0);
-    }
-
-    #[test]
-    fn equal_steps_of_velocity_are_equal_ratios_of_speed() {
-        let speed = |velocity| stick_speed(velocity_from_midi(velocity), 6.0);
-        let ratio = speed(2) / speed(1);
-        for velocity in 2..=127 {
-            assert!((speed(velocity) / speed(velocity - 1) / ratio - 1.0).abs() < 1e-6);
-        }
-    }
-
-    #[test]
-    fn only_notes_of_the_map_with_a_velocity_strike() {
-        let mut performer = Performer::new(RATE);
-        assert!(performer.note_on(38, 0.5, 9));
-        for (note, velocity) in [(38, 0.0), (38, -1.0), (38, f32::NAN), (42, 1.0), (200, 1.0)] {
-            assert!(!performer.note_on(note, velocity, 0), "{note} at {velocity}");
-        }
-        let mut snapshot = KitSnapshot::default();
-        performer.snapshot(&mut snapshot);
-        assert_eq!(snapshot.dropped_strikes, 1, "the snare is not built");
-    }
-
-    #[test]
-    fn parameters_snap_and_ignore_what_they_cannot_take() {
-        let mut performer = Performer::new(RATE);
-        performer.set_parameter(0, 60.004);
-        assert_eq!(performer.parameter(0), Some(60.0));
-        performer.set_parameter(0, f32::INFINITY);
-        assert_eq!(performer.parameter(0), Some(90.0));
-        performer.set_parameter(0, f32::NAN);
-        assert_eq!(performer.parameter(0), Some(55.0));
-        performer.set_parameter(PARAMETERS.len(), 1.0);
-    }
-
-    /// One event: sample, then a note and velocity, or a parameter and value.
-    enum Event {
-        Note(usize, u8, f32),
-        Parameter(usize, usize, f32),
-    }
-
-    fn score() -> Vec<Event> {
-        use Event::*;
-        vec![
-            Note(0, 36, 1.0),
-            Note(0, 49, 0.9),
-            Parameter(700, 0, 62.0),
-            Note(1_001, 38, 0.3),
-            Parameter(1_001, 4, 0.4),
-            Note(2_048, 48, 0.7),
-            Note(2_049, 41, 0.8),
-            Note(3_000, 51, 0.5),
-            Parameter(3_300, 15, -2.0),
-            Note(4_000, 55, 1.0),
-            Parameter(5_000, 21, -6.0),
-        ]
-    }
-
-    /// Renders the score in buffers of the given sizes, in turn.
-    fn play(sizes: &[usize]) -> (Vec<f32>, Vec<f32>) {
-        const LENGTH: usize = 9_600;
-        let mut performer = Performer::new(RATE);
-        performer.install_kit(RATE).unwrap();
-        let (mut left, mut right) = (vec![f32::NAN; LENGTH], vec![f32::NAN; LENGTH]);
-        let mut score = score().into_iter().peekable();
-        let (mut now, mut sizes) = (0, sizes.iter().cycle());
-        while now < LENGTH {
-            let end = LENGTH.min(now + sizes.next().unwrap());
-            while now < end {
-                let at = |event: &Event| match *event {
-                    Event::Note(at, ..) | Event::Parameter(at, ..) => at,
-                };
-                while let Some(event) = score.next_if(|event| at(event) == now) {
-                    match event {
-                        Event::Note(_, note, velocity) => {
-                            performer.note_on(note, velocity, 9);
-                        }
-                        Event::Parameter(_, index, value) => performer.set_parameter(index, value),
-                    }
-                }
-                let until = score.peek().map_or(end, |event| at(event).min(end));
-                performer.render(&mut left[now..until], &mut right[now..until]);
-                now = until;
-            }
-        }
-        (left, right)
-    }
-
-    #[test]
-    fn values_set_before_the_first_sample_do_not_glide() {
-        let start = |early: bool| {
-            let mut performer = Performer::new(RATE);
-            if early {
-                performer.set_parameter(3, 300.0);
-            }
-            performer.install_kit(RATE).unwrap();
-            performer.set_parameter(3, 300.0);
-            performer.note_on(38, 1.0, 9);
-            let mut sound = [vec![0.0; 4_800], vec![0.0; 4_800]];
-            let [left, right] = &mut sound;
-            performer.render(left, right);
-            sound
-        };
-        assert!(start(true) == start(false));
-    }
-
-    #[test]
-    fn a_reset_performer_plays_like_a_new_one() {
-        let hit = |performer: &mut Performer| {
-            performer.note_on(36, 0.9, 9);
-            performer.note_on(49, 0.6, 9);
-            let mut sound = [vec![0.0; 4_800], vec![0.0; 4_800]];
-            let [left, right] = &mut sound;
-            performer.render(left, right);
-            sound
-        };
-        let mut performer = Performer::new(RATE);
-        performer.install_kit(RATE).unwrap();
-        let first = hit(&mut performer);
-        assert!(first.iter().flatten().any(|&sample| sample != 0.0));
-        performer.render(&mut [0.0; 77], &mut [0.0; 77]);
-        performer.reset();
-        assert!(hit(&mut performer) == first);
-    }
-
-    #[test]
-    fn the_cut_into_buffers_does_not_change_a_sample() {
-        let whole = play(&[9_600]);
-        assert!(whole.0.iter().chain(&whole.1).all(|sample| sample.is_finite()));
-        for sizes in [&[1][..], &[17], &[64], &[512], &[1, 255, 3, 1024, 31, 33]] {
-            assert!(play(sizes) == whole, "buffers of {sizes:?}");
-        }
-    }
-}
+mod tests;

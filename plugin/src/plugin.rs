@@ -8,20 +8,25 @@
 //! here at its start are sample-accurate. Notes do not cut slices and are met here, each at its
 //! sample; one may lie right behind the slice.
 
-use std::num::NonZeroU32;
+use std::marker::PhantomData;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
+use nice_plug::midi::{Channel, Key};
 use nice_plug::prelude::*;
 use nice_plug_egui::RepaintNotifier;
 
 use crate::builder::{Builder, Delivery, Outcome};
+use crate::building::{BuildPlan, Pace};
 use crate::editor::OverhearEditor;
 use crate::host_parameters::HostParameters;
 use crate::monitor::{self, Publisher, Viewer};
+use crate::outputs::{Apart, Buffers, Mix, Outputs};
+use crate::parameters::PARAMETERS;
 use crate::performer::Performer;
-use crate::{CLAP_ID, NAME, state};
+use crate::state;
 
 /// How long activation waits for the pieces.
 ///
@@ -29,15 +34,24 @@ use crate::{CLAP_ID, NAME, state};
 /// machine too slow for it gets a kit that fills up while it plays rather than a host that hangs.
 const BUILD_TIMEOUT: Duration = Duration::from_secs(10);
 
-/// Overhear, one instance.
-pub struct Overhear {
+/// Overhear with one stereo output.
+pub type Overhear = Instrument<Mix>;
+
+/// Overhear with an output for every piece.
+pub type OverhearMulti = Instrument<Apart>;
+
+/// One instance.
+pub struct Instrument<O> {
     parameters: Arc<HostParameters>,
+    /// Whether the host renders to a file.
+    offline: Arc<AtomicBool>,
     builder: Builder,
     /// What plays, once activated at a rate that the engine accepts.
     stage: Option<Stage>,
     publisher: Publisher,
     viewer: Viewer,
     repaint: RepaintNotifier,
+    outputs: PhantomData<O>,
 }
 
 /// A performer, where its pieces come from, and its sample rate.
@@ -49,32 +63,48 @@ struct Stage {
     broken: bool,
 }
 
-impl Default for Overhear {
+impl<O> Default for Instrument<O> {
     fn default() -> Self {
         let repaint = RepaintNotifier::new();
         let (publisher, viewer) = monitor::monitor(repaint.clone());
-        Overhear {
-            parameters: Arc::default(),
-            builder: Builder::default(),
+        let (parameters, offline) = (Arc::<HostParameters>::default(), Arc::<AtomicBool>::default());
+        let builder = {
+            let (parameters, offline) = (parameters.clone(), offline.clone());
+            Builder::new(Arc::new(move || plan(&parameters, &offline)))
+        };
+        Instrument {
+            parameters,
+            offline,
+            builder,
             stage: None,
             publisher,
             viewer,
             repaint,
+            outputs: PhantomData,
         }
     }
 }
 
-impl Plugin for Overhear {
-    const NAME: &'static str = NAME;
+/// What the parameters ask of building now.
+fn plan(parameters: &HostParameters, offline: &AtomicBool) -> BuildPlan {
+    let pace = if offline.load(Ordering::Acquire) { Pace::Offline } else { Pace::RealTime };
+    let value = |index: usize| {
+        let default = PARAMETERS[index].default;
+        parameters.values().get(index).map_or(default, |value| value.unmodulated_plain_value())
+    };
+    BuildPlan::of(value, pace)
+}
+
+impl<O: Outputs> Plugin for Instrument<O> {
+    const NAME: &'static str = O::NAME;
     const VENDOR: &'static str = "The Overhear authors";
     // The project has neither a page nor a mailbox of its own.
     const URL: &'static str = "";
     const EMAIL: &'static str = "";
     const VERSION: &'static str = env!("CARGO_PKG_VERSION");
 
-    const AUDIO_IO_LAYOUTS: &'static [AudioIOLayout] =
-        &[AudioIOLayout { main_output_channels: NonZeroU32::new(2), ..AudioIOLayout::const_default() }];
-    const MIDI_INPUT: MidiConfig = MidiConfig::Basic;
+    const AUDIO_IO_LAYOUTS: &'static [AudioIOLayout] = &[O::LAYOUT];
+    const MIDI_INPUT: MidiConfig = MidiConfig::MidiCCs;
     const SAMPLE_ACCURATE_AUTOMATION: bool = true;
     /// Beyond its capacity the framework allocates while it processes: room for a dense roll on
     /// every piece and every parameter's automation in the longest of buffers.
@@ -107,6 +137,7 @@ impl Plugin for Overhear {
         config: &BufferConfig,
         _context: &mut impl ActivateContext<Self>,
     ) -> bool {
+        self.offline.store(config.process_mode == ProcessMode::Offline, Ordering::Release);
         self.prepare(config.sample_rate);
         // A rate that the engine does not know is no reason to lose the project: it stays silent.
         true
@@ -121,29 +152,28 @@ impl Plugin for Overhear {
     fn process(
         &mut self,
         buffer: &mut Buffer,
-        _aux: &mut AuxiliaryBuffers,
+        aux: &mut AuxiliaryBuffers,
         context: &mut impl ProcessContext<Self>,
     ) -> ProcessStatus {
-        let [left, right] = buffer.as_slice() else {
+        let Some(mut buffers) = Buffers::new(buffer.as_slice(), aux.outputs) else {
             return ProcessStatus::Error("Overhear plays in stereo only");
         };
         let played = self.stage.as_mut().is_some_and(|stage| {
             stage.guarded(|stage| {
                 stage.follow(&self.parameters);
-                play(&mut stage.performer, left, right, || context.next_event());
-                self.publisher.rendered(left.len(), &mut stage.performer);
+                play(&mut stage.performer, &mut buffers, || context.next_event());
+                self.publisher.rendered(buffers.len(), &mut stage.performer);
             })
         });
         if !played {
-            left.fill(0.0);
-            right.fill(0.0);
+            buffers.silence();
         }
         // A cymbal may ring for a minute after the last note.
         ProcessStatus::KeepAlive
     }
 }
 
-impl Overhear {
+impl<O: Outputs> Instrument<O> {
     /// Makes the kit for a sample rate (Hz) ready, unless it is.
     fn prepare(&mut self, sample_rate: f32) {
         let rate = f64::from(sample_rate);
@@ -164,7 +194,7 @@ impl Overhear {
             }
         }
         if let Some(delivery) = ordered {
-            let performer = Performer::new(rate);
+            let performer = Performer::with_assignments(rate, self.parameters.assignments());
             self.stage = Some(Stage { performer, delivery, sample_rate, broken: false });
             self.publisher.set_sample_rate(rate);
         }
@@ -182,6 +212,9 @@ impl Stage {
             self.performer.set_parameter(index, value.value());
         }
         self.delivery.take(|piece| self.performer.install(piece));
+        while let Some(piece) = self.performer.retire() {
+            self.delivery.give_back(piece);
+        }
     }
 
     /// Runs the engine unless it broke, and says whether it ran well. A panic must not reach the
@@ -192,45 +225,117 @@ impl Stage {
     }
 }
 
-/// Renders a slice with its notes, each at its sample; late ones at once, none lost.
+/// Renders a slice with its events, each at its sample; late ones at once, none lost.
 fn play<S>(
     performer: &mut Performer,
-    left: &mut [f32],
-    right: &mut [f32],
+    buffers: &mut Buffers<'_>,
     mut next_event: impl FnMut() -> Option<NoteEvent<S>>,
 ) {
-    let samples = left.len().min(right.len());
+    let samples = buffers.len();
     let mut now = 0;
     let mut render_until = |performer: &mut Performer, until: usize| {
         if until > now {
-            performer.render(&mut left[now..until], &mut right[now..until]);
+            let (main, mut pieces) = buffers.stretch(now, until);
+            performer.render_outputs(main, &mut pieces);
             now = until;
         }
     };
     while let Some(event) = next_event() {
-        // Other events do not cut: the engine renders whole stretches at a lower cost.
-        if let NoteEvent::NoteOn { timing, channel, key, velocity, .. } = event
-            && let Some(note) = key.number()
-        {
-            render_until(performer, samples.min(timing as usize));
-            performer.note_on(note, velocity, channel.number().unwrap_or(0));
+        // Events that change nothing do not cut: the engine renders whole stretches at a lower cost.
+        if let Some(event) = Message::of(&event) {
+            render_until(performer, samples.min(event.timing as usize));
+            event.tell(performer);
         }
     }
     render_until(performer, samples);
 }
 
-impl ClapPlugin for Overhear {
-    const CLAP_ID: &'static str = CLAP_ID;
-    const CLAP_DESCRIPTION: Option<&'static str> = Some("A physically modelled drum kit");
+/// An event that means something to the performer.
+struct Message {
+    /// Sample in the slice, or behind it.
+    timing: u32,
+    channel: u8,
+    /// Note or controller.
+    number: u8,
+    what: What,
+}
+
+enum What {
+    NoteOn(f32),
+    NoteOff,
+    Choke,
+    Pressure(f32),
+    Controller(f32),
+}
+
+impl Message {
+    fn of<S>(event: &NoteEvent<S>) -> Option<Message> {
+        let note = |timing: u32, channel: Channel, key: Key, what: What| {
+            let number = key.number()?;
+            Some(Message { timing, channel: channel.number().unwrap_or(0), number, what })
+        };
+        match *event {
+            NoteEvent::NoteOn { timing, channel, key, velocity, .. } => {
+                note(timing, channel, key, What::NoteOn(velocity))
+            }
+            NoteEvent::NoteOff { timing, channel, key, .. } => note(timing, channel, key, What::NoteOff),
+            NoteEvent::Choke { timing, channel, key, .. } => note(timing, channel, key, What::Choke),
+            NoteEvent::PolyPressure { timing, channel, key, pressure, .. } => {
+                note(timing, channel, key, What::Pressure(pressure))
+            }
+            NoteEvent::MidiCC { timing, channel, cc, value } => {
+                Some(Message { timing, channel, number: cc, what: What::Controller(value) })
+            }
+            _ => None,
+        }
+    }
+
+    fn tell(&self, performer: &mut Performer) {
+        let Message { channel, number, .. } = *self;
+        match self.what {
+            What::NoteOn(velocity) => {
+                performer.note_on(number, velocity, channel);
+            }
+            What::NoteOff => performer.note_off(number, channel),
+            What::Choke => performer.choke(number, channel),
+            What::Pressure(pressure) => performer.pressure(number, pressure, channel),
+            What::Controller(value) => performer.control_change(number, value, channel),
+        }
+    }
+}
+
+impl<O: Outputs> ClapPlugin for Instrument<O> {
+    const CLAP_ID: &'static str = O::CLAP_ID;
+    const CLAP_DESCRIPTION: Option<&'static str> = Some(O::ABOUT);
     const CLAP_MANUAL_URL: Option<&'static str> = None;
     const CLAP_SUPPORT_URL: Option<&'static str> = None;
     const CLAP_FEATURES: &'static [ClapFeature] =
         &[ClapFeature::Instrument, ClapFeature::Drum, ClapFeature::Synthesizer, ClapFeature::Stereo];
+
+    /// One page for each group of parameters; longer ones are divided by the framework.
+    fn remote_controls(&self, context: &mut impl RemoteControlsContext) {
+        context.add_section("Kit", |section| {
+            let mut groups: Vec<&str> = Vec::new();
+            for parameter in &PARAMETERS {
+                if !groups.contains(&parameter.group) {
+                    groups.push(parameter.group);
+                }
+            }
+            for group in groups {
+                section.add_page(group, |page| {
+                    for (parameter, value) in PARAMETERS.iter().zip(self.parameters.values()) {
+                        if parameter.group == group {
+                            page.add_param(value);
+                        }
+                    }
+                });
+            }
+        });
+    }
 }
 
-impl Vst3Plugin for Overhear {
-    /// Frozen: projects find the plugin by it.
-    const VST3_CLASS_ID: [u8; 16] = *b"OverhearDrumKit1";
+impl<O: Outputs> Vst3Plugin for Instrument<O> {
+    const VST3_CLASS_ID: [u8; 16] = O::VST3_ID;
     const VST3_SUBCATEGORIES: &'static [Vst3SubCategory] =
         &[Vst3SubCategory::Instrument, Vst3SubCategory::Drum, Vst3SubCategory::Stereo];
 }

@@ -4,9 +4,12 @@
 //! the instance plays on as it was. What parses is put in order here before it is loaded: every
 //! parameter gets a value, so that a state always sounds the same, whatever was set before.
 
+use std::collections::BTreeMap;
+
 use nice_plug::plugin::{ParamValue, PluginState};
 use nice_plug::prelude::*;
 
+use crate::midi::assignments::{Assignment, NOTES};
 use crate::parameters::{PARAMETERS, Parameter};
 
 /// Version of the meaning of what is stored; counts up when a migration is needed.
@@ -17,6 +20,31 @@ pub const SCHEMA_FIELD: &str = "schema";
 
 /// Field that holds the window's logical size.
 pub const WINDOW_FIELD: &str = "window";
+
+/// Field that holds the user's assignments: `38=49 40=silent`.
+pub const NOTES_FIELD: &str = "notes";
+
+/// Assignments as stored in [`NOTES_FIELD`], lowest note first.
+pub fn notes_text(changed: &BTreeMap<u8, Assignment>) -> String {
+    let texts =
+        changed.iter().filter_map(|(note, assignment)| Some(format!("{note}={}", assignment.to_text()?)));
+    texts.collect::<Vec<_>>().join(" ")
+}
+
+/// Reads what [`notes_text`] writes; what is not understood is logged and left out.
+pub fn notes(text: &str) -> BTreeMap<u8, Assignment> {
+    let entries = text.split_whitespace().filter_map(|entry| {
+        let assignment = entry.split_once('=').and_then(|(note, plays)| {
+            let note = note.parse().ok().filter(|&note: &u8| usize::from(note) < NOTES)?;
+            Some((note, Assignment::from_text(plays)?))
+        });
+        if assignment.is_none() {
+            nice_warn!("The state has an assignment {entry:?}, which is not understood: ignored");
+        }
+        assignment
+    });
+    entries.collect()
+}
 
 /// Completes and corrects a state before it is loaded.
 ///
@@ -66,7 +94,6 @@ fn value_of(parameter: &Parameter, stored: Option<&ParamValue>) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::collections::BTreeMap;
 
     fn ordered(json_params: &[(&str, ParamValue)]) -> BTreeMap<String, f32> {
         let params = json_params.iter().map(|(id, value)| (id.to_string(), value.clone()));
@@ -105,5 +132,14 @@ mod tests {
         assert_eq!((values["kktune"], values["snmuff"]), (90.0, 0.0));
         assert_eq!((values["kklevl"], values["sntune"]), (0.0, 140.0));
         assert!(!values.contains_key("nobody"));
+    }
+
+    #[test]
+    fn assignments_are_stored_and_broken_ones_left_out() {
+        let changed = BTreeMap::from([(38, Assignment::Plays(49)), (40, Assignment::Silent)]);
+        assert_eq!(notes_text(&changed), "38=49 40=silent");
+        assert_eq!(notes(&notes_text(&changed)), changed);
+        assert_eq!(notes("38=49 x 300=38 41=loud 40=silent =  200=38"), changed);
+        assert!(notes("").is_empty());
     }
 }

@@ -32,3 +32,12 @@ fn every_file_the_readme_links_to_exists() {
         links.iter().filter(|link| !link.contains("://") && !root.join(link).exists()).collect();
     assert!(missing.is_empty(), "not there: {missing:?}");
 }
+
+#[test]
+fn the_pages_that_come_from_the_code_are_up_to_date() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    for (path, text) in xtask::manual::pages() {
+        let found = std::fs::read_to_string(root.join(path)).unwrap_or_default();
+        assert!(found == text, "{path} is out of date: run `cargo xtask docs`");
+    }
+}

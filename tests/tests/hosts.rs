@@ -9,6 +9,8 @@ mod description;
 mod identity;
 #[path = "hosts/lifecycle.rs"]
 mod lifecycle;
+#[path = "hosts/midi.rs"]
+mod midi;
 #[path = "hosts/score.rs"]
 mod score;
 #[path = "hosts/state.rs"]

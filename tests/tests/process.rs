@@ -37,10 +37,20 @@ impl Session {
     /// A note, a parameter or a reset, and the slice of a buffer after it.
     fn act(&mut self) {
         match self.chance.below(1000) {
-            0..600 => {
+            0..500 => {
                 let note = self.chance.below(128) as u8;
                 let velocity = self.chance.between(-0.1, 1.1) as f32;
                 self.performer.note_on(note, velocity, 9);
+            }
+            500..600 => {
+                let (number, channel) = (self.chance.below(256) as u8, self.chance.below(20) as u8);
+                let value = self.chance.of(&[f32::NAN, -1.0, 0.0, 0.3, 1.0, 9.0]);
+                match self.chance.below(4) {
+                    0 => self.performer.note_off(number, channel),
+                    1 => self.performer.choke(number, channel),
+                    2 => self.performer.pressure(number, value, channel),
+                    _ => self.performer.control_change(number, value, channel),
+                }
             }
             600..980 => {
                 // One past the end too: a host may ask for a parameter there is not.

@@ -78,7 +78,9 @@ fn no_run_is_longer_than_the_shortest_delay_at_any_rate_and_in_a_kit_moved_toget
             let kit = Kit::with_layout(rate, &layout);
             let listeners = (0..PieceId::KIT.len()).filter(|&to| PieceId::KIT[to].is_drum());
             let shortest = listeners
-                .flat_map(|to| (0..PieceId::KIT.len()).filter(move |&from| from != to).map(move |from| (from, to)))
+                .flat_map(|to| {
+                    (0..PieceId::KIT.len()).filter(move |&from| from != to).map(move |from| (from, to))
+                })
                 .map(|(from, to)| layout.way(from, to))
                 .fold(f64::INFINITY, f64::min);
             let delay = kit.min_delay();

@@ -13,7 +13,9 @@ use anyhow::Result;
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser};
 
-use crate::{bundle, demo, error, groove, hear, modes, output, realism, render, report, settings, suite};
+use crate::{
+    bundle, demo, error, groove, hear, manual, modes, output, realism, render, report, settings, suite,
+};
 use arguments::{HearArguments, ModesArguments, RealismArguments, RenderArguments, Task};
 
 /// Developer and user commands of Overhear.
@@ -84,6 +86,7 @@ fn dispatch(task: Task) -> Result<()> {
         Task::Modes(arguments) => modes(arguments),
         Task::Realism(arguments) => realism(arguments),
         Task::Report { pages, output } => report::run(&pages, &output.unwrap_or_else(report::folder)),
+        Task::Docs => manual::write(),
         Task::Groove { output } => output::write(&output, &groove::file()),
     }
 }

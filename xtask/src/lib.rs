@@ -4,8 +4,9 @@
 //! ([`render`]) turns a MIDI file ([`song`]) into sound through a [`player`], which is either the
 //! engine itself or the built plugin in an embedded [`host`]; [`wav`] and [`output`] put it on
 //! disk. `hear` ([`hear`]) strikes one piece and measures it ([`analysis`]); `realism`
-//! ([`realism`]) sets every piece beside recordings; [`report`] writes pages of figures; `modes` ([`modes`]) lists what vibrates. [`demo`] plays the [`groove`] and draws a [`picture`] of it. [`bundle`]
-//! and [`suite`] build and test.
+//! ([`realism`]) sets every piece beside recordings; [`report`] writes pages of figures,
+//! [`manual`] those of the manual that come from the code; `modes` ([`modes`]) lists what vibrates.
+//! [`demo`] plays the [`groove`] and draws a [`picture`] of it. [`bundle`] and [`suite`] build and test.
 #![deny(unsafe_op_in_unsafe_fn)]
 
 pub mod analysis;
@@ -16,6 +17,7 @@ pub mod error;
 pub mod groove;
 pub mod hear;
 pub mod host;
+pub mod manual;
 pub mod modes;
 pub mod output;
 pub mod picture;

@@ -7,9 +7,10 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result};
+use overhear::building::{BuildPlan, Pace};
 use overhear::parameters::PARAMETERS;
 use overhear::performer::{Performer, velocity_from_midi};
-use overhear_engine::piece::{BuildOptions, Piece, PieceId};
+use overhear_engine::piece::{Piece, PieceId};
 
 use crate::bad_input;
 use crate::host::{self, Bundle, Processor};
@@ -114,10 +115,11 @@ impl EnginePlayer {
         for &(index, value) in &setup.settings {
             performer.set_parameter(index, value);
         }
-        let options = BuildOptions::new(rate);
+        let value = |index: usize| performer.parameter(index).unwrap_or(PARAMETERS[index].default);
+        let plan = BuildPlan::of(value, Pace::Offline);
         let ids = PieceId::KIT.into_iter().filter(|id| setup.only.is_none_or(|only| only == *id));
         for id in ids {
-            let piece = Piece::new(id, &options).map_err(|error| bad_input!("{error}"))?;
+            let piece = Piece::new(id, &plan.options(id, rate)).map_err(|error| bad_input!("{error}"))?;
             performer.install(Box::new(piece));
         }
         Ok(EnginePlayer { performer })

@@ -1,7 +1,9 @@
 //! `--set name=value` and `--preset`: the parameters a command moves.
 
 use anyhow::Result;
-use overhear::parameters::{Drives, PARAMETERS, Parameter, parse_assignment};
+use overhear::midi::maps::NoteMap;
+use overhear::midi_map::Stroke;
+use overhear::parameters::{Drives, Manner, PARAMETERS, Parameter, parse_assignment};
 use overhear_engine::kit::Control;
 use overhear_engine::piece::{BuildOptions, Piece, PieceId};
 
@@ -19,6 +21,13 @@ const PRESETS: [&str; 1] = ["default"];
 /// [`BadInput`](crate::error::BadInput) with the value and what is accepted.
 pub fn parse(assignments: &[String]) -> Result<Vec<Setting>> {
     assignments.iter().map(|text| parse_assignment(text).map_err(|error| bad_input!("{error}"))).collect()
+}
+
+/// The stroke of a note under the settings' note map, if it sounds.
+pub fn stroke(settings: &[Setting], note: u8) -> Option<&'static Stroke> {
+    let moved = |&&(index, _): &&Setting| PARAMETERS[index].drives == Drives::Playing(Manner::Map);
+    let map = settings.iter().rfind(moved).map_or(0, |&(_, value)| value as usize);
+    NoteMap::ALL.get(map).copied().unwrap_or_default().stroke(note)
 }
 
 /// Checks the value of `--preset`.
@@ -110,7 +119,10 @@ pub fn parse_for_piece(id: PieceId, assignments: &[String]) -> Result<Vec<PieceS
                     PieceSetting { control: Control::Tuning(id), value: (value / 12.0).exp2() }
                 }
                 Drives::Control(control) => PieceSetting { control, value },
-                Drives::Dynamics => PieceSetting { control: Control::Master, value },
+                // Not among those accepted.
+                Drives::Percent(_) | Drives::Playing(_) | Drives::Building(_) => {
+                    PieceSetting { control: Control::Master, value }
+                }
             })
         })
         .collect()

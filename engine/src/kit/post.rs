@@ -4,12 +4,15 @@
 //! order and on any thread; whoever does it is a [`Crew`].
 
 use super::BLOCK;
+use super::leaving::Leaving;
 use crate::modal::EARS;
 use crate::piece::Piece;
 
 /// A piece with its run.
 pub struct Post {
     pub(super) piece: Option<Box<Piece>>,
+    /// What it has replaced.
+    pub(super) leaving: Leaving,
     /// Samples of the run.
     pub(super) run: usize,
     /// Whether anything arrives.
@@ -21,9 +24,10 @@ pub struct Post {
 }
 
 impl Post {
-    pub(super) fn new() -> Post {
+    pub(super) fn new(sample_rate: f64) -> Post {
         Post {
             piece: None,
+            leaving: Leaving::new(sample_rate),
             run: 0,
             hears: false,
             incident: [0.0; BLOCK],
@@ -36,12 +40,13 @@ impl Post {
     /// # Real-time
     /// No allocation, no lock.
     pub fn render(&mut self) {
-        let Post { piece, run, hears, incident, sound } = self;
+        let Post { piece, leaving, run, hears, incident, sound } = self;
         let out = sound.each_mut().map(|row| &mut row[..*run]);
         match piece {
             Some(piece) => piece.render_in_air(out, hears.then_some(&incident[..*run])),
             None => out.into_iter().for_each(|out| out.fill(0.0)),
         }
+        leaving.render(sound.each_mut().map(|row| &mut row[..*run]));
     }
 
     /// Whether nothing comes out.

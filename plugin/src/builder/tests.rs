@@ -1,15 +1,33 @@
+use std::sync::atomic::AtomicBool;
+
 use super::*;
+use crate::building::Pace;
+use crate::parameters::PARAMETERS;
 
 const RATE: f64 = 48_000.0;
 const LONG: Duration = Duration::from_secs(30);
 
-fn quick(id: PieceId, sample_rate: f64) -> Result<Piece, SpecError> {
-    Piece::new(id, &BuildOptions::new(sample_rate))
+fn quick(id: PieceId, options: &BuildOptions) -> Result<Piece, SpecError> {
+    Piece::new(id, options)
 }
 
-fn slow(id: PieceId, sample_rate: f64) -> Result<Piece, SpecError> {
+fn slow(id: PieceId, options: &BuildOptions) -> Result<Piece, SpecError> {
     thread::sleep(Duration::from_millis(50));
-    quick(id, sample_rate)
+    quick(id, options)
+}
+
+/// A builder of the default plan.
+fn builder(make: Make) -> Builder {
+    Builder::with(make, Arc::new(BuildPlan::default))
+}
+
+/// A plan with another ratio for the snare if `moved`.
+fn plan(moved: bool) -> BuildPlan {
+    let value = |index: usize| {
+        let parameter = &PARAMETERS[index];
+        if moved && parameter.name == "snare_resonant_ratio" { 1.3 } else { parameter.default }
+    };
+    BuildPlan::of(value, Pace::RealTime)
 }
 
 fn taken(delivery: &Delivery) -> Vec<PieceId> {
@@ -23,7 +41,7 @@ fn taken(delivery: &Delivery) -> Vec<PieceId> {
 
 #[test]
 fn an_order_brings_every_piece_and_its_shapes() {
-    let mut builder = Builder::with(quick);
+    let mut builder = builder(quick);
     let delivery = builder.order(RATE);
     assert_eq!(builder.wait(LONG), Outcome::Finished);
     assert_eq!(taken(&delivery), PieceId::KIT);
@@ -33,12 +51,12 @@ fn an_order_brings_every_piece_and_its_shapes() {
 
 #[test]
 fn a_builder_without_an_order_has_no_thread() {
-    assert!(Builder::default().thread.is_none());
+    assert!(builder(quick).thread.is_none());
 }
 
 #[test]
 fn pieces_of_an_earlier_order_are_sent_back() {
-    let mut builder = Builder::with(quick);
+    let mut builder = builder(quick);
     let _ = builder.order(RATE);
     assert_eq!(builder.wait(LONG), Outcome::Finished);
     let delivery = builder.order(2.0 * RATE);
@@ -50,7 +68,7 @@ fn pieces_of_an_earlier_order_are_sent_back() {
 
 #[test]
 fn replaced_pieces_are_dropped_by_the_builder() {
-    let mut builder = Builder::with(quick);
+    let mut builder = builder(quick);
     let delivery = builder.order(RATE);
     assert_eq!(builder.wait(LONG), Outcome::Finished);
     let mut replaced = 0;
@@ -68,14 +86,14 @@ fn replaced_pieces_are_dropped_by_the_builder() {
 
 #[test]
 fn a_wait_that_runs_out_says_so() {
-    let mut builder = Builder::with(slow);
+    let mut builder = builder(slow);
     let _ = builder.order(RATE);
     assert_eq!(builder.wait(Duration::from_millis(1)), Outcome::Late);
 }
 
 #[test]
 fn a_failure_names_the_piece_and_the_reason() {
-    let mut builder = Builder::default();
+    let mut builder = builder(quick);
     let _ = builder.order(1_000.0);
     let Outcome::Failed(reason) = builder.wait(LONG) else { panic!("1 kHz was accepted") };
     assert!(reason.starts_with("kick: sample rate (Hz) is 1000"), "{reason}");
@@ -87,7 +105,7 @@ fn a_failure_names_the_piece_and_the_reason() {
 
 #[test]
 fn a_panic_while_building_is_a_failure() {
-    let mut builder = Builder::with(|_, _| panic!("on purpose"));
+    let mut builder = builder(|_, _| panic!("on purpose"));
     let _ = builder.order(RATE);
     assert_eq!(builder.wait(LONG), Outcome::Failed("kick: building it panicked".to_owned()));
 }
@@ -95,11 +113,33 @@ fn a_panic_while_building_is_a_failure() {
 #[test]
 fn builders_dropped_at_any_time_stop_after_the_piece_at_hand() {
     for delay in [0, 1, 20, 60, 120] {
-        let mut builder = Builder::with(slow);
+        let mut builder = builder(slow);
         let delivery = builder.order(RATE);
         thread::sleep(Duration::from_millis(delay));
         drop(builder);
         // The whole kit was not waited for.
         assert!(taken(&delivery).len() < PIECES);
+    }
+}
+
+#[test]
+fn a_change_of_plan_builds_what_it_concerns_and_nothing_else() {
+    let moved = Arc::new(AtomicBool::new(false));
+    let wanted = moved.clone();
+    let mut builder = Builder::with(quick, Arc::new(move || plan(wanted.load(Ordering::Acquire))));
+    let delivery = builder.order(RATE);
+    assert_eq!(builder.wait(LONG), Outcome::Finished);
+    assert_eq!(taken(&delivery), PieceId::KIT);
+    moved.store(true, Ordering::Release);
+    assert_eq!(builder.wait(LONG), Outcome::Finished);
+    assert_eq!(taken(&delivery), [PieceId::Snare]);
+    assert_eq!(builder.wait(LONG), Outcome::Finished);
+    assert_eq!(taken(&delivery), []);
+    // Nobody waits: the thread looks by itself.
+    moved.store(false, Ordering::Release);
+    let deadline = Instant::now() + LONG;
+    while taken(&delivery) != [PieceId::Snare] {
+        assert!(Instant::now() < deadline, "the change was not noticed");
+        thread::sleep(Duration::from_millis(10));
     }
 }

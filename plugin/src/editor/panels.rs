@@ -12,6 +12,7 @@ use super::knob::{self, Gesture};
 use super::surface::Surface;
 use super::theme;
 use crate::NAME;
+use crate::outputs::title;
 use crate::parameters::PARAMETERS;
 
 /// Space around and between panels, points.
@@ -211,20 +212,6 @@ impl Panels {
                 }
             }
         }
-    }
-}
-
-/// The piece's name on screen, which is also its parameters' group.
-fn title(piece: PieceId) -> &'static str {
-    match piece {
-        PieceId::Kick => "Kick",
-        PieceId::Snare => "Snare",
-        PieceId::RackTom => "Rack tom",
-        PieceId::FloorTom => "Floor tom",
-        PieceId::Crash => "Crash",
-        PieceId::Ride => "Ride",
-        PieceId::Splash => "Splash",
-        PieceId::Timpani => "Timpani",
     }
 }
 

@@ -3,10 +3,12 @@
 use overhear_engine::kit::{Control, SILENT_DB};
 use overhear_engine::piece::PieceId;
 
-use super::{Drives, Parameter};
+use super::{Construction, Drives, Manner, Parameter};
+use crate::midi::maps::NoteMap;
+use crate::midi::playing::ChokeRule;
 
 /// Every parameter, in the order hosts see. Frozen: append only.
-pub static PARAMETERS: [Parameter; 28] = {
+pub static PARAMETERS: [Parameter; 65] = {
     use PieceId::*;
     [
         drum_tune(Kick, "Kick", "kktune", "kick_tune", [35.0, 55.0, 90.0]),
@@ -51,7 +53,8 @@ pub static PARAMETERS: [Parameter; 28] = {
             centre: 5.5,
             step: 0.01,
             decimals: 2,
-            drives: Drives::Dynamics,
+            drives: Drives::Playing(Manner::Dynamics),
+            choices: &[],
         },
         Parameter {
             id: "snprel",
@@ -69,6 +72,7 @@ pub static PARAMETERS: [Parameter; 28] = {
             step: 1.0 / 1100.0,
             decimals: 3,
             drives: Drives::Control(Control::SnarePreload),
+            choices: &[],
         },
         Parameter {
             id: "snwire",
@@ -83,11 +87,117 @@ pub static PARAMETERS: [Parameter; 28] = {
             step: 1.0,
             decimals: 0,
             drives: Drives::Control(Control::SnareWires),
+            choices: &["off", "on"],
         },
         // The pedal.
         drum_tune(Timpani, "Timpani", "tptune", "timpani_tune", [87.3, 130.8, 196.0]),
         muffle(Timpani, "Timpani", "tpmuff", "timpani_muffle", 0.0),
         level(Timpani, "Timpani", "tplevl", "timpani_level", 0.0),
+        pan(Kick, "Kick", "kkpan", "kick_pan", 0.0),
+        pan(Snare, "Snare", "snpan", "snare_pan", -35.0),
+        pan(RackTom, "Rack tom", "rtpan", "rack_tom_pan", -12.0),
+        pan(FloorTom, "Floor tom", "ftpan", "floor_tom_pan", 41.0),
+        pan(Crash, "Crash", "crpan", "crash_pan", -56.0),
+        pan(Ride, "Ride", "rdpan", "ride_pan", 60.0),
+        pan(Splash, "Splash", "sppan", "splash_pan", 14.0),
+        pan(Timpani, "Timpani", "tppan", "timpani_pan", 70.0),
+        place(Kick, "Kick", "kkplac", "kick_place"),
+        place(Snare, "Snare", "snplac", "snare_place"),
+        place(RackTom, "Rack tom", "rtplac", "rack_tom_place"),
+        place(FloorTom, "Floor tom", "ftplac", "floor_tom_place"),
+        place(Crash, "Crash", "crplac", "crash_place"),
+        place(Ride, "Ride", "rdplac", "ride_place"),
+        place(Splash, "Splash", "spplac", "splash_place"),
+        place(Timpani, "Timpani", "tpplac", "timpani_place"),
+        striker(Kick, "Kick", "kkstik", "kick_striker"),
+        striker(Snare, "Snare", "snstik", "snare_striker"),
+        striker(RackTom, "Rack tom", "rtstik", "rack_tom_striker"),
+        striker(FloorTom, "Floor tom", "ftstik", "floor_tom_striker"),
+        striker(Crash, "Crash", "crstik", "crash_striker"),
+        striker(Ride, "Ride", "rdstik", "ride_striker"),
+        striker(Splash, "Splash", "spstik", "splash_striker"),
+        striker(Timpani, "Timpani", "tpstik", "timpani_striker"),
+        Parameter {
+            id: "velcur",
+            name: "velocity_curve",
+            label: "Curve",
+            min: 0.25,
+            max: 4.0,
+            default: 1.0,
+            centre: 1.0,
+            step: 0.01,
+            decimals: 2,
+            ..playing(Manner::Curve)
+        },
+        Parameter {
+            id: "humpla",
+            name: "humanize_place",
+            label: "Uneven place",
+            unit: " %",
+            max: 20.0,
+            centre: 5.0,
+            step: 0.1,
+            decimals: 1,
+            ..playing(Manner::PlaceSpread)
+        },
+        Parameter {
+            id: "humspd",
+            name: "humanize_speed",
+            label: "Uneven speed",
+            unit: " dB",
+            max: 6.0,
+            centre: 1.5,
+            step: 0.01,
+            decimals: 2,
+            ..playing(Manner::SpeedSpread)
+        },
+        Parameter {
+            id: "notmap",
+            name: "note_map",
+            label: "Note map",
+            ..choice(Manner::Map, &NoteMap::NAMES)
+        },
+        Parameter {
+            id: "midchn",
+            name: "midi_channel",
+            label: "Channel",
+            ..choice(Manner::Channel, &CHANNELS)
+        },
+        Parameter {
+            id: "chokes",
+            name: "chokes",
+            label: "Choked by",
+            default: 1.0,
+            ..choice(Manner::Chokes, &ChokeRule::NAMES)
+        },
+        Parameter {
+            id: "poscc",
+            name: "position_controllers",
+            label: "Position CCs",
+            default: 1.0,
+            ..choice(Manner::FollowsPosition, &["off", "on"])
+        },
+        Parameter {
+            id: "qualit",
+            name: "quality",
+            label: "Quality",
+            group: "Rendering",
+            default: 1.0,
+            ..built(Construction::Quality, &["eco", "standard", "high", "offline"])
+        },
+        Parameter {
+            id: "offqua",
+            name: "offline_quality",
+            label: "Offline quality",
+            group: "Rendering",
+            // Nobody waits for a bounce as for a buffer.
+            default: 4.0,
+            ..built(Construction::OfflineQuality, &["as played", "eco", "standard", "high", "offline"])
+        },
+        resonant_ratio(Kick, "Kick", "kkreso", "kick_resonant_ratio", 1.1),
+        resonant_ratio(Snare, "Snare", "snreso", "snare_resonant_ratio", 1.5),
+        resonant_ratio(RackTom, "Rack tom", "rtreso", "rack_tom_resonant_ratio", 1.15),
+        resonant_ratio(FloorTom, "Floor tom", "ftreso", "floor_tom_resonant_ratio", 1.15),
     ]
 };
 
@@ -113,6 +223,7 @@ const fn drum_tune(
         step: 0.01,
         decimals: 2,
         drives: Drives::Control(Control::Tuning(piece)),
+        choices: &[],
     }
 }
 
@@ -130,6 +241,7 @@ const fn cymbal_tune(piece: PieceId, group: &'static str, id: &'static str, name
         step: 0.01,
         decimals: 2,
         drives: Drives::Semitones(piece),
+        choices: &[],
     }
 }
 
@@ -153,6 +265,7 @@ const fn muffle(
         step: 0.001,
         decimals: 3,
         drives: Drives::Control(Control::Muffling(piece)),
+        choices: &[],
     }
 }
 
@@ -183,5 +296,125 @@ const fn decibels(control: Control) -> Parameter {
         step: 0.01,
         decimals: 2,
         drives: Drives::Control(control),
+        choices: &[],
+    }
+}
+
+/// Texts of the channel filter.
+const CHANNELS: [&str; 17] =
+    ["all", "1", "2", "3", "4", "5", "6", "7", "8", "9", "10", "11", "12", "13", "14", "15", "16"];
+
+/// Texts of the striker parameters: what the map says, then every striker in the engine's order.
+const STRIKERS: [&str; 11] = [
+    "as mapped",
+    "stick",
+    "shoulder",
+    "nylon",
+    "felt-beater",
+    "plastic-beater",
+    "timpani-mallet",
+    "hard-mallet",
+    "yarn-mallet",
+    "rimshot",
+    "cross-stick",
+];
+
+/// Where a piece lies in the stereo; its default is where it stands, seen from the stool.
+const fn pan(
+    piece: PieceId,
+    group: &'static str,
+    id: &'static str,
+    name: &'static str,
+    default: f32,
+) -> Parameter {
+    Parameter {
+        id,
+        name,
+        label: "Pan",
+        group,
+        unit: " %",
+        min: -100.0,
+        max: 100.0,
+        default,
+        centre: 0.0,
+        drives: Drives::Percent(Control::Pan(piece)),
+        ..playing(Manner::Dynamics)
+    }
+}
+
+/// What strokes on a piece are moved by: outward above 0.
+const fn place(piece: PieceId, group: &'static str, id: &'static str, name: &'static str) -> Parameter {
+    Parameter {
+        id,
+        name,
+        label: "Place",
+        group,
+        min: -1.0,
+        max: 1.0,
+        centre: 0.0,
+        step: 0.005,
+        decimals: 3,
+        ..playing(Manner::Offset(piece))
+    }
+}
+
+const fn striker(piece: PieceId, group: &'static str, id: &'static str, name: &'static str) -> Parameter {
+    Parameter { id, name, label: "Striker", group, ..choice(Manner::Striker(piece), &STRIKERS) }
+}
+
+/// Pitch of the resonant head over the batter head's.
+const fn resonant_ratio(
+    piece: PieceId,
+    group: &'static str,
+    id: &'static str,
+    name: &'static str,
+    default: f32,
+) -> Parameter {
+    Parameter {
+        id,
+        name,
+        label: "Resonant",
+        group,
+        min: 0.5,
+        max: 2.0,
+        default,
+        centre: 1.0,
+        step: 0.005,
+        decimals: 3,
+        ..built(Construction::ResonantRatio(piece), &[])
+    }
+}
+
+const fn playing(manner: Manner) -> Parameter {
+    Parameter {
+        id: "",
+        name: "",
+        label: "",
+        group: "Playing",
+        unit: "",
+        min: 0.0,
+        max: 1.0,
+        default: 0.0,
+        centre: 0.5,
+        step: 1.0,
+        decimals: 0,
+        drives: Drives::Playing(manner),
+        choices: &[],
+    }
+}
+
+const fn choice(manner: Manner, choices: &'static [&'static str]) -> Parameter {
+    let max = (choices.len() - 1) as f32;
+    Parameter { max, centre: max / 2.0, choices, ..playing(manner) }
+}
+
+const fn built(construction: Construction, choices: &'static [&'static str]) -> Parameter {
+    let max = choices.len().saturating_sub(1) as f32;
+    Parameter {
+        max,
+        centre: max / 2.0,
+        choices,
+        drives: Drives::Building(construction),
+        ..playing(Manner::Dynamics)
     }
 }

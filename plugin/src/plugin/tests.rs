@@ -32,7 +32,9 @@ fn played(slices: &[(usize, Vec<NoteEvent<()>>)]) -> Vec<f32> {
     for (samples, events) in slices {
         let (mut left, mut right) = (vec![f32::NAN; *samples], vec![f32::NAN; *samples]);
         let mut events = events.iter().copied();
-        play(&mut performer, &mut left, &mut right, || events.next());
+        let mut main = [left.as_mut_slice(), right.as_mut_slice()];
+        let mut buffers = Buffers::new(&mut main, &mut []).unwrap();
+        play(&mut performer, &mut buffers, || events.next());
         sound.extend(left);
     }
     sound
@@ -58,7 +60,9 @@ fn notes_out_of_order_and_beyond_the_slice_are_not_lost() {
     let mut performer = Performer::new(RATE);
     let (mut left, mut right) = ([0.0; 64], [0.0; 64]);
     let mut events = [note(60), note(10), note(u32::MAX)].into_iter();
-    play(&mut performer, &mut left, &mut right, || events.next());
+    let mut main = [left.as_mut_slice(), right.as_mut_slice()];
+    let mut buffers = Buffers::new(&mut main, &mut []).unwrap();
+    play(&mut performer, &mut buffers, || events.next());
     let mut snapshot = KitSnapshot::default();
     performer.snapshot(&mut snapshot);
     assert_eq!((snapshot.dropped_strikes, snapshot.clock), (3, 64));

@@ -100,36 +100,6 @@ fn a_reset_silences_what_rings() {
 }
 
 #[test]
-fn midi_bytes_play_as_notes_do() {
-    let _turn = alone();
-    let mut instance = instance();
-    let mut play = |what: What| {
-        instance
-            .run(RATE, 1..=4096, |processor| {
-                let (mut left, mut right) = (vec![0.0; 4096], vec![0.0; 4096]);
-                processor.process(&[Event { offset: 7, what }], &mut left, &mut right)?;
-                Ok([left, right])
-            })
-            .unwrap()
-    };
-    let note = play(What::NoteOn { channel: 9, key: 38, velocity: 100.0 / 127.0 });
-    assert!(peak(&note) > 0.0);
-    assert_same(&play(What::Midi([0x99, 38, 100])), &note, "as bytes");
-    for silent in [
-        What::Midi([0x99, 38, 0]),
-        What::Midi([0x89, 38, 100]),
-        What::Midi([0xB9, 38, 100]),
-        What::NoteOff { channel: 9, key: 38 },
-        What::Choke { channel: 9, key: 38 },
-        What::NoteOn { channel: 9, key: 38, velocity: 0.0 },
-        What::NoteOn { channel: 9, key: 42, velocity: 1.0 },
-        What::NoteOn { channel: 9, key: 127, velocity: 1.0 },
-    ] {
-        assert_eq!(peak(&play(silent)), 0.0, "{silent:?}");
-    }
-}
-
-#[test]
 fn more_events_than_any_song_has_are_survived() {
     let _turn = alone();
     let events: Vec<_> = (0..6000)

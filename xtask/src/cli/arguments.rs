@@ -47,6 +47,8 @@ pub enum Task {
         #[arg(short, long, value_name = "DIR")]
         output: Option<PathBuf>,
     },
+    /// Write the manual's pages that come from the code: docs/midi.md and docs/parameters.md
+    Docs,
     /// Write the demonstration groove (assets/groove.mid) anew
     #[command(hide = true)]
     Groove {

@@ -5,7 +5,6 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use anyhow::{Result, ensure};
-use overhear::midi_map;
 use overhear_engine::piece::PieceId;
 
 use super::Style;
@@ -13,6 +12,7 @@ use crate::bad_input;
 use crate::output::Folder;
 use crate::player::{Hit, Played, Setup, Take};
 use crate::progress::Progress;
+use crate::settings;
 use crate::song::Song;
 use crate::wav::WavFile;
 
@@ -50,7 +50,7 @@ pub fn takes(song: &Song, style: &Style) -> Result<(Take, usize)> {
         if style.channel.is_some_and(|channel| channel != note.channel + 1) {
             continue;
         }
-        silent += usize::from(midi_map::stroke(note.key).is_none());
+        silent += usize::from(settings::stroke(&style.settings, note.key).is_none());
         hits.push(Hit {
             sample: song.sample(note.time, style.rate),
             channel: note.channel,
@@ -82,7 +82,8 @@ impl Job {
         let played = play(&take, style, None, &mut file, progress(name.clone()))?;
         let mut files = vec![file];
         for (piece, mut file) in stems {
-            let strikes = |hit: &&Hit| midi_map::stroke(hit.key).is_some_and(|stroke| stroke.piece == piece);
+            let stroke = |hit: &Hit| settings::stroke(&style.settings, hit.key);
+            let strikes = |hit: &&Hit| stroke(hit).is_some_and(|stroke| stroke.piece == piece);
             let part = Take { hits: take.hits.iter().filter(strikes).copied().collect(), ..take };
             let label = format!("{name}, {}", piece.name());
             play(&part, style, Some(piece), &mut file, progress(label))?;

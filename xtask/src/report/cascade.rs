@@ -28,6 +28,11 @@ const SPEEDS: [f64; 3] = [0.3, 1.5, 5.0];
 /// Where the mean frequency is taken in the table, s after the stroke.
 const TIMES: [f64; 6] = [0.003, 0.030, 0.080, 0.250, 0.500, 1.0];
 
+/// Tiers, places and speeds at which the bloom is sought.
+const BLOOMING: [Quality; 2] = [Quality::High, Quality::Offline];
+const PLACES: [f64; 4] = [0.85, 0.92, 0.97, 1.0];
+const HARD: [f64; 4] = [1.5, 5.0, 6.0, 8.0];
+
 /// Time between two points of a line, s.
 const STEP: f64 = 0.01;
 
@@ -59,7 +64,8 @@ pub fn page() -> Result<Page> {
     tiers.extend(
         Quality::ALL.map(|quality| (quality.name(), BuildOptions { quality, ..BuildOptions::new(RATE) })),
     );
-    let mut progress = Progress::new("cascade", (tiers.len() * SPEEDS.len()) as u64);
+    let steps = tiers.len() * SPEEDS.len() + BLOOMING.len() * PLACES.len();
+    let mut progress = Progress::new("cascade", steps as u64);
     let mut courses = Vec::new();
     for (tier, options) in tiers {
         let mut piece = Piece::new(PieceId::Crash, &options).map_err(|error| bad_input!("{error}"))?;
@@ -68,13 +74,49 @@ pub fn page() -> Result<Page> {
             progress.advance(1);
         }
     }
+    let blooms = blooms(&mut progress)?;
     let plot = Plot {
         across: "s after the stroke",
         up: "mean frequency, Hz",
         range: 200.0..900.0,
         panels: SPEEDS.map(|speed| (format!("{speed} m/s"), lines(&courses, speed))).to_vec(),
     };
-    Ok(Page { markdown: markdown(&courses), pictures: vec![("cascade.png".to_owned(), plot.png()?)] })
+    Ok(Page {
+        markdown: markdown(&courses, &blooms),
+        pictures: vec![("cascade.png".to_owned(), plot.png()?)],
+    })
+}
+
+/// When the band above 3 kHz is strongest, ms, at each of the speeds [`HARD`].
+struct Bloom {
+    quality: Quality,
+    radius: f64,
+    peaks_ms: [f64; HARD.len()],
+}
+
+/// Strikes the crash all along its edge.
+fn blooms(progress: &mut Progress) -> Result<Vec<Bloom>> {
+    let mut out = Vec::new();
+    for quality in BLOOMING {
+        let options = BuildOptions { quality, ..BuildOptions::new(RATE) };
+        let mut piece = Piece::new(PieceId::Crash, &options).map_err(|error| bad_input!("{error}"))?;
+        for radius in PLACES {
+            let peaks_ms = HARD.map(|speed| {
+                piece.reset();
+                piece.strike(&Strike { speed, radius, ..hear::default_strike(PieceId::Crash) });
+                let mut sound = vec![0.0; RATE as usize];
+                piece.render(&mut sound);
+                bloom_ms(&sound)
+            });
+            out.push(Bloom { quality, radius, peaks_ms });
+            progress.advance(1);
+        }
+    }
+    Ok(out)
+}
+
+fn bloom_ms(sound: &[f32]) -> f64 {
+    OneShot::new(sound, RATE).and_then(|shot| envelope::bloom_ms(&shot)).unwrap_or(f64::NAN)
 }
 
 fn lines(courses: &[Course], speed: f64) -> Vec<Line> {
@@ -103,8 +145,7 @@ fn follow(piece: &mut Piece, tier: &'static str, speed: f64) -> Course {
             at_times.push(mean);
         }
     }
-    let bloom_ms = OneShot::new(&sound, RATE).and_then(|shot| envelope::bloom_ms(&shot)).unwrap_or(f64::NAN);
-    Course { tier, speed, at_times, line, bloom_ms }
+    Course { tier, speed, at_times, line, bloom_ms: bloom_ms(&sound) }
 }
 
 /// Mean frequency of the modes to [`COUNTED`], weighted by their energy, Hz.
@@ -122,7 +163,7 @@ fn mean_frequency(piece: &mut Piece) -> f64 {
     weighted / sum
 }
 
-fn markdown(courses: &[Course]) -> String {
+fn markdown(courses: &[Course], blooms: &[Bloom]) -> String {
     let mut out = String::from(
         "# The cascade\n\n\
          A 16 in crash struck where it is played, with a stick's shoulder near its edge: mean frequency of its modes to 2 kHz,\n\
@@ -140,8 +181,26 @@ fn markdown(courses: &[Course]) -> String {
         let _ = writeln!(out, "| {bloom_ms:.0} |");
     }
     out.push_str(
-        "\nSound above 3 kHz is pumped by modes that are coupled: `eco` and `standard` end below, and what is heard of them\n\
-         there is the stroke itself.\n",
+        "\nThe stretching hands energy upward from mode to mode. Where the coupled set ends it cannot go on and gathers:\n\
+         `standard`, whose set ends where the modes counted here do, stays highest for that reason. From `high` on it leaves\n\
+         them for those above.\n\n\
+         ## When the sound above 3 kHz is strongest, ms\n\n\
+         Sound there is pumped only by modes that are coupled: `eco` and `standard` end below, and what is heard of them above\n\
+         3 kHz is the stroke itself, at once. Where the stroke and what is pumped are equally strong the later one may come\n\
+         second: at 5 m/s that depends on the place.\n\n\
+         | tier | at |",
     );
+    for speed in HARD {
+        let _ = write!(out, " {speed} m/s |");
+    }
+    out.push_str("\n|---|---|");
+    out.push_str(&"---|".repeat(HARD.len()));
+    for Bloom { quality, radius, peaks_ms } in blooms {
+        let _ = write!(out, "\n| {} | {radius} |", quality.name());
+        for ms in peaks_ms {
+            let _ = write!(out, " {ms:.0} |");
+        }
+    }
+    out.push('\n');
     out
 }

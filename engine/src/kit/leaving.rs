@@ -1,0 +1,60 @@
+//! A piece that another has replaced: it fades out under the new one instead of stopping short.
+
+use crate::kit::BLOCK;
+use crate::modal::EARS;
+use crate::piece::Piece;
+
+/// Length of the fade, s. *By ear*: no click, even of a kick; over before a new stroke has decayed.
+const FADE_TIME: f64 = 0.05;
+
+/// The piece on its way out, if there is one.
+pub struct Leaving {
+    piece: Option<Box<Piece>>,
+    /// Samples still to sound.
+    left: u32,
+    /// Length of the fade, samples.
+    length: u32,
+}
+
+impl Leaving {
+    /// Nobody leaves.
+    pub fn new(sample_rate: f64) -> Leaving {
+        Leaving { piece: None, left: 0, length: (FADE_TIME * sample_rate).ceil() as u32 }
+    }
+
+    /// Lets a piece leave; hands back one that need not be heard any more.
+    pub fn see_off(&mut self, piece: Box<Piece>) -> Option<Box<Piece>> {
+        if piece.is_asleep() {
+            return Some(piece);
+        }
+        self.left = self.length;
+        self.piece.replace(piece)
+    }
+
+    /// Hands back the piece whose fade is over.
+    pub fn gone(&mut self) -> Option<Box<Piece>> {
+        if self.left == 0 { self.piece.take() } else { None }
+    }
+
+    /// Lets whoever leaves be silent from now on.
+    pub fn cut(&mut self) {
+        self.left = 0;
+    }
+
+    /// Adds what is still heard at every ear, within one block.
+    pub fn render(&mut self, sound: [&mut [f32]; EARS]) {
+        let Some(piece) = self.piece.as_mut().filter(|_| self.left > 0) else { return };
+        let mut fading = [[0.0_f32; BLOCK]; EARS];
+        let samples = sound[0].len();
+        piece.render_in_air(fading.each_mut().map(|row| &mut row[..samples]), None);
+        let before = self.left;
+        self.left = before.saturating_sub(samples as u32);
+        for (sound, fading) in sound.into_iter().zip(&fading) {
+            for (i, (sound, fading)) in sound.iter_mut().zip(fading).enumerate() {
+                let share = before.saturating_sub(1 + i as u32) as f32 / self.length as f32;
+                // Level at both ends: a straight fade's corner is heard on a low drum.
+                *sound += *fading * share * share * (3.0 - 2.0 * share);
+            }
+        }
+    }
+}

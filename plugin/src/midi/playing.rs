@@ -1,0 +1,334 @@
+//! How notes and controllers become strokes and chokes.
+//!
+//! Velocity is a stick speed, spaced in logarithms from [`SOFTEST`] to the dynamics, under a curve. Position
+//! controllers, the position and striker parameters and unevenness of the hand are added to what the map says.
+//! Nothing here touches the engine: what comes out is a [`Stroke`] or a [`Grip`] for the performer to pass on.
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use overhear_engine::piece::PieceId;
+use overhear_engine::strike::{Strike, Striker};
+
+use super::assignments::{Assignment, Assignments};
+use super::maps::NoteMap;
+use crate::midi_map;
+
+/// Stick speed of the softest note, m/s. *By ear*: the faintest tap a pad reports.
+pub const SOFTEST: f64 = 0.4;
+
+/// Velocity of the softest note: 1 of MIDI's 127.
+const LEAST_VELOCITY: f64 = 1.0 / 127.0;
+
+/// MIDI channels.
+const CHANNELS: usize = 16;
+
+/// Pieces of the kit.
+const PIECES: usize = PieceId::KIT.len();
+
+/// First of the four position controllers; see [`position_controller`].
+pub const FIRST_POSITION_CONTROLLER: u8 = 16;
+
+/// Controller that carries the lower seven bits of the next note's velocity (MMA CA-031).
+pub const FINE_VELOCITY_CONTROLLER: u8 = 88;
+
+/// A MIDI velocity, 0 to 127, as a share of full velocity.
+pub fn velocity_from_midi(velocity: u8) -> f32 {
+    f32::from(velocity) / 127.0
+}
+
+/// Stick speed, m/s, of a velocity (0 to 1), given the speed at full velocity and the exponent of the curve.
+///
+/// With a curve of 1 equal steps of velocity are equal ratios of speed, as loudness is heard; above 1 soft notes
+/// become softer, below 1 louder. The ends stay where they are.
+pub fn stick_speed(velocity: f32, full: f64, curve: f64) -> f64 {
+    let share = (f64::from(velocity) - LEAST_VELOCITY) / (1.0 - LEAST_VELOCITY);
+    SOFTEST * libm::pow(full / SOFTEST, libm::pow(share.clamp(0.0, 1.0), curve))
+}
+
+/// The pieces whose place a controller moves: 16 the snare, 17 the ride, 18 the toms, 19 the other cymbals.
+pub fn position_controller(piece: PieceId) -> Option<u8> {
+    match piece {
+        PieceId::Snare => Some(16),
+        PieceId::Ride => Some(17),
+        PieceId::RackTom | PieceId::FloorTom => Some(18),
+        PieceId::Crash | PieceId::Splash => Some(19),
+        _ => None,
+    }
+}
+
+/// Which events let a hand grip a cymbal.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ChokeRule {
+    /// None.
+    Off,
+    /// Pressure on a note, as pads with an edge switch send it.
+    #[default]
+    Pressure,
+    /// The end of a note.
+    NoteOff,
+    /// Both.
+    Both,
+}
+
+impl ChokeRule {
+    /// Every rule, in the order of the parameter that chooses one.
+    pub const ALL: [ChokeRule; 4] =
+        [ChokeRule::Off, ChokeRule::Pressure, ChokeRule::NoteOff, ChokeRule::Both];
+
+    /// Names on screen and in presets, in the order of [`ALL`](Self::ALL).
+    pub const NAMES: [&'static str; 4] = ["off", "pressure", "note-off", "both"];
+}
+
+/// A hand on a cymbal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grip {
+    /// The cymbal.
+    pub piece: PieceId,
+    /// How firmly: 0 (let go) to 1.
+    pub strength: f64,
+}
+
+/// What a note comes to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Played {
+    /// The piece.
+    pub piece: PieceId,
+    /// The stroke.
+    pub strike: Strike,
+    /// Whether a hand that gripped the piece at the end of an earlier note lets go first.
+    pub releases: bool,
+}
+
+/// What the parameters say of playing.
+#[derive(Debug, Clone, Copy)]
+pub struct Style {
+    /// Stick speed at full velocity, m/s.
+    pub dynamics: f64,
+    /// Exponent of the velocity curve.
+    pub curve: f64,
+    /// Mean distance of a stroke from where it is aimed, share of the radius.
+    pub place_spread: f64,
+    /// Mean difference of a stroke's speed from what is asked, dB.
+    pub speed_spread: f64,
+    /// The map of the instrument that is played.
+    pub map: NoteMap,
+    /// The only channel heard, 0 to 15, or all.
+    pub channel: Option<u8>,
+    /// What chokes cymbals.
+    pub chokes: ChokeRule,
+    /// Whether controllers 16 to 19 move the place of strokes.
+    pub follows_position: bool,
+    /// Added to the place of every stroke, share of the radius, `[piece]`.
+    pub offsets: [f64; PIECES],
+    /// What is swung instead of what the map says, `[piece]`.
+    pub strikers: [Option<Striker>; PIECES],
+}
+
+impl Default for Style {
+    fn default() -> Self {
+        Style {
+            dynamics: 6.0,
+            curve: 1.0,
+            place_spread: 0.0,
+            speed_spread: 0.0,
+            map: NoteMap::default(),
+            channel: None,
+            chokes: ChokeRule::default(),
+            follows_position: true,
+            offsets: [0.0; PIECES],
+            strikers: [None; PIECES],
+        }
+    }
+}
+
+/// What controllers and notes have left behind.
+#[derive(Debug, Clone, Copy)]
+struct PlayingState {
+    /// Latest values of the position controllers, 0 to 1.
+    positions: [Option<f64>; 4],
+    /// Velocity to add to the next note, `[channel]`.
+    fine: [f32; CHANNELS],
+    /// Gripped by the end of a note, until the next stroke, `[piece]`.
+    gripped: [bool; PIECES],
+    /// Strokes so far: the unevenness of each is drawn from its number.
+    strokes: u64,
+}
+
+impl PlayingState {
+    const REST: PlayingState =
+        PlayingState { positions: [None; 4], fine: [0.0; CHANNELS], gripped: [false; PIECES], strokes: 0 };
+}
+
+/// A player: the style, the user's assignments, and what the controllers say.
+pub struct Playing {
+    /// What the parameters say.
+    pub style: Style,
+    assignments: Arc<Assignments>,
+    state: PlayingState,
+}
+
+impl Playing {
+    /// A player of the default style.
+    pub fn new(assignments: Arc<Assignments>) -> Playing {
+        Playing { style: Style::default(), assignments, state: PlayingState::REST }
+    }
+
+    /// Forgets what controllers and notes have left behind.
+    ///
+    /// # Real-time
+    /// No allocation.
+    pub fn reset(&mut self) {
+        self.state = PlayingState::REST;
+    }
+
+    /// What a note of a velocity (0 to 1) comes to, if it sounds. Takes part in learning.
+    ///
+    /// A velocity of nothing is MIDI's other way to end a note and is silent.
+    ///
+    /// # Real-time
+    /// Table look-ups; no allocation, no lock.
+    pub fn note_on(&mut self, note: u8, velocity: f32, channel: u8) -> Option<Played> {
+        // Written so that a velocity that is not a number is silent as well.
+        let sounds = velocity > 0.0;
+        if !sounds || !self.hears(channel) {
+            return None;
+        }
+        self.assignments.heard(note);
+        let fine = self.state.fine.get_mut(usize::from(channel)).map_or(0.0, std::mem::take);
+        let stroke = self.stroke(note)?;
+        let slot = stroke.piece.slot()?;
+        self.state.strokes = self.state.strokes.wrapping_add(1);
+        let speed = stick_speed(velocity + fine, self.style.dynamics, self.style.curve);
+        let aimed = self.aimed(stroke) + self.style.offsets[slot];
+        let (radius, angle) = self.placed(aimed.clamp(0.0, 1.0), stroke.angle);
+        let strike = Strike {
+            speed: speed * self.uneven_speed(),
+            radius,
+            angle,
+            striker: self.style.strikers[slot].unwrap_or(stroke.striker),
+        };
+        let releases = std::mem::take(&mut self.state.gripped[slot]);
+        Some(Played { piece: stroke.piece, strike, releases })
+    }
+
+    /// What the end of a note comes to.
+    ///
+    /// # Real-time
+    /// Table look-ups; no allocation, no lock.
+    pub fn note_off(&mut self, note: u8, channel: u8) -> Option<Grip> {
+        let chokes = matches!(self.style.chokes, ChokeRule::NoteOff | ChokeRule::Both);
+        if chokes { self.choke(note, channel) } else { None }
+    }
+
+    /// What a host's own choke of a note comes to, whatever the rule: until the next stroke.
+    ///
+    /// # Real-time
+    /// Table look-ups; no allocation, no lock.
+    pub fn choke(&mut self, note: u8, channel: u8) -> Option<Grip> {
+        let piece = self.cymbal(note, channel)?;
+        self.state.gripped[piece.slot()?] = true;
+        Some(Grip { piece, strength: 1.0 })
+    }
+
+    /// What pressure on a note (0 to 1) comes to: a hand that holds for as long as it presses.
+    ///
+    /// # Real-time
+    /// Table look-ups; no allocation, no lock.
+    pub fn pressure(&mut self, note: u8, pressure: f32, channel: u8) -> Option<Grip> {
+        let chokes = matches!(self.style.chokes, ChokeRule::Pressure | ChokeRule::Both);
+        if !chokes || pressure.is_nan() {
+            return None;
+        }
+        let piece = self.cymbal(note, channel)?;
+        Some(Grip { piece, strength: f64::from(pressure.clamp(0.0, 1.0)) })
+    }
+
+    /// Takes in a controller's value, 0 to 1.
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn control_change(&mut self, controller: u8, value: f32, channel: u8) {
+        if !self.hears(channel) || value.is_nan() {
+            return;
+        }
+        let value = value.clamp(0.0, 1.0);
+        match controller {
+            FINE_VELOCITY_CONTROLLER => {
+                if let Some(fine) = self.state.fine.get_mut(usize::from(channel)) {
+                    // 127 steps between two velocities of 7 bits, 128 of which make one.
+                    *fine = value * 127.0 / 128.0 / 127.0;
+                }
+            }
+            16..=19 => {
+                let index = usize::from(controller - FIRST_POSITION_CONTROLLER);
+                self.state.positions[index] = Some(f64::from(value));
+            }
+            _ => {}
+        }
+    }
+
+    /// The stroke of a note, if it sounds.
+    pub fn stroke(&self, note: u8) -> Option<&'static midi_map::Stroke> {
+        match self.assignments.of(note) {
+            Assignment::Mapped => self.style.map.stroke(note),
+            Assignment::Silent => None,
+            Assignment::Plays(reference) => midi_map::stroke(reference),
+        }
+    }
+
+    fn hears(&self, channel: u8) -> bool {
+        self.style.channel.is_none_or(|only| only == channel)
+    }
+
+    fn cymbal(&self, note: u8, channel: u8) -> Option<PieceId> {
+        let piece = self.stroke(note).filter(|_| self.hears(channel))?.piece;
+        (!piece.is_drum()).then_some(piece)
+    }
+
+    /// Distance from the centre: where the controller says, once it has said anything, or the map.
+    ///
+    /// Strokes on a bell or on an edge are what they are wherever the hand is.
+    fn aimed(&self, stroke: &midi_map::Stroke) -> f64 {
+        let moves = self.style.follows_position && stroke.moves_with_hand();
+        let position = position_controller(stroke.piece)
+            .filter(|_| moves)
+            .and_then(|controller| self.state.positions[usize::from(controller - FIRST_POSITION_CONTROLLER)]);
+        position.map_or(stroke.radius, |place| {
+            let (inner, outer) = stroke.reach();
+            inner + (outer - inner) * place
+        })
+    }
+
+    /// A place near the one aimed at.
+    fn placed(&self, radius: f64, angle: f64) -> (f64, f64) {
+        let spread = self.style.place_spread;
+        if spread == 0.0 {
+            return (radius, angle);
+        }
+        // Uniform in a disc whose mean distance from its centre is the spread: 2/3 of its radius.
+        let away = 1.5 * spread * self.drawn(0).sqrt();
+        let (across, along) = libm::sincos(TAU * self.drawn(1));
+        let (sin, cos) = libm::sincos(angle);
+        let (x, y) = (radius * cos + away * along, radius * sin + away * across);
+        (libm::hypot(x, y).min(1.0), libm::atan2(y, x))
+    }
+
+    /// Ratio of a stroke's speed to what is asked: uniform, with the spread as its mean size.
+    fn uneven_speed(&self) -> f64 {
+        let spread = self.style.speed_spread;
+        if spread == 0.0 { 1.0 } else { libm::pow(10.0, (4.0 * self.drawn(2) - 2.0) * spread / 20.0) }
+    }
+
+    /// A number in 0 to 1 that belongs to the present stroke: the same in every rendering (SplitMix64, Steele et al.
+    /// 2014).
+    fn drawn(&self, which: u64) -> f64 {
+        let mut z = (4 * self.state.strokes + which).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,168 @@
+use super::*;
+
+fn playing() -> Playing {
+    Playing::new(Arc::default())
+}
+
+fn radius(playing: &mut Playing, note: u8) -> f64 {
+    playing.note_on(note, 0.8, 9).unwrap().strike.radius
+}
+
+#[test]
+fn velocity_runs_from_the_softest_tap_to_the_dynamics() {
+    assert_eq!(stick_speed(velocity_from_midi(1), 6.0, 1.0) as f32, 0.4);
+    assert_eq!(stick_speed(velocity_from_midi(127), 6.0, 1.0), 6.0);
+    assert_eq!(stick_speed(1.0, 10.0, 3.0), 10.0);
+    assert_eq!(stick_speed(0.001, 6.0, 1.0), SOFTEST);
+    assert_eq!(stick_speed(2.0, 6.0, 1.0), 6.0);
+}
+
+#[test]
+fn equal_steps_of_velocity_are_equal_ratios_of_speed() {
+    let speed = |velocity| stick_speed(velocity_from_midi(velocity), 6.0, 1.0);
+    let ratio = speed(2) / speed(1);
+    for velocity in 2..=127 {
+        assert!((speed(velocity) / speed(velocity - 1) / ratio - 1.0).abs() < 1e-6);
+    }
+}
+
+#[test]
+fn a_curve_bends_the_middle_and_keeps_the_order() {
+    let middle = |curve| stick_speed(velocity_from_midi(64), 6.0, curve);
+    assert!(middle(2.0) < middle(1.0) && middle(1.0) < middle(0.5));
+    for curve in [0.25, 1.0, 4.0] {
+        let speeds: Vec<f64> = (1..=127).map(|v| stick_speed(velocity_from_midi(v), 6.0, curve)).collect();
+        assert!(speeds.windows(2).all(|pair| pair[0] < pair[1]), "{curve}");
+    }
+}
+
+#[test]
+fn only_notes_of_the_map_with_a_velocity_strike() {
+    let mut playing = playing();
+    assert!(playing.note_on(38, 0.5, 9).is_some());
+    for (note, velocity) in [(38, 0.0), (38, -1.0), (38, f32::NAN), (39, 1.0), (200, 1.0)] {
+        assert_eq!(playing.note_on(note, velocity, 0), None, "{note} at {velocity}");
+    }
+}
+
+#[test]
+fn the_channel_filter_lets_one_through() {
+    let mut playing = playing();
+    playing.style.channel = Some(9);
+    assert!(playing.note_on(38, 1.0, 9).is_some());
+    assert!(playing.note_on(38, 1.0, 8).is_none());
+    assert!(playing.pressure(49, 1.0, 8).is_none());
+    playing.control_change(16, 1.0, 8);
+    assert_eq!(radius(&mut playing, 38), 0.25, "another channel's controller");
+}
+
+#[test]
+fn position_controllers_run_from_the_centre_to_the_rim() {
+    let mut playing = playing();
+    assert_eq!(radius(&mut playing, 38), 0.25);
+    let places: Vec<f64> = [0.0, 0.25, 0.5, 1.0]
+        .map(|value| {
+            playing.control_change(16, value, 9);
+            radius(&mut playing, 38)
+        })
+        .to_vec();
+    assert!(places[0] < 0.05 && places[3] > 0.9 && places.is_sorted(), "{places:?}");
+    assert_eq!(radius(&mut playing, 48), 0.30, "the toms have their own");
+    assert_eq!(radius(&mut playing, 37), 0.30, "a cross-stick stays");
+    playing.control_change(17, 1.0, 9);
+    assert!(radius(&mut playing, 51) > 0.9);
+    assert_eq!(radius(&mut playing, 53), 0.12, "the bell stays");
+    playing.style.follows_position = false;
+    assert_eq!(radius(&mut playing, 38), 0.25);
+    playing.style.follows_position = true;
+    playing.reset();
+    assert_eq!(radius(&mut playing, 38), 0.25);
+}
+
+#[test]
+fn fine_velocity_lies_between_two_velocities_and_is_used_once() {
+    let mut playing = playing();
+    let speed = |playing: &mut Playing, velocity| {
+        playing.note_on(38, velocity_from_midi(velocity), 9).unwrap().strike.speed
+    };
+    let (lower, upper) = (speed(&mut playing, 64), speed(&mut playing, 65));
+    playing.control_change(88, 64.0 / 127.0, 9);
+    let between = speed(&mut playing, 64);
+    assert!((between - (lower * upper).sqrt()).abs() < 1e-5 * between, "{lower} {between} {upper}");
+    assert_eq!(speed(&mut playing, 64), lower);
+    playing.control_change(88, 1.0, 3);
+    assert_eq!(speed(&mut playing, 64), lower, "another channel's");
+}
+
+#[test]
+fn pressure_grips_cymbals_and_lets_go() {
+    let mut playing = playing();
+    assert_eq!(playing.pressure(49, 1.0, 9), Some(Grip { piece: PieceId::Crash, strength: 1.0 }));
+    assert_eq!(playing.pressure(49, 0.0, 9).unwrap().strength, 0.0);
+    assert_eq!(playing.pressure(38, 1.0, 9), None, "drums are not choked");
+    assert_eq!(playing.note_off(49, 9), None, "not by default");
+    assert!(!playing.note_on(49, 1.0, 9).unwrap().releases, "the hand is where the pressure says");
+}
+
+#[test]
+fn the_end_of_a_note_grips_until_the_next_stroke() {
+    let mut playing = playing();
+    playing.style.chokes = ChokeRule::NoteOff;
+    assert!(playing.note_off(49, 9).is_some());
+    assert_eq!(playing.pressure(49, 1.0, 9), None);
+    assert!(playing.note_on(49, 1.0, 9).unwrap().releases);
+    assert!(!playing.note_on(49, 1.0, 9).unwrap().releases);
+    playing.style.chokes = ChokeRule::Off;
+    assert_eq!(playing.note_off(49, 9), None);
+    assert!(playing.choke(49, 9).is_some(), "a host's own choke counts always");
+}
+
+#[test]
+fn assignments_come_before_the_map_and_are_learned() {
+    let assignments = Arc::<Assignments>::default();
+    let mut playing = Playing::new(assignments.clone());
+    assignments.assign(38, Assignment::Plays(49));
+    assert_eq!(playing.note_on(38, 1.0, 9).unwrap().piece, PieceId::Crash);
+    assignments.assign(38, Assignment::Silent);
+    assert_eq!(playing.note_on(38, 1.0, 9), None);
+    assignments.learn(Some(36));
+    assert_eq!(playing.note_on(3, 1.0, 9).unwrap().piece, PieceId::Kick, "the learned note plays at once");
+    assert_eq!(playing.note_on(3, 1.0, 9).unwrap().piece, PieceId::Kick);
+}
+
+#[test]
+fn unevenness_is_as_large_as_asked_and_repeats() {
+    let mut playing = playing();
+    playing.style.place_spread = 0.05;
+    playing.style.speed_spread = 1.0;
+    let strikes = |playing: &mut Playing| -> Vec<Strike> {
+        (0..2000).map(|_| playing.note_on(38, 1.0, 9).unwrap().strike).collect()
+    };
+    let first = strikes(&mut playing);
+    let aimed = (0.25 * 0.3_f64.cos(), 0.25 * 0.3_f64.sin());
+    let mean = |of: &dyn Fn(&Strike) -> f64| first.iter().map(of).sum::<f64>() / first.len() as f64;
+    let away = mean(&|strike| {
+        let (x, y) = (strike.radius * strike.angle.cos(), strike.radius * strike.angle.sin());
+        (x - aimed.0).hypot(y - aimed.1)
+    });
+    assert!((away - 0.05).abs() < 0.003, "{away}");
+    let apart = mean(&|strike| (20.0 * (strike.speed / 6.0).log10()).abs());
+    assert!((apart - 1.0).abs() < 0.05, "{apart}");
+    let middle = mean(&|strike| 20.0 * (strike.speed / 6.0).log10());
+    assert!(middle.abs() < 0.1, "{middle}");
+    playing.reset();
+    assert_eq!(strikes(&mut playing), first);
+}
+
+#[test]
+fn parameters_move_the_place_and_change_the_striker() {
+    let mut playing = playing();
+    let snare = PieceId::Snare.slot().unwrap();
+    playing.style.offsets[snare] = 0.3;
+    playing.style.strikers[snare] = Some(Striker::Nylon);
+    let strike = playing.note_on(38, 1.0, 9).unwrap().strike;
+    assert!((strike.radius - 0.55).abs() < 1e-12);
+    assert_eq!(strike.striker, Striker::Nylon);
+    playing.style.offsets[snare] = -1.0;
+    assert_eq!(radius(&mut playing, 38), 0.0);
+}

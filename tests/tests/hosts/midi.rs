@@ -1,0 +1,168 @@
+//! Notes, controllers and chokes through the built plugin.
+
+use overhear::midi::maps::NoteMap;
+use overhear::midi_map;
+use overhear::parameters::{PARAMETERS, find};
+use overhear::performer::Performer;
+use xtask::host::{Event, Instance, What, parameter_id};
+
+use crate::score::{Sound, assert_same, peak};
+use crate::{alone, instance};
+
+const RATE: f64 = 48_000.0;
+
+const FRAMES: usize = 12_000;
+
+/// Plays events in one long buffer.
+fn play(instance: &mut Instance, events: &[(u32, What)]) -> Sound {
+    let events: Vec<_> = events.iter().map(|&(offset, what)| Event { offset, what }).collect();
+    instance
+        .run(RATE, 1..=FRAMES as u32, |processor| {
+            let (mut left, mut right) = (vec![0.0; FRAMES], vec![0.0; FRAMES]);
+            processor.process(&events, &mut left, &mut right)?;
+            Ok([left, right])
+        })
+        .unwrap()
+}
+
+fn on(key: u8) -> What {
+    What::NoteOn { channel: 9, key, velocity: 0.8 }
+}
+
+fn set(instance: &mut Instance, name: &str, value: f32) {
+    let parameter = &PARAMETERS[find(name).unwrap().0];
+    let value = f64::from(parameter.normalized(value));
+    instance.set_parameters(&[(parameter_id(parameter.id), value)]).unwrap();
+}
+
+fn energy(sound: &Sound, from: usize) -> f32 {
+    sound.iter().flat_map(|channel| &channel[from..]).map(|sample| sample * sample).sum()
+}
+
+#[test]
+fn every_note_of_every_map_sounds_or_is_silent_as_the_tables_say() {
+    let _turn = alone();
+    let mut instance = instance();
+    for (place, map) in NoteMap::ALL.into_iter().enumerate() {
+        set(&mut instance, "note_map", place as f32);
+        instance
+            .run(RATE, 1..=64, |processor| {
+                let (mut left, mut right) = ([0.0; 64], [0.0; 64]);
+                for key in 0..128 {
+                    processor.reset();
+                    let event = Event { offset: 0, what: on(key) };
+                    processor.process(&[event], &mut left, &mut right)?;
+                    // A felt beater gets going late; any motion of the surface is heard.
+                    processor.process(&[], &mut left, &mut right)?;
+                    let sounds = left.iter().any(|sample| *sample != 0.0);
+                    assert_eq!(sounds, map.stroke(key).is_some(), "{map:?}, note {key}");
+                }
+                Ok(())
+            })
+            .unwrap();
+    }
+}
+
+#[test]
+fn notes_of_a_module_are_the_reference_notes_they_play() {
+    let _turn = alone();
+    let mut instance = instance();
+    for (place, map) in NoteMap::ALL.into_iter().enumerate().skip(1) {
+        for pad in map.pads().unwrap().iter().filter(|pad| midi_map::stroke(pad.plays).is_some()).step_by(5) {
+            set(&mut instance, "note_map", 0.0);
+            let expected = play(&mut instance, &[(7, on(pad.plays))]);
+            set(&mut instance, "note_map", place as f32);
+            let found = play(&mut instance, &[(7, on(pad.note))]);
+            assert_same(&found, &expected, &format!("{map:?}: {}", pad.name));
+        }
+    }
+}
+
+#[test]
+fn midi_bytes_play_as_notes_do() {
+    let _turn = alone();
+    let mut instance = instance();
+    let note = What::NoteOn { channel: 9, key: 38, velocity: 100.0 / 127.0 };
+    let sound = play(&mut instance, &[(7, note)]);
+    assert!(peak(&sound) > 0.0);
+    assert_same(&play(&mut instance, &[(7, What::Midi([0x99, 38, 100]))]), &sound, "as bytes");
+    for silent in [
+        What::Midi([0x99, 38, 0]),
+        What::Midi([0x89, 38, 100]),
+        What::Midi([0xB9, 38, 100]),
+        What::NoteOff { channel: 9, key: 38 },
+        What::Choke { channel: 9, key: 38 },
+        What::NoteOn { channel: 9, key: 38, velocity: 0.0 },
+        What::NoteOn { channel: 9, key: 39, velocity: 1.0 },
+        What::NoteOn { channel: 9, key: 127, velocity: 1.0 },
+    ] {
+        assert_eq!(peak(&play(&mut instance, &[(7, silent)])), 0.0, "{silent:?}");
+    }
+}
+
+#[test]
+fn controllers_reach_the_stroke_and_only_its_own() {
+    let _turn = alone();
+    let mut instance = instance();
+    let plain = play(&mut instance, &[(9, on(38))]);
+    for (bytes, changes) in [
+        ([0xB9, 16, 127], true),
+        ([0xB9, 88, 64], true),
+        ([0xB0, 88, 64], false),
+        ([0xB9, 17, 127], false),
+        ([0xB9, 1, 127], false),
+    ] {
+        let moved = play(&mut instance, &[(3, What::Midi(bytes)), (9, on(38))]);
+        assert_eq!(moved != plain, changes, "{bytes:?}");
+    }
+    // What was said to the performer directly sounds the same, to the sample.
+    let mut performer = Performer::new(RATE);
+    performer.install_kit(RATE).unwrap();
+    let mut expected = [vec![0.0; FRAMES], vec![0.0; FRAMES]];
+    let [left, right] = &mut expected;
+    performer.control_change(16, 100.0 / 127.0, 9);
+    performer.render(&mut left[..9], &mut right[..9]);
+    performer.note_on(38, 0.8, 9);
+    performer.render(&mut left[9..], &mut right[9..]);
+    let found = play(&mut instance, &[(9, What::Midi([0xB9, 16, 100])), (9, on(38))]);
+    assert_same(&found, &expected, "position 100");
+}
+
+#[test]
+fn the_channel_filter_hears_one_channel() {
+    let _turn = alone();
+    let mut instance = instance();
+    set(&mut instance, "midi_channel", 10.0);
+    assert!(peak(&play(&mut instance, &[(0, on(38))])) > 0.0);
+    let other = What::NoteOn { channel: 3, key: 38, velocity: 0.8 };
+    assert_eq!(peak(&play(&mut instance, &[(0, other)])), 0.0);
+}
+
+#[test]
+fn cymbals_are_choked_as_the_rule_says_and_drums_never() {
+    let _turn = alone();
+    let mut instance = instance();
+    let pressure = What::Midi([0xA9, 49, 127]);
+    let off = What::NoteOff { channel: 9, key: 49 };
+    let choke = What::Choke { channel: 9, key: 49 };
+    let ringing = energy(&play(&mut instance, &[(0, on(49))]), 8_000);
+    for (rule, message, chokes) in [
+        (1.0, pressure, true),
+        (1.0, off, false),
+        (1.0, choke, true),
+        (2.0, pressure, false),
+        (2.0, off, true),
+        (3.0, pressure, true),
+        (3.0, off, true),
+        (0.0, pressure, false),
+        (0.0, off, false),
+    ] {
+        set(&mut instance, "chokes", rule);
+        let left = energy(&play(&mut instance, &[(0, on(49)), (2_400, message)]), 8_000);
+        assert_eq!(left < 0.05 * ringing, chokes, "rule {rule}, {message:?}: {left} of {ringing}");
+    }
+    set(&mut instance, "chokes", 3.0);
+    let drum = play(&mut instance, &[(0, on(36))]);
+    let gripped = play(&mut instance, &[(0, on(36)), (2_400, What::Midi([0xA9, 36, 127]))]);
+    assert_same(&gripped, &drum, "a drum under a hand");
+}
