@@ -324,9 +324,9 @@ impl Kit {
         let Kit { posts, air, desk, clock, .. } = self;
         // Levels move even where nothing plays yet: when a piece is ready must not matter.
         let levels = desk.levels(samples);
-        let mut outputs = outputs.iter_mut().map(|output| {
-            output.each_mut().map(|side| side.get_mut(at..at + samples).unwrap_or_default())
-        });
+        let mut outputs = outputs
+            .iter_mut()
+            .map(|output| output.each_mut().map(|side| side.get_mut(at..at + samples).unwrap_or_default()));
         for (slot, post) in posts.iter().enumerate() {
             if let Some(post) = post {
                 air.send(slot, *clock, post);

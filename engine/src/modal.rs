@@ -353,7 +353,10 @@ impl ModalBody {
     /// Pressure at a pickup now, without what follows the force at once.
     pub fn listen(&self, pickup: &Pickup) -> Heard {
         let dot = |weights, state| self.kernels.dot(weights, state);
-        pickup.ears.each_ref().map(|ear| dot(&ear.weight_re, &self.state.re) + dot(&ear.weight_im, &self.state.im))
+        pickup
+            .ears
+            .each_ref()
+            .map(|ear| dot(&ear.weight_re, &self.state.re) + dot(&ear.weight_im, &self.state.im))
     }
 
     /// Advances without force and listens after each sample: [`step`](Self::step) and

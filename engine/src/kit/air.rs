@@ -64,7 +64,8 @@ impl Air {
             }
         }
         let drums = PieceId::KIT.iter().enumerate().filter(|(_, id)| id.is_drum());
-        let ways = drums.flat_map(|(to, _)| (0..PIECES).filter(move |&from| from != to).map(move |from| (to, from)));
+        let ways =
+            drums.flat_map(|(to, _)| (0..PIECES).filter(move |&from| from != to).map(move |from| (to, from)));
         let reach = ways.map(|(to, from)| air.heard[to][from].reach()).min();
         air.min_delay = reach.unwrap_or(BLOCK).max(1);
         (0..PIECES).for_each(|piece| air.place_close(piece, CLOSE));
@@ -154,7 +155,14 @@ impl Air {
     }
 
     /// All pieces at a pair of microphones, each at its level; nothing if nobody listens.
-    pub(super) fn pair(&mut self, pair: usize, clock: u64, samples: usize, levels: &GainRuns, desk: &Desk) -> PairRun {
+    pub(super) fn pair(
+        &mut self,
+        pair: usize,
+        clock: u64,
+        samples: usize,
+        levels: &GainRuns,
+        desk: &Desk,
+    ) -> PairRun {
         let mut heard = [SILENT_RUN; 2];
         if desk.is_shut(pair) {
             // What moves has arrived when somebody listens again.
@@ -181,7 +189,13 @@ impl Air {
     }
 
     /// Adds the room's tail of what is sent out now.
-    pub(super) fn tail(&mut self, posts: &[Option<Box<Post>>], levels: &GainRuns, out: &mut PairRun, samples: usize) {
+    pub(super) fn tail(
+        &mut self,
+        posts: &[Option<Box<Post>>],
+        levels: &GainRuns,
+        out: &mut PairRun,
+        samples: usize,
+    ) {
         let mut sound = SILENT_RUN;
         for (post, level) in posts.iter().zip(levels) {
             if let Some(post) = post.as_deref().filter(|post| !post.is_silent()) {

@@ -151,7 +151,13 @@ impl Desk {
     }
 
     /// Adds a strip's sound (Pa, already at the pieces' levels) to the mix, and writes it to its own output.
-    pub(super) fn add(&mut self, at: usize, sound: [&[f32]; 2], mix: &mut Stereo<'_>, own: Option<Stereo<'_>>) {
+    pub(super) fn add(
+        &mut self,
+        at: usize,
+        sound: [&[f32]; 2],
+        mix: &mut Stereo<'_>,
+        own: Option<Stereo<'_>>,
+    ) {
         let strip = &mut self.strips[at];
         let samples = mix[0].len();
         let gains = strip.gain.run(samples);
@@ -160,7 +166,9 @@ impl Desk {
         for side in 0..2 {
             let mut share = [0.0; BLOCK];
             let share = &mut share[..samples];
-            for (((share, sound), gain), pan) in share.iter_mut().zip(sound[side]).zip(&gains).zip(&pans[side]) {
+            for (((share, sound), gain), pan) in
+                share.iter_mut().zip(sound[side]).zip(&gains).zip(&pans[side])
+            {
                 *share = pan * (sound * (gain / FULL_SCALE));
             }
             strip.peak = share.iter().fold(strip.peak, |peak, x| peak.max(x.abs()));

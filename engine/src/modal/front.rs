@@ -27,7 +27,14 @@ impl Front {
     pub fn new(modes: usize) -> Front {
         let row = || zero_row(modes);
         let length = modes.div_ceil(LANES) * LANES;
-        Front { length, kept: row(), ahead_re: row(), ahead_im: row(), kinetic: row(), jolt: std::array::from_fn(|_| row()) }
+        Front {
+            length,
+            kept: row(),
+            ahead_re: row(),
+            ahead_im: row(),
+            kinetic: row(),
+            jolt: std::array::from_fn(|_| row()),
+        }
     }
 
     /// Modes in front, padded to whole lanes.
@@ -92,8 +99,12 @@ impl ModalBody {
     /// Pressure at a pickup from the modes in front alone; see [`listen`](Self::listen).
     pub fn listen_front(&self, front: &Front, pickup: &Pickup) -> Heard {
         let n = front.length.min(self.state.im.len());
-        let dot = |weights: &[f32], state: &[f32]| self.kernels.dot(&weights[..n.min(weights.len())], &state[..n]);
-        pickup.ears.each_ref().map(|ear| dot(&ear.weight_re, &self.state.re) + dot(&ear.weight_im, &self.state.im))
+        let dot =
+            |weights: &[f32], state: &[f32]| self.kernels.dot(&weights[..n.min(weights.len())], &state[..n]);
+        pickup
+            .ears
+            .each_ref()
+            .map(|ear| dot(&ear.weight_re, &self.state.re) + dot(&ear.weight_im, &self.state.im))
     }
 
     /// [`push`](Self::push) of the modes in front alone.

@@ -442,7 +442,7 @@ impl Kernel for &mut Ring<'_> {
         let mut sums = [[simd.splat_f32s(0.0); EARS]; MAX_RUN];
         let re = S::as_mut_simd_f32s(self.re).0;
         let im = S::as_mut_simd_f32s(self.im).0;
-        let rows = RingRows::new(&self.turn_re, &self.turn_im, &self.heard);
+        let rows = RingRows::new(self.turn_re, self.turn_im, &self.heard);
         let groups = re.len();
         let mut first = 0;
         while first + GROUPS <= groups {
@@ -473,7 +473,8 @@ struct RingRows<'a, S: Simd> {
 impl<'a, S: Simd> RingRows<'a, S> {
     #[inline(always)]
     fn new(turn_re: &'a [f32], turn_im: &'a [f32], heard: &'a [Heard<'_>; EARS]) -> Self {
-        let rows = |heard: &'a Heard<'_>| [heard.weight_re, heard.weight_im].map(|row| S::as_simd_f32s(row).0);
+        let rows =
+            |heard: &'a Heard<'_>| [heard.weight_re, heard.weight_im].map(|row| S::as_simd_f32s(row).0);
         RingRows {
             turn: [turn_re, turn_im].map(|row| S::as_simd_f32s(row).0),
             heard: heard.each_ref().map(rows),

@@ -263,8 +263,9 @@ mod tests {
         let nodes = 140;
         let (a, distance) = (plate.spec.radius(), 40.0);
         let rule = GaussLegendre::new(120, 0.0, FRAC_PI_2);
-        let disc =
-            |inclination| FreeDisc::new(a, [ListeningPoint { distance, inclination, azimuth: 0.0 }; 2], nodes);
+        let disc = |inclination| {
+            FreeDisc::new(a, [ListeningPoint { distance, inclination, azimuth: 0.0 }; 2], nodes)
+        };
         let shapes = plate.radial_shapes(&tables, disc(0.0).radii());
         for (m, n) in [(0, 1), (1, 1), (4, 5), (0, 8), (10, 9), (5, 18)] {
             let i = plate.shells.iter().position(|s| (s.m, s.n) == (m, n)).unwrap();

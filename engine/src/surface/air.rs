@@ -85,7 +85,8 @@ impl Surface {
         for k in 0..self.body.len() {
             let far = self.pickup.transfer_mut(1)[k];
             let (volume, left) = (f64::from(listener.port.shape()[k]), 1.0 - f64::from(listener.shares[k]));
-            self.pickup.transfer_mut(EARS - 1)[k] = [left * far[0] - DENSITY * volume / (4.0 * PI), left * far[1]];
+            self.pickup.transfer_mut(EARS - 1)[k] =
+                [left * far[0] - DENSITY * volume / (4.0 * PI), left * far[1]];
         }
     }
 
