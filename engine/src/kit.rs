@@ -75,6 +75,7 @@ pub struct Kit {
     clock: u64,
     dropped_strikes: u32,
     missed_runs: u32,
+    resets: u32,
 }
 
 impl Kit {
@@ -102,6 +103,7 @@ impl Kit {
             clock: 0,
             dropped_strikes: 0,
             missed_runs: 0,
+            resets: 0,
         }
     }
 
@@ -321,15 +323,25 @@ impl Kit {
         let samples = main[0].len();
         main.iter_mut().for_each(|side| side.fill(0.0));
         self.render_posts(samples);
-        let Kit { posts, air, desk, clock, .. } = self;
+        let Kit { posts, air, desk, clock, missed_runs, .. } = self;
         // Levels move even where nothing plays yet: when a piece is ready must not matter.
         let levels = desk.levels(samples);
         let mut outputs = outputs
             .iter_mut()
             .map(|output| output.each_mut().map(|side| side.get_mut(at..at + samples).unwrap_or_default()));
+        let mut sent = [0.0; BLOCK];
         for (slot, post) in posts.iter().enumerate() {
-            if let Some(post) = post {
-                air.send(slot, *clock, post);
+            // One that has come back late has the sound of an earlier run.
+            match post.as_ref().filter(|post| post.due == *clock) {
+                Some(post) => {
+                    air.send(slot, *clock, post);
+                    let terms = sent.iter_mut().zip(&post.sound[1]).zip(&levels[slot]);
+                    terms.take(samples).for_each(|((sum, sound), level)| *sum += level * sound);
+                }
+                None => {
+                    air.send_silence(slot, *clock, samples);
+                    *missed_runs = missed_runs.saturating_add(1);
+                }
             }
             let mut sound = [0.0; BLOCK];
             let sound = &mut sound[..samples];
@@ -340,7 +352,7 @@ impl Kit {
         for pair in 0..PAIRS {
             let mut heard = air.pair(pair, *clock, samples, &levels, desk);
             if pair + 1 == PAIRS && !desk.is_shut(pair) {
-                air.tail(posts, &levels, &mut heard, samples);
+                air.tail(&sent[..samples], &mut heard);
             }
             let [left, right] = heard.each_ref().map(|side| &side[..samples]);
             desk.add(PieceId::KIT.len() + pair, [left, right], &mut main, outputs.next());
@@ -353,14 +365,10 @@ impl Kit {
         let deaf = self.ears.is_shut();
         let amount = self.ears.run(samples);
         for (slot, (id, post)) in PieceId::KIT.iter().zip(&mut self.posts).enumerate() {
-            match post {
-                Some(post) => {
-                    (post.run, post.hears) = (samples, false);
-                    if id.is_drum() && !deaf {
-                        self.air.arrive(slot, self.clock, &amount, post);
-                    }
-                }
-                None => self.missed_runs = self.missed_runs.saturating_add(1),
+            let Some(post) = post else { continue };
+            post.prepare(self.resets, self.clock, samples);
+            if id.is_drum() && !deaf {
+                self.air.arrive(slot, self.clock, &amount, post);
             }
         }
         match &mut self.crew {
@@ -381,10 +389,9 @@ impl Kit {
     /// No allocation, no lock; linear in the number of modes.
     pub fn reset(&mut self) {
         self.finish_controls();
-        for post in self.posts.iter_mut().flatten() {
-            post.piece.iter_mut().for_each(|piece| piece.reset());
-            post.leaving.cut();
-        }
+        self.resets = self.resets.wrapping_add(1);
+        // One that is away follows when it is back.
+        self.posts.iter_mut().flatten().for_each(|post| post.reset(self.resets));
         self.air.reset();
         self.desk.reset();
         self.clock = 0;

@@ -146,6 +146,11 @@ impl Air {
         }
     }
 
+    /// Nothing came from a piece.
+    pub(super) fn send_silence(&mut self, piece: usize, clock: u64, samples: usize) {
+        self.lines[piece].iter_mut().for_each(|line| line.send(clock, &SILENT_RUN[..samples]));
+    }
+
     /// A piece at its close microphone.
     pub(super) fn close(&self, piece: usize, clock: u64, out: &mut [f32]) {
         let line = &self.lines[piece][0];
@@ -188,23 +193,10 @@ impl Air {
         heard
     }
 
-    /// Adds the room's tail of what is sent out now.
-    pub(super) fn tail(
-        &mut self,
-        posts: &[Option<Box<Post>>],
-        levels: &GainRuns,
-        out: &mut PairRun,
-        samples: usize,
-    ) {
-        let mut sound = SILENT_RUN;
-        for (post, level) in posts.iter().zip(levels) {
-            if let Some(post) = post.as_deref().filter(|post| !post.is_silent()) {
-                let terms = sound.iter_mut().zip(&post.sound[1]).zip(level);
-                terms.take(samples).for_each(|((sum, sound), level)| *sum += level * sound);
-            }
-        }
-        let [left, right] = out.each_mut().map(|side| &mut side[..samples]);
-        self.tail.render(&sound[..samples], [left, right]);
+    /// Adds the room's tail of what is sent out now, far away as at a metre.
+    pub(super) fn tail(&mut self, sent: &[f32], out: &mut PairRun) {
+        let [left, right] = out.each_mut().map(|side| &mut side[..sent.len()]);
+        self.tail.render(sent, [left, right]);
     }
 
     /// Makes silence exact; meant for now and then, on the kit's clock.

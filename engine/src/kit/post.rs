@@ -13,7 +13,10 @@ pub struct Post {
     pub(super) piece: Option<Box<Piece>>,
     /// What it has replaced.
     pub(super) leaving: Leaving,
-    /// Samples of the run.
+    /// Resets of the kit that it knows of.
+    resets: u32,
+    /// When the run begins, and its samples.
+    pub(super) due: u64,
     pub(super) run: usize,
     /// Whether anything arrives.
     pub(super) hears: bool,
@@ -28,6 +31,8 @@ impl Post {
         Post {
             piece: None,
             leaving: Leaving::new(sample_rate),
+            resets: 0,
+            due: 0,
             run: 0,
             hears: false,
             incident: [0.0; BLOCK],
@@ -35,12 +40,33 @@ impl Post {
         }
     }
 
+    /// Gets ready for a run of the kit's clock, which has been reset so many times.
+    pub(super) fn prepare(&mut self, resets: u32, clock: u64, samples: usize) {
+        self.reset(resets);
+        // Not so if it has come back late, or after a reset.
+        if self.due.wrapping_add(self.run as u64) != clock {
+            let phase = (clock % BLOCK as u64) as usize;
+            self.piece.iter_mut().for_each(|piece| piece.align(phase));
+            self.leaving.cut();
+        }
+        (self.due, self.run, self.hears) = (clock, samples, false);
+    }
+
+    /// Puts everything to rest if the kit has been reset more often than is known here.
+    pub(super) fn reset(&mut self, resets: u32) {
+        if std::mem::replace(&mut self.resets, resets) == resets {
+            return;
+        }
+        self.piece.iter_mut().for_each(|piece| piece.reset());
+        self.leaving.cut();
+    }
+
     /// Renders the run.
     ///
     /// # Real-time
     /// No allocation, no lock.
     pub fn render(&mut self) {
-        let Post { piece, leaving, run, hears, incident, sound } = self;
+        let Post { piece, leaving, run, hears, incident, sound, .. } = self;
         let out = sound.each_mut().map(|row| &mut row[..*run]);
         match piece {
             Some(piece) => piece.render_in_air(out, hears.then_some(&incident[..*run])),
@@ -49,14 +75,15 @@ impl Post {
         leaving.render(sound.each_mut().map(|row| &mut row[..*run]));
     }
 
-    /// Whether nothing comes out.
-    pub(super) fn is_silent(&self) -> bool {
-        self.sound.iter().all(|row| row[..self.run].iter().all(|&x| x == 0.0))
+    /// Says that the run could not be rendered: the piece is silent for it, and the kit counts that.
+    pub fn give_up(&mut self) {
+        self.due = u64::MAX;
+        self.run = 0;
     }
 
     /// Whether there is something to do that is worth handing over.
     pub fn is_busy(&self) -> bool {
-        self.piece.as_ref().is_some_and(|piece| !piece.is_asleep())
+        self.hears || self.piece.as_ref().is_some_and(|piece| !piece.is_asleep())
     }
 }
 
