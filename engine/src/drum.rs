@@ -116,7 +116,9 @@ impl Drum {
         let modes = lay_out(&spec, &blueprint, options);
         let muffler = MufflerCoefs::new(&spec, &blueprint);
         let points = [spec.listening_point, spec.far_point];
-        let hearing = points.map(|point| Hearing::new(&blueprint, &spec, point));
+        let near = Hearing::new(&blueprint, &spec, spec.listening_point);
+        let far = near.from(&blueprint, &spec, spec.far_point);
+        let hearing = [near, far];
         let bare =
             |mode: &BodyMode| Mode { omega: rungs[mode.pair].omega, sigma: 0.0, mass: rungs[mode.pair].mass };
         let mut surface = Surface::new(SurfaceParts {

@@ -322,7 +322,15 @@ impl Kit {
     fn render_run(&mut self, mut main: Stereo<'_>, outputs: &mut [Stereo<'_>], at: usize) {
         let samples = main[0].len();
         main.iter_mut().for_each(|side| side.fill(0.0));
+        let still = self.is_asleep() && self.desk.rests() && self.ears.rests();
         self.render_posts(samples);
+        // Asleep before and asleep after: nothing but silence has been sent.
+        if still && self.is_asleep() {
+            for side in outputs.iter_mut().flatten() {
+                side.get_mut(at..at + samples).into_iter().for_each(|side| side.fill(0.0));
+            }
+            return;
+        }
         let Kit { posts, air, desk, clock, missed_runs, .. } = self;
         // Levels move even where nothing plays yet: when a piece is ready must not matter.
         let levels = desk.levels(samples);
@@ -379,8 +387,7 @@ impl Kit {
 
     /// Whether nothing sounds and nothing is under way.
     pub fn is_asleep(&self) -> bool {
-        let pieces = self.posts.iter().flatten().filter_map(|post| post.piece.as_ref());
-        self.air.is_silent() && pieces.into_iter().all(|piece| piece.is_asleep())
+        self.air.is_silent() && self.posts.iter().flatten().all(|post| post.is_asleep())
     }
 
     /// Puts every piece to rest and the clock to zero; controls keep their values and arrive.

@@ -78,7 +78,10 @@ fn same_bits(rate: f64, seconds: f64, workers: &[usize], buffers: &[usize]) {
             let mut chance = Chance::new(7);
             // A length of 0 is one of all.
             let buffer = || if length == 0 { 1 + chance.below(2_000) } else { length };
-            assert!(whole == play(rate, seconds, workers, buffer), "{workers} workers, {length} at {rate} Hz");
+            assert!(
+                whole == play(rate, seconds, workers, buffer),
+                "{workers} workers, {length} at {rate} Hz"
+            );
         }
     }
 }

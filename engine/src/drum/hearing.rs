@@ -56,6 +56,20 @@ pub struct Hearing {
 impl Hearing {
     /// Works it out for a point. Allocates; takes hundredths of a second.
     pub fn new(blueprint: &Blueprint, spec: &DrumSpec, point: ListeningPoint) -> Hearing {
+        Hearing::with(blueprint, spec, point, None)
+    }
+
+    /// The same for another point, where modes among many change with the pitch as they do here: three times as fast.
+    pub fn from(&self, blueprint: &Blueprint, spec: &DrumSpec, point: ListeningPoint) -> Hearing {
+        Hearing::with(blueprint, spec, point, Some(self))
+    }
+
+    fn with(
+        blueprint: &Blueprint,
+        spec: &DrumSpec,
+        point: ListeningPoint,
+        near: Option<&Hearing>,
+    ) -> Hearing {
         let (lowest, default, highest) = spec.pitch_hz;
         let place = blueprint.scale.place(default);
         let ends = [lowest, highest].map(|pitch| blueprint.scale.place(pitch));
@@ -63,9 +77,12 @@ impl Hearing {
         let few = Ears::new(blueprint, spec, point, 2.5 * limit);
         let all = Ears::new(blueprint, spec, point, TAU * spec.batter.limit_hz);
         let pitches = blueprint.scale.pitches();
-        let hear = |mode: &TunedMode| {
+        let hear = |(pair, mode): (usize, &TunedMode)| {
             if mode.at(&place).omega > limit {
                 let default = all.transfer(mode, &place);
+                if let Some(PairHearing::Together { ends, .. }) = near.map(|near| &near.pairs[pair]) {
+                    return PairHearing::Together { default, ends: *ends };
+                }
                 let size = |[re, im]: [f32; 2]| re.hypot(im);
                 let least = LEAST * size(default);
                 let end = |place| (size(all.transfer(mode, place)).max(least) / size(default)).ln();
@@ -75,7 +92,7 @@ impl Hearing {
             let at = |pitch: usize| few.transfer(mode, &blueprint.scale.place(pitches[pitch]));
             PairHearing::Singly(mode.grid().pitches().map(at).collect())
         };
-        let pairs = blueprint.modes.iter().map(hear).collect();
+        let pairs = blueprint.modes.iter().enumerate().map(hear).collect();
         let mut members = Vec::new();
         for (pair, mode) in blueprint.modes.iter().enumerate() {
             let axis = spec.splitting.axis(mode.m, 0);

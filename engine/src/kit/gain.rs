@@ -43,6 +43,11 @@ impl Gain {
         self.value == 0.0 && self.target == 0.0
     }
 
+    /// Whether it has arrived.
+    pub(super) fn rests(&self) -> bool {
+        self.value == self.target
+    }
+
     /// Advances by a run; its values.
     pub(super) fn run(&mut self, samples: usize) -> GainRun {
         if self.value == self.target {
@@ -91,6 +96,11 @@ impl Pan {
     pub(super) fn set_balance(&mut self, side: f64) {
         self.sides[0].set((1.0 - side).clamp(0.0, 1.0) as f32);
         self.sides[1].set((1.0 + side).clamp(0.0, 1.0) as f32);
+    }
+
+    /// Whether it has arrived.
+    pub(super) fn rests(&self) -> bool {
+        self.sides.iter().all(Gain::rests)
     }
 
     /// Gains of the left and the right output over a run.

@@ -36,6 +36,11 @@ impl Leaving {
         if self.left == 0 { self.piece.take() } else { None }
     }
 
+    /// Whether nobody is heard leaving.
+    pub fn is_over(&self) -> bool {
+        self.left == 0
+    }
+
     /// Lets whoever leaves be silent from now on.
     pub fn cut(&mut self) {
         self.left = 0;

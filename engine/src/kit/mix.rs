@@ -179,6 +179,13 @@ impl Desk {
         }
     }
 
+    /// Whether every gain has arrived: then silence is mixed by leaving it as it is.
+    pub(super) fn rests(&self) -> bool {
+        self.master.rests()
+            && self.levels.iter().all(Gain::rests)
+            && self.strips.iter().all(|strip| strip.gain.rests() && strip.pan.rests())
+    }
+
     /// Brings the mix to its level.
     pub(super) fn finish(&mut self, mix: &mut Stereo<'_>) {
         let gains = self.master.run(mix[0].len());

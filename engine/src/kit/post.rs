@@ -75,6 +75,11 @@ impl Post {
         leaving.render(sound.each_mut().map(|row| &mut row[..*run]));
     }
 
+    /// Whether nothing comes from it and nothing leaves.
+    pub(super) fn is_asleep(&self) -> bool {
+        self.leaving.is_over() && self.piece.as_ref().is_none_or(|piece| piece.is_asleep())
+    }
+
     /// Says that the run could not be rendered: the piece is silent for it, and the kit counts that.
     pub fn give_up(&mut self) {
         self.due = u64::MAX;
@@ -83,7 +88,7 @@ impl Post {
 
     /// Whether there is something to do that is worth handing over.
     pub fn is_busy(&self) -> bool {
-        self.hears || self.piece.as_ref().is_some_and(|piece| !piece.is_asleep())
+        self.hears || !self.is_asleep()
     }
 }
 
