@@ -1,5 +1,6 @@
 //! The table of parameters as the framework wants it, and what else a project stores.
 
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -7,8 +8,9 @@ use crossbeam::atomic::AtomicCell;
 use nice_plug::params::persist::{deserialize_field, serialize_field};
 use nice_plug::prelude::*;
 
-use crate::midi::assignments::Assignments;
-use crate::parameters::{PARAMETERS, Parameter};
+use crate::midi::assignments::{Assignment, Assignments, NOTES};
+use crate::midi::maps::NoteMap;
+use crate::parameters::{PARAMETERS, Parameter, find};
 use crate::state;
 
 /// Logical size of the editor's window, pixels: width, height.
@@ -41,7 +43,37 @@ impl Default for HostParameters {
     }
 }
 
+thread_local! {
+    /// The parameters of the instance that was made last on this thread.
+    static LATEST: RefCell<Option<Arc<HostParameters>>> = const { RefCell::new(None) };
+}
+
+/// Parameters of a new instance, kept for whoever makes it through the framework, which hands none out.
+pub fn for_new_instance() -> Arc<HostParameters> {
+    let parameters = Arc::<HostParameters>::default();
+    LATEST.set(Some(parameters.clone()));
+    parameters
+}
+
+/// The parameters of the instance that was made last on this thread, once.
+pub fn take_latest() -> Option<Arc<HostParameters>> {
+    LATEST.take()
+}
+
 impl HostParameters {
+    /// Every note that sounds, with its name.
+    pub fn note_names(&self) -> Vec<(u8, &'static str)> {
+        let map = find("note_map").ok().and_then(|(index, _)| self.values.get(index));
+        let map = map.map_or(0, |value| value.unmodulated_plain_value() as usize);
+        let map = NoteMap::ALL.get(map).copied().unwrap_or_default();
+        let name = |note: u8| match self.assignments.of(note) {
+            Assignment::Mapped => map.name(note),
+            Assignment::Silent => None,
+            Assignment::Plays(reference) => NoteMap::GeneralMidi.name(reference),
+        };
+        (0..NOTES as u8).filter_map(|note| Some((note, name(note)?))).collect()
+    }
+
     /// The parameters, in the order of [`PARAMETERS`].
     pub fn values(&self) -> &[FloatParam] {
         &self.values

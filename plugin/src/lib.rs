@@ -26,6 +26,7 @@ pub mod parameters;
 pub mod performer;
 #[cfg(feature = "framework")]
 pub mod plugin;
+pub mod presets;
 #[cfg(feature = "framework")]
 pub mod state;
 
@@ -41,12 +42,5 @@ pub const MULTI_NAME: &str = "Overhear Multi";
 /// Id in CLAP hosts of the instrument with an output for every piece. Frozen.
 pub const MULTI_CLAP_ID: &str = "org.overhear.overhear-multi";
 
-/// The entry points that hosts look for in the library.
 #[cfg(feature = "framework")]
-#[allow(unsafe_code, missing_docs)]
-mod entry {
-    use crate::plugin::Overhear;
-
-    nice_plug::nice_export_clap!(Overhear);
-    nice_plug::nice_export_vst3!(Overhear);
-}
+mod entry;

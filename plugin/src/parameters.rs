@@ -106,6 +106,13 @@ pub struct Parameter {
     pub choices: &'static [&'static str],
 }
 
+impl Construction {
+    /// Whether it is a quality: the same instrument, computed more or less closely.
+    pub fn is_quality(self) -> bool {
+        matches!(self, Construction::Quality | Construction::OfflineQuality)
+    }
+}
+
 impl Parameter {
     /// The nearest value that the parameter can take: within the range and a multiple of the
     /// step. A value that is not a number gives the default.

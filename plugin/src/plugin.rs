@@ -21,7 +21,7 @@ use nice_plug_egui::RepaintNotifier;
 use crate::builder::{Builder, Delivery, Outcome};
 use crate::building::{BuildPlan, Pace};
 use crate::editor::OverhearEditor;
-use crate::host_parameters::HostParameters;
+use crate::host_parameters::{self, HostParameters};
 use crate::monitor::{self, Publisher, Viewer};
 use crate::outputs::{Apart, Buffers, Mix, Outputs};
 use crate::parameters::PARAMETERS;
@@ -67,7 +67,7 @@ impl<O> Default for Instrument<O> {
     fn default() -> Self {
         let repaint = RepaintNotifier::new();
         let (publisher, viewer) = monitor::monitor(repaint.clone());
-        let (parameters, offline) = (Arc::<HostParameters>::default(), Arc::<AtomicBool>::default());
+        let (parameters, offline) = (host_parameters::for_new_instance(), Arc::<AtomicBool>::default());
         let builder = {
             let (parameters, offline) = (parameters.clone(), offline.clone());
             Builder::new(Arc::new(move || plan(&parameters, &offline)))

@@ -87,7 +87,7 @@ fn bad_input_is_one_line_with_the_value_exit_code_2_and_no_output() {
         (&["render", "song.mid", "-o", "song.mid"], &["song.mid", "another name"]),
         (&["render", "cut.mid", "text.mid", "-o", "outs"], &["2 of 2 files failed"]),
         (&["render", "song.mid"], &["--output"]),
-        (&["render", "song.mid", "-o", "out.wav", "--preset", "jazz"], &["jazz", "default"]),
+        (&["render", "song.mid", "-o", "out.wav", "--preset", "polka"], &["polka", "default", "jazz"]),
         (&["render", "song.mid", "-o", "out.wav", "--set", "gong_tune=1"], &["gong_tune", "kick_tune"]),
         (&["render", "song.mid", "-o", "out.wav", "--set", "kick_tune=20"], &["20", "35 to 90 Hz"]),
         (&["render", "song.mid", "-o", "out.wav", "--set", "kick_tune"], &["kick_tune", "name=value"]),

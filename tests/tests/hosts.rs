@@ -11,6 +11,8 @@ mod identity;
 mod lifecycle;
 #[path = "hosts/midi.rs"]
 mod midi;
+#[path = "hosts/multi.rs"]
+mod multi;
 #[path = "hosts/score.rs"]
 mod score;
 #[path = "hosts/state.rs"]

@@ -7,16 +7,19 @@ mod arguments;
 
 use std::ffi::OsString;
 use std::io::Write;
+use std::path::Path;
 use std::process::ExitCode;
 
 use anyhow::Result;
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser};
+use overhear::presets::Library;
 
 use crate::{
-    bundle, demo, error, groove, hear, manual, modes, output, realism, render, report, settings, suite,
+    bundle, demo, error, groove, hear, manual, modes, output, presets, realism, render, report, settings,
+    suite,
 };
-use arguments::{HearArguments, ModesArguments, RealismArguments, RenderArguments, Task};
+use arguments::{HearArguments, ModesArguments, PresetTask, RealismArguments, RenderArguments, Task};
 
 /// Developer and user commands of Overhear.
 #[derive(Debug, Parser)]
@@ -86,6 +89,7 @@ fn dispatch(task: Task) -> Result<()> {
         Task::Modes(arguments) => modes(arguments),
         Task::Realism(arguments) => realism(arguments),
         Task::Report { pages, output } => report::run(&pages, &output.unwrap_or_else(report::folder)),
+        Task::Presets { folder, task } => presets(folder.as_deref(), task),
         Task::Docs => manual::write(),
         Task::Groove { output } => output::write(&output, &groove::file()),
     }
@@ -99,8 +103,21 @@ fn say(text: &str) -> Result<()> {
     }
 }
 
+fn presets(folder: Option<&Path>, task: Option<PresetTask>) -> Result<()> {
+    let library = folder.map_or_else(Library::default, Library::at);
+    match task {
+        None => say(&presets::list(&library)),
+        Some(PresetTask::Show { name }) => say(&presets::show(&library, &name)?),
+        Some(PresetTask::Save { name, from, set, about }) => {
+            say(&presets::save(&library, &name, &from, &set, about)?)
+        }
+        Some(PresetTask::Rename { from, to }) => presets::rename(&library, &from, &to),
+        Some(PresetTask::Delete { name }) => presets::delete(&library, &name),
+        Some(PresetTask::Check { files }) => say(&presets::check(&library, &files)?),
+    }
+}
+
 fn render(arguments: RenderArguments) -> Result<()> {
-    settings::check_preset(&arguments.preset)?;
     render::run(&arguments.into_request()?)
 }
 

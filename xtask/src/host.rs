@@ -95,4 +95,14 @@ impl Bundle {
     pub fn instantiate(&self) -> Result<Instance> {
         Instance::new(&self.entry, &self.plugins[0].id, &self.info)
     }
+
+    /// Makes an instance of the plugin of an id. This thread becomes its main thread.
+    ///
+    /// # Errors
+    /// If there is none or it refuses.
+    pub fn instantiate_id(&self, id: &str) -> Result<Instance> {
+        let plugin = self.plugins.iter().find(|plugin| plugin.id.to_str() == Ok(id));
+        let plugin = plugin.with_context(|| format!("the bundle holds no {id}"))?;
+        Instance::new(&self.entry, &plugin.id, &self.info)
+    }
 }

@@ -5,7 +5,7 @@
 //! engine itself or the built plugin in an embedded [`host`]; [`wav`] and [`output`] put it on
 //! disk. `hear` ([`hear`]) strikes one piece and measures it ([`analysis`]); `realism`
 //! ([`realism`]) sets every piece beside recordings; [`report`] writes pages of figures,
-//! [`manual`] those of the manual that come from the code; `modes` ([`modes`]) lists what vibrates.
+//! [`manual`] those of the manual that come from the code; [`presets`] keeps presets; `modes` ([`modes`]) lists what vibrates.
 //! [`demo`] plays the [`groove`] and draws a [`picture`] of it. [`bundle`] and [`suite`] build and test.
 #![deny(unsafe_op_in_unsafe_fn)]
 
@@ -22,6 +22,7 @@ pub mod modes;
 pub mod output;
 pub mod picture;
 pub mod player;
+pub mod presets;
 pub mod progress;
 pub mod realism;
 pub mod render;

@@ -1,9 +1,12 @@
 //! `--set name=value` and `--preset`: the parameters a command moves.
 
+use std::path::Path;
+
 use anyhow::Result;
 use overhear::midi::maps::NoteMap;
 use overhear::midi_map::Stroke;
 use overhear::parameters::{Drives, Manner, PARAMETERS, Parameter, parse_assignment};
+use overhear::presets::{self, Library, Preset};
 use overhear_engine::kit::Control;
 use overhear_engine::piece::{BuildOptions, Piece, PieceId};
 
@@ -11,9 +14,6 @@ use crate::bad_input;
 
 /// A parameter moved: its index in [`PARAMETERS`] and its plain value.
 pub type Setting = (usize, f32);
-
-/// The presets there are.
-const PRESETS: [&str; 1] = ["default"];
 
 /// Reads the values of `--set`.
 ///
@@ -30,16 +30,25 @@ pub fn stroke(settings: &[Setting], note: u8) -> Option<&'static Stroke> {
     NoteMap::ALL.get(map).copied().unwrap_or_default().stroke(note)
 }
 
-/// Checks the value of `--preset`.
+/// The values of `--preset`, a name or a file, and of `--set` after it.
 ///
 /// # Errors
-/// [`BadInput`](crate::error::BadInput) naming the presets.
-pub fn check_preset(name: &str) -> Result<()> {
-    if PRESETS.contains(&name) {
-        Ok(())
-    } else {
-        Err(bad_input!("no preset is called `{name}`, accepted: {}", PRESETS.join(", ")))
-    }
+/// [`BadInput`](crate::error::BadInput) naming the presets, or the line of the file that is wrong.
+pub fn preset_and_set(preset: &str, assignments: &[String]) -> Result<Vec<Setting>> {
+    let mut settings: Vec<Setting> = load_preset(preset)?.values.into_iter().collect();
+    settings.extend(parse(assignments)?);
+    Ok(settings)
+}
+
+/// A preset by its name in the user's library, or by the path of a file.
+///
+/// # Errors
+/// [`BadInput`](crate::error::BadInput) naming the presets, or the line of the file that is wrong.
+pub fn load_preset(preset: &str) -> Result<Preset> {
+    let path = Path::new(preset);
+    let is_file = path.extension().is_some_and(|extension| extension == "toml");
+    let loaded = if is_file { presets::load_file(path) } else { Library::default().load(preset) };
+    loaded.map_err(|error| bad_input!("{error}"))
 }
 
 /// The piece of that name.
@@ -188,8 +197,12 @@ mod tests {
     }
 
     #[test]
-    fn only_the_default_preset_is_known() {
-        assert!(check_preset("default").is_ok());
-        assert!(check_preset("jazz").unwrap_err().to_string().contains("accepted: default"));
+    fn settings_come_after_the_preset() {
+        assert_eq!(preset_and_set("default", &[]).unwrap(), []);
+        let jazz = preset_and_set("jazz", &["kick_tune=50".to_owned()]).unwrap();
+        assert!(jazz.len() > 5);
+        assert_eq!(jazz.last(), Some(&(0, 50.0)));
+        assert!(load_preset("polka").unwrap_err().to_string().contains("accepted: default, studio, jazz"));
+        assert!(load_preset("no/such.toml").unwrap_err().to_string().contains("no/such.toml"));
     }
 }

@@ -24,7 +24,7 @@ pub enum Control {
     SnarePreload,
     /// Whether the snare wires lie against the head: below one half they are off.
     SnareWires,
-    /// Level of a piece in every microphone, dB; at or below [`SILENT_DB`](super::SILENT_DB) the piece is silent.
+    /// Level of a piece in every microphone, dB; at or below [`SILENT_DB`](crate::kit::SILENT_DB) the piece is silent.
     /// What other pieces hear of it stays.
     Level(PieceId),
     /// Where a piece's close microphone lies in the stereo, -1 (left) to 1 (right); see

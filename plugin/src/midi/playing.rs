@@ -2,7 +2,7 @@
 //!
 //! Velocity is a stick speed, spaced in logarithms from [`SOFTEST`] to the dynamics, under a curve. Position
 //! controllers, the position and striker parameters and unevenness of the hand are added to what the map says.
-//! Nothing here touches the engine: what comes out is a [`Stroke`] or a [`Grip`] for the performer to pass on.
+//! Nothing here touches the engine: what comes out is a [`Played`] note or a [`Grip`] for the performer to pass on.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;

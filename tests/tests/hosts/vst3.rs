@@ -1,11 +1,11 @@
-//! The VST3 bundle in DawDreamer, a host built on JUCE.
+//! The VST3 bundle in DawDreamer and pedalboard, hosts built on JUCE.
 
 use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
 
 use overhear::parameters::{PARAMETERS, find};
-use serde_json::json;
+use serde_json::{Value, json};
 use xtask::host::parameter_id;
 use xtask::player::Blocks;
 use xtask::workspace::Format;
@@ -47,14 +47,6 @@ fn listed(index: usize) -> usize {
 
 /// Plays a score through the VST3 bundle, parameters `(index, plain value)` set before.
 fn through_vst3(name: &str, score: &Score, parameters: &[(usize, f32)], rate: f64, block: u32) -> Sound {
-    let (job, out) = (Scratch::new(&format!("{name}.json")), Scratch::new(&format!("{name}.f32")));
-    let notes: Vec<_> = score
-        .iter()
-        .map(|(sample, what)| match what {
-            Happening::Note(key, velocity) => json!([sample, key, velocity]),
-            Happening::Parameter(..) => unreachable!("scores for DawDreamer hold notes only"),
-        })
-        .collect();
     let parameters: Vec<_> = parameters
         .iter()
         .map(|&(index, value)| json!([listed(index), PARAMETERS[index].normalized(value)]))
@@ -64,15 +56,43 @@ fn through_vst3(name: &str, score: &Score, parameters: &[(usize, f32)], rate: f6
         "rate": rate,
         "block": block,
         "frames": frames(rate),
-        "notes": notes,
+        "notes": listed_notes(score),
         "parameters": parameters,
-        "out": out.0,
     });
+    through_python(name, "hosts/vst3.py", description)
+}
+
+/// Plays a score through a plugin of the VST3 bundle in pedalboard, which uses the main output only.
+pub fn through_pedalboard(name: &str, plugin: &str, score: &Score, rate: f64, block: u32) -> Sound {
+    let description = json!({
+        "plugin": bundle_path(Format::Vst3),
+        "name": plugin,
+        "rate": rate,
+        "block": block,
+        "frames": frames(rate),
+        "notes": listed_notes(score),
+    });
+    through_python(name, "hosts/pedalboard_vst3.py", description)
+}
+
+/// Notes as the scripts read them.
+fn listed_notes(score: &Score) -> Vec<Value> {
+    let note = |(sample, what): &(u64, Happening)| match what {
+        Happening::Note(key, velocity) => json!([sample, key, velocity]),
+        Happening::Parameter(..) => unreachable!("scores for other hosts hold notes only"),
+    };
+    score.iter().map(note).collect()
+}
+
+/// Lets a script do a job and reads the sound it leaves.
+fn through_python(name: &str, script: &str, mut description: Value) -> Sound {
+    let (job, out) = (Scratch::new(&format!("{name}.json")), Scratch::new(&format!("{name}.f32")));
+    description["out"] = json!(out.0);
     fs::write(&job.0, description.to_string()).unwrap();
-    let output = Command::new(python()).arg(here("hosts/vst3.py")).arg(&job.0).output().expect("Python");
+    let output = Command::new(python()).arg(here(script)).arg(&job.0).output().expect("Python");
     let said = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "DawDreamer failed ({}): {said}", output.status);
-    let bytes = fs::read(&out.0).expect("what DawDreamer wrote");
+    assert!(output.status.success(), "{script} failed ({}): {said}", output.status);
+    let bytes = fs::read(&out.0).expect("what the host wrote");
     let samples: Vec<f32> =
         bytes.chunks_exact(4).map(|four| f32::from_le_bytes(four.try_into().unwrap())).collect();
     let (left, right) = samples.split_at(samples.len() / 2);

@@ -47,6 +47,14 @@ pub enum Task {
         #[arg(short, long, value_name = "DIR")]
         output: Option<PathBuf>,
     },
+    /// List, show, save, rename, delete and check presets
+    Presets {
+        /// The folder of the user's presets, if not the platform's
+        #[arg(long, value_name = "DIR", global = true)]
+        folder: Option<PathBuf>,
+        #[command(subcommand)]
+        task: Option<PresetTask>,
+    },
     /// Write the manual's pages that come from the code: docs/midi.md and docs/parameters.md
     Docs,
     /// Write the demonstration groove (assets/groove.mid) anew
@@ -55,6 +63,47 @@ pub enum Task {
         /// The MIDI file to write
         #[arg(short, long, value_name = "FILE")]
         output: PathBuf,
+    },
+}
+
+/// What to do with presets; without anything they are listed.
+#[derive(Debug, Subcommand)]
+pub enum PresetTask {
+    /// Print a preset's file
+    Show {
+        /// A name
+        name: String,
+    },
+    /// Save a preset from another one and from values
+    Save {
+        /// Its name
+        name: String,
+        /// The preset to start from
+        #[arg(long, value_name = "NAME", default_value = "default")]
+        from: String,
+        /// Move a parameter, as in kick_tune=60; repeatable
+        #[arg(long, value_name = "NAME=VALUE")]
+        set: Vec<String>,
+        /// What it is for, in a line
+        #[arg(long, default_value = "")]
+        about: String,
+    },
+    /// Give one of your presets another name
+    Rename {
+        /// The name it has
+        from: String,
+        /// The name it gets
+        to: String,
+    },
+    /// Delete one of your presets
+    Delete {
+        /// A name
+        name: String,
+    },
+    /// Check files, or all presets if none is given
+    Check {
+        /// Files
+        files: Vec<PathBuf>,
     },
 }
 
@@ -67,9 +116,9 @@ pub struct RenderArguments {
     /// The WAV file to write; a folder for several songs
     #[arg(short, long, value_name = "OUT.wav")]
     output: PathBuf,
-    /// Start from a preset; `default` is the only one yet
-    #[arg(long, value_name = "NAME", default_value = "default")]
-    pub preset: String,
+    /// Start from a preset: a name that `presets` lists, or a file
+    #[arg(long, value_name = "NAME|FILE.toml", default_value = "default")]
+    preset: String,
     /// Move a parameter before the start, as in kick_tune=60 or ride_level=-6; repeatable
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
@@ -117,7 +166,7 @@ impl RenderArguments {
             style: render::Style {
                 source,
                 rate: self.rate,
-                settings: settings::parse(&self.set)?,
+                settings: settings::preset_and_set(&self.preset, &self.set)?,
                 blocks: self.block,
                 bits: self.bits,
                 tail: self.tail,

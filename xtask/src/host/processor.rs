@@ -8,6 +8,9 @@ use clack_host::process::StartedPluginAudioProcessor;
 use super::event::Event;
 use super::handlers::Host;
 
+/// Outputs there is room for. With more the list of channels would have to grow while ports point into it.
+const PORTS: usize = 16;
+
 /// Renders buffers, on the audio thread, between start and stop.
 pub struct Processor {
     started: StartedPluginAudioProcessor<Host>,
@@ -23,7 +26,7 @@ impl Processor {
     pub(super) fn new(started: StartedPluginAudioProcessor<Host>, max_frames: u32) -> Processor {
         Processor {
             started,
-            ports: AudioPorts::with_capacity(2, 1),
+            ports: AudioPorts::with_capacity(2 * PORTS, PORTS),
             input: EventBuffer::with_capacity(256),
             output: EventBuffer::with_capacity(64),
             max_frames,
@@ -41,18 +44,28 @@ impl Processor {
     /// # Errors
     /// If the buffers are of different or too great lengths, or the plugin fails.
     pub fn process(&mut self, events: &[Event], left: &mut [f32], right: &mut [f32]) -> Result<()> {
-        ensure!(left.len() == right.len(), "the two channels differ in length");
-        ensure!(left.len() <= self.max_frames as usize, "the plugin was activated for less");
+        self.process_ports(events, &mut [[left, right]])
+    }
+
+    /// Renders one buffer of as many stereo outputs as are given, the main one first.
+    ///
+    /// # Errors
+    /// As [`process`](Self::process).
+    pub fn process_ports(&mut self, events: &[Event], ports: &mut [[&mut [f32]; 2]]) -> Result<()> {
+        let frames = ports.first().map_or(0, |[left, _]| left.len());
+        let same = ports.iter().flatten().all(|channel| channel.len() == frames);
+        ensure!(same, "the channels differ in length");
+        ensure!(ports.len() <= PORTS, "more outputs than there is room for");
+        ensure!(frames <= self.max_frames as usize, "the plugin was activated for less");
         self.input.clear();
         self.output.clear();
         for event in events {
             event.push(&mut self.input);
         }
-        let frames = left.len() as u64;
-        let mut outputs = self.ports.with_output_buffers([AudioPortBuffer {
+        let mut outputs = self.ports.with_output_buffers(ports.iter_mut().map(|port| AudioPortBuffer {
             latency: 0,
-            channels: AudioPortBufferType::f32_output_only([left, right].into_iter()),
-        }]);
+            channels: AudioPortBufferType::f32_output_only(port.iter_mut().map(|channel| &mut **channel)),
+        }));
         self.started
             .process(
                 &InputAudioBuffers::empty(),
@@ -63,7 +76,7 @@ impl Processor {
                 None,
             )
             .map_err(|error| anyhow!("the plugin fails to process: {error}"))?;
-        self.steady_time += frames;
+        self.steady_time += frames as u64;
         Ok(())
     }
 

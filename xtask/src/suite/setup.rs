@@ -11,7 +11,7 @@ use crate::system::{self, HOST_LIBRARIES, LINKER, PYTHON, WINDOW_LIBRARIES, XVFB
 use crate::workspace;
 
 /// What is installed into the tests' own Python; one place, so that it is renewed when it changes.
-const PYTHON_PACKAGES: [&str; 2] = ["dawdreamer>=0.8.3", "numpy"];
+const PYTHON_PACKAGES: [&str; 3] = ["dawdreamer>=0.8.3", "numpy", "pedalboard>=0.9.16"];
 
 /// Sets everything up and tells where the tests' own Python is.
 ///

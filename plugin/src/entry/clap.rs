@@ -1,0 +1,273 @@
+//! The CLAP entry: both instruments, each behind a guard.
+//!
+//! A guard is a copy of the framework's plugin table with four functions of its own. `plugin_data` stays the
+//! framework's, so that all it gets called with means to it what it did; the guard itself is found through the
+//! table's address, whose first field it is.
+
+use std::ffi::{CStr, c_char, c_void};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::ptr;
+use std::sync::{Arc, OnceLock};
+
+use clap_sys::audio_buffer::clap_audio_buffer;
+use clap_sys::entry::clap_plugin_entry;
+use clap_sys::ext::note_name::{CLAP_EXT_NOTE_NAME, clap_note_name, clap_plugin_note_name};
+use clap_sys::factory::plugin_factory::{CLAP_PLUGIN_FACTORY_ID, clap_plugin_factory};
+use clap_sys::host::clap_host;
+use clap_sys::plugin::{clap_plugin, clap_plugin_descriptor};
+use clap_sys::process::{CLAP_PROCESS_ERROR, clap_process, clap_process_status};
+use clap_sys::version::CLAP_VERSION;
+use nice_plug::prelude::*;
+use nice_plug::wrapper::clap::{PluginDescriptor, Wrapper};
+use nice_plug::wrapper::setup_logger;
+
+use super::scratch::{CHANNELS, Scratch};
+use crate::host_parameters::{self, HostParameters};
+use crate::plugin::{Overhear, OverhearMulti};
+
+/// What hosts look up by name.
+#[allow(non_upper_case_globals, missing_docs)]
+#[unsafe(no_mangle)]
+#[used]
+pub static clap_entry: clap_plugin_entry = clap_plugin_entry {
+    clap_version: CLAP_VERSION,
+    init: Some(init),
+    deinit: Some(deinit),
+    get_factory: Some(get_factory),
+};
+
+static FACTORY: clap_plugin_factory = clap_plugin_factory {
+    get_plugin_count: Some(plugin_count),
+    get_plugin_descriptor: Some(descriptor),
+    create_plugin: Some(create),
+};
+
+static NOTE_NAMES: clap_plugin_note_name =
+    clap_plugin_note_name { count: Some(note_count), get: Some(note_name) };
+
+unsafe extern "C" fn init(_path: *const c_char) -> bool {
+    setup_logger::<Overhear>();
+    true
+}
+
+unsafe extern "C" fn deinit() {}
+
+/// # Safety
+/// `id` is null or a string.
+unsafe extern "C" fn get_factory(id: *const c_char) -> *const c_void {
+    // SAFETY: as promised.
+    if !id.is_null() && unsafe { CStr::from_ptr(id) } == CLAP_PLUGIN_FACTORY_ID {
+        ptr::from_ref(&FACTORY).cast()
+    } else {
+        ptr::null()
+    }
+}
+
+/// Both instruments' descriptors, in the order hosts see.
+fn descriptors() -> &'static [PluginDescriptor; 2] {
+    static DESCRIPTORS: OnceLock<[PluginDescriptor; 2]> = OnceLock::new();
+    DESCRIPTORS.get_or_init(|| {
+        [PluginDescriptor::for_plugin::<Overhear>(), PluginDescriptor::for_plugin::<OverhearMulti>()]
+    })
+}
+
+unsafe extern "C" fn plugin_count(_factory: *const clap_plugin_factory) -> u32 {
+    descriptors().len() as u32
+}
+
+unsafe extern "C" fn descriptor(
+    _factory: *const clap_plugin_factory,
+    index: u32,
+) -> *const clap_plugin_descriptor {
+    descriptors().get(index as usize).map_or(ptr::null(), |found| found.clap_plugin_descriptor())
+}
+
+/// # Safety
+/// `id` is null or a string; `host` is as the format says.
+unsafe extern "C" fn create(
+    _factory: *const clap_plugin_factory,
+    host: *const clap_host,
+    id: *const c_char,
+) -> *const clap_plugin {
+    if id.is_null() {
+        return ptr::null();
+    }
+    let [stereo, multi] = descriptors();
+    // SAFETY: as promised; the framework takes the host as it comes.
+    unsafe {
+        match CStr::from_ptr(id) {
+            id if id == stereo.clap_id() => guarded::<Overhear>(host),
+            id if id == multi.clap_id() => guarded::<OverhearMulti>(host),
+            _ => ptr::null(),
+        }
+    }
+}
+
+/// The framework's table with the guard's functions, and what they need.
+#[repr(C)]
+struct Guard {
+    /// What the host holds: first, so that its address is the guard's.
+    table: clap_plugin,
+    /// The framework's own table.
+    framework: clap_plugin,
+    parameters: Option<Arc<HostParameters>>,
+    scratch: Scratch,
+    /// `[port]`, filled in for a call that needs completing.
+    ports: Vec<clap_audio_buffer>,
+}
+
+/// # Safety
+/// `host` is as the format says.
+unsafe fn guarded<P: ClapPlugin>(host: *const clap_host) -> *const clap_plugin {
+    // SAFETY: the host is as the framework expects it; the wrapper lives, and nobody borrows its table yet.
+    let framework = unsafe {
+        let wrapper = Arc::into_raw(Wrapper::<P>::new(host));
+        *(*wrapper).clap_plugin.as_ptr()
+    };
+    let ports = P::AUDIO_IO_LAYOUTS.first().map_or(0, |layout| 1 + layout.aux_output_ports.len());
+    let table = clap_plugin {
+        destroy: Some(destroy),
+        activate: Some(activate),
+        process: Some(process),
+        get_extension: Some(get_extension),
+        ..framework
+    };
+    let guard = Guard {
+        table,
+        framework,
+        parameters: host_parameters::take_latest(),
+        scratch: Scratch::new(ports),
+        ports: Vec::with_capacity(ports),
+    };
+    Box::into_raw(Box::new(guard)).cast()
+}
+
+/// # Safety
+/// The host passes what [`guarded`] returned and has not destroyed it.
+unsafe fn guard<'a>(plugin: *const clap_plugin) -> &'a Guard {
+    // SAFETY: the table is the guard's first field.
+    unsafe { &*plugin.cast() }
+}
+
+/// # Safety
+/// As [`guard`], in a call that the format lets no other overlap.
+unsafe fn guard_mut<'a>(plugin: *const clap_plugin) -> &'a mut Guard {
+    // SAFETY: as above; the box was leaked as mutable.
+    unsafe { &mut *plugin.cast_mut().cast() }
+}
+
+unsafe extern "C" fn destroy(plugin: *const clap_plugin) {
+    // SAFETY: the host's last call: the box comes back, after the framework has had its turn.
+    unsafe {
+        if let Some(destroy) = guard(plugin).framework.destroy {
+            destroy(plugin);
+        }
+        drop(Box::<Guard>::from_raw(plugin.cast_mut().cast()));
+    }
+}
+
+unsafe extern "C" fn activate(plugin: *const clap_plugin, rate: f64, least: u32, most: u32) -> bool {
+    // SAFETY: `activate` overlaps with no other call but those on other threads that the guard answers from
+    // fields that are not touched here.
+    unsafe {
+        let guard = guard_mut(plugin);
+        guard.scratch.prepare(most as usize);
+        guard.framework.activate.is_some_and(|activate| activate(plugin, rate, least, most))
+    }
+}
+
+/// # Real-time
+/// No allocation: tables and scratch were made when the plugin was activated.
+unsafe extern "C" fn process(plugin: *const clap_plugin, call: *const clap_process) -> clap_process_status {
+    // SAFETY: `process` overlaps with neither itself nor `activate`; `call` is null or valid with all it points to.
+    unsafe {
+        let Some(framework) = guard(plugin).framework.process else { return CLAP_PROCESS_ERROR };
+        let Some(&given) = call.as_ref() else { return CLAP_PROCESS_ERROR };
+        let guard = guard_mut(plugin);
+        if is_complete(&given, guard.scratch.ports()) {
+            return framework(plugin, call);
+        }
+        let Guard { scratch, ports, .. } = guard;
+        let completed = scratch.complete(given.frames_count as usize, |port| match port_of(&given, port) {
+            Some(port) => (port.data32, port.channel_count as usize),
+            None => (ptr::null_mut(), 0),
+        });
+        let Some(pointers) = completed else { return CLAP_PROCESS_ERROR };
+        ports.clear();
+        ports.extend(pointers.iter_mut().map(|table| clap_audio_buffer {
+            data32: table.as_mut_ptr(),
+            data64: ptr::null_mut(),
+            channel_count: CHANNELS as u32,
+            latency: 0,
+            constant_mask: 0,
+        }));
+        let whole = clap_process {
+            audio_outputs: ports.as_mut_ptr(),
+            audio_outputs_count: ports.len() as u32,
+            ..given
+        };
+        framework(plugin, &whole)
+    }
+}
+
+/// # Safety
+/// `call` and all it points to are valid.
+unsafe fn port_of(call: &clap_process, port: usize) -> Option<&clap_audio_buffer> {
+    if call.audio_outputs.is_null() || port >= call.audio_outputs_count as usize {
+        return None;
+    }
+    // SAFETY: within the host's ports.
+    Some(unsafe { &*call.audio_outputs.add(port) })
+}
+
+/// Whether the host gives every declared port with its two channels.
+///
+/// # Safety
+/// `call` and all it points to are valid.
+unsafe fn is_complete(call: &clap_process, ports: usize) -> bool {
+    // SAFETY: as promised; tables hold as many pointers as the port has channels.
+    (0..ports).all(|port| unsafe {
+        port_of(call, port).is_some_and(|port| {
+            port.channel_count as usize == CHANNELS
+                && !port.data32.is_null()
+                && (0..CHANNELS).all(|channel| !(*port.data32.add(channel)).is_null())
+        })
+    })
+}
+
+unsafe extern "C" fn get_extension(plugin: *const clap_plugin, id: *const c_char) -> *const c_void {
+    // SAFETY: `id` is null or a string.
+    unsafe {
+        if !id.is_null() && CStr::from_ptr(id) == CLAP_EXT_NOTE_NAME {
+            return ptr::from_ref(&NOTE_NAMES).cast();
+        }
+        guard(plugin).framework.get_extension.map_or(ptr::null(), |get| get(plugin, id))
+    }
+}
+
+/// Notes with names, as the parameters and the user have them now.
+fn names(guard: &Guard) -> Vec<(u8, &'static str)> {
+    let named = || guard.parameters.as_ref().map(|parameters| parameters.note_names()).unwrap_or_default();
+    catch_unwind(AssertUnwindSafe(named)).unwrap_or_default()
+}
+
+unsafe extern "C" fn note_count(plugin: *const clap_plugin) -> u32 {
+    // SAFETY: see `guard`.
+    names(unsafe { guard(plugin) }).len() as u32
+}
+
+unsafe extern "C" fn note_name(plugin: *const clap_plugin, index: u32, into: *mut clap_note_name) -> bool {
+    // SAFETY: see `guard`; `into` is null or valid.
+    let (named, into) = unsafe { (names(guard(plugin)), into.as_mut()) };
+    let (Some(&(note, name)), Some(into)) = (named.get(index as usize), into) else { return false };
+    into.name.fill(0);
+    let room = into.name.len() - 1;
+    for (to, from) in into.name[..room].iter_mut().zip(name.bytes()) {
+        *to = from as c_char;
+    }
+    (into.port, into.key, into.channel) = (-1, i16::from(note), -1);
+    true
+}
+
+#[cfg(test)]
+mod tests;

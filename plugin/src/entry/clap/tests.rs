@@ -1,0 +1,209 @@
+//! A host that leaves outputs out, through the format's own tables.
+
+use std::ffi::CString;
+
+use clap_sys::events::{
+    CLAP_CORE_EVENT_SPACE_ID, CLAP_EVENT_NOTE_ON, clap_event_header, clap_event_note, clap_input_events,
+    clap_output_events,
+};
+use clap_sys::process::CLAP_PROCESS_CONTINUE;
+use overhear_engine::piece::PieceId;
+
+use super::*;
+
+const FRAMES: usize = 512;
+const PORTS: usize = 1 + PieceId::KIT.len();
+
+unsafe extern "C" fn no_extension(_host: *const clap_host, _id: *const c_char) -> *const c_void {
+    ptr::null()
+}
+
+unsafe extern "C" fn nothing(_host: *const clap_host) {}
+
+fn host() -> clap_host {
+    clap_host {
+        clap_version: CLAP_VERSION,
+        host_data: ptr::null_mut(),
+        name: c"test".as_ptr(),
+        vendor: c"".as_ptr(),
+        url: c"".as_ptr(),
+        version: c"1".as_ptr(),
+        get_extension: Some(no_extension),
+        request_restart: Some(nothing),
+        request_process: Some(nothing),
+        request_callback: Some(nothing),
+    }
+}
+
+/// An active instance.
+struct Instance {
+    plugin: *const clap_plugin,
+    _host: Box<clap_host>,
+}
+
+impl Instance {
+    fn new(id: &str) -> Instance {
+        let (host, id) = (Box::new(host()), CString::new(id).unwrap());
+        // SAFETY: the calls a host makes, in its order.
+        unsafe {
+            let plugin = create(&FACTORY, &*host, id.as_ptr());
+            assert!((*plugin).init.unwrap()(plugin));
+            assert!((*plugin).activate.unwrap()(plugin, 48e3, 1, FRAMES as u32));
+            assert!((*plugin).start_processing.unwrap()(plugin));
+            Instance { plugin, _host: host }
+        }
+    }
+
+    /// One buffer with a stroke on the snare at its start, into these ports.
+    fn strike(&mut self, ports: &mut [clap_audio_buffer]) -> clap_process_status {
+        let note = clap_event_note {
+            header: clap_event_header {
+                size: size_of::<clap_event_note>() as u32,
+                time: 0,
+                space_id: CLAP_CORE_EVENT_SPACE_ID,
+                type_: CLAP_EVENT_NOTE_ON,
+                flags: 0,
+            },
+            note_id: -1,
+            port_index: 0,
+            channel: 9,
+            key: 38,
+            velocity: 0.8,
+        };
+        unsafe extern "C" fn one(_list: *const clap_input_events) -> u32 {
+            1
+        }
+        unsafe extern "C" fn get(list: *const clap_input_events, _index: u32) -> *const clap_event_header {
+            // SAFETY: the list's context is the note below.
+            unsafe { (*list).ctx.cast_const().cast() }
+        }
+        unsafe extern "C" fn refuse(
+            _list: *const clap_output_events,
+            _event: *const clap_event_header,
+        ) -> bool {
+            false
+        }
+        let input = clap_input_events {
+            ctx: ptr::from_ref(&note).cast_mut().cast(),
+            size: Some(one),
+            get: Some(get),
+        };
+        let output = clap_output_events { ctx: ptr::null_mut(), try_push: Some(refuse) };
+        let call = clap_process {
+            steady_time: -1,
+            frames_count: FRAMES as u32,
+            transport: ptr::null(),
+            audio_inputs: ptr::null(),
+            audio_outputs: if ports.is_empty() { ptr::null_mut() } else { ports.as_mut_ptr() },
+            audio_inputs_count: 0,
+            audio_outputs_count: ports.len() as u32,
+            in_events: &input,
+            out_events: &output,
+        };
+        // SAFETY: everything the call points to lives here or with the caller.
+        unsafe {
+            (*self.plugin).reset.unwrap()(self.plugin);
+            (*self.plugin).process.unwrap()(self.plugin, &call)
+        }
+    }
+}
+
+impl Drop for Instance {
+    fn drop(&mut self) {
+        // SAFETY: the calls a host makes, in its order.
+        unsafe {
+            (*self.plugin).stop_processing.unwrap()(self.plugin);
+            (*self.plugin).deactivate.unwrap()(self.plugin);
+            (*self.plugin).destroy.unwrap()(self.plugin);
+        }
+    }
+}
+
+fn port(table: *mut *mut f32, channels: u32) -> clap_audio_buffer {
+    clap_audio_buffer {
+        data32: table,
+        data64: ptr::null_mut(),
+        channel_count: channels,
+        latency: 0,
+        constant_mask: 0,
+    }
+}
+
+/// Strikes with all outputs but those that `leave_out` takes away; returns what is found in every channel.
+fn struck(
+    instance: &mut Instance,
+    ports: usize,
+    leave_out: impl Fn(usize, &mut clap_audio_buffer),
+) -> Vec<[Vec<f32>; CHANNELS]> {
+    let mut sound = vec![[vec![f32::NAN; FRAMES], vec![f32::NAN; FRAMES]]; ports];
+    let mut tables: Vec<_> =
+        sound.iter_mut().map(|port| port.each_mut().map(|channel| channel.as_mut_ptr())).collect();
+    let mut given: Vec<_> =
+        tables.iter_mut().map(|table| port(table.as_mut_ptr(), CHANNELS as u32)).collect();
+    given.iter_mut().enumerate().for_each(|(index, port)| leave_out(index, port));
+    assert_eq!(instance.strike(&mut given), CLAP_PROCESS_CONTINUE);
+    sound
+}
+
+#[test]
+fn outputs_that_are_left_out_neither_silence_nor_change_the_others() {
+    let snare = 1 + PieceId::Snare.slot().unwrap();
+    let mut multi = Instance::new(crate::MULTI_CLAP_ID);
+    let whole = struck(&mut multi, PORTS, |_, _| {});
+    assert!(whole[0][0].iter().any(|sample| *sample != 0.0));
+    assert!(whole[snare][0].iter().any(|sample| *sample != 0.0));
+    assert!(whole[1].iter().flatten().all(|sample| *sample == 0.0), "the kick was not struck");
+
+    let main_only = struck(&mut multi, 1, |_, _| {});
+    assert!(main_only[0] == whole[0]);
+    let fewer = struck(&mut multi, 3, |_, _| {});
+    assert!(fewer[..] == whole[..3]);
+    let no_tables = struck(&mut multi, PORTS, |index, port| {
+        if index > 0 {
+            port.data32 = ptr::null_mut();
+        }
+    });
+    assert!(no_tables[0] == whole[0]);
+    let null_channels = struck(&mut multi, PORTS, |index, port| {
+        if index == 1 || index == snare {
+            // SAFETY: the table holds two pointers.
+            unsafe { *port.data32.add(1) = ptr::null_mut() };
+        }
+    });
+    assert!(null_channels[0] == whole[0] && null_channels[snare][0] == whole[snare][0]);
+    let mono = struck(&mut multi, PORTS, |_, port| port.channel_count = 1);
+    assert!(mono[0][0] == whole[0][0]);
+    let more = struck(&mut multi, PORTS + 2, |_, _| {});
+    assert!(more[..PORTS] == whole[..]);
+    assert_eq!(multi.strike(&mut []), CLAP_PROCESS_CONTINUE, "no ports at all");
+    assert!(struck(&mut multi, PORTS, |_, _| {}) == whole, "and after all that");
+}
+
+#[test]
+fn the_mix_of_both_instruments_is_the_same() {
+    let mix = struck(&mut Instance::new(crate::CLAP_ID), 1, |_, _| {});
+    let multi = struck(&mut Instance::new(crate::MULTI_CLAP_ID), PORTS, |_, _| {});
+    assert!(mix[0] == multi[0]);
+}
+
+#[test]
+fn notes_have_names() {
+    let instance = Instance::new(crate::CLAP_ID);
+    // SAFETY: the calls a host makes.
+    let found = unsafe {
+        let extension = get_extension(instance.plugin, CLAP_EXT_NOTE_NAME.as_ptr());
+        let names = &*extension.cast::<clap_plugin_note_name>();
+        let count = names.count.unwrap()(instance.plugin);
+        let mut into: clap_note_name = std::mem::zeroed();
+        assert!(!names.get.unwrap()(instance.plugin, count, &mut into));
+        (0..count)
+            .map(|index| {
+                assert!(names.get.unwrap()(instance.plugin, index, &mut into));
+                (into.key, CStr::from_ptr(into.name.as_ptr()).to_str().unwrap().to_owned())
+            })
+            .collect::<Vec<_>>()
+    };
+    assert!(found.contains(&(38, "Acoustic Snare".to_owned())), "{found:?}");
+    assert!(found.iter().all(|(_, name)| !name.is_empty()));
+    assert!(!found.iter().any(|(key, _)| *key == 39), "claps are silent");
+}

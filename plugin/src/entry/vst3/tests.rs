@@ -1,0 +1,125 @@
+//! A host that leaves outputs out, through the format's own interfaces.
+
+use std::ptr;
+
+use overhear_engine::piece::PieceId;
+
+use super::*;
+
+const FRAMES: usize = 512;
+const BUSES: usize = 1 + PieceId::KIT.len();
+
+/// Processing instance of the instrument with an output for every piece.
+fn multi() -> Guard<OverhearMulti> {
+    let guard = Guard::new();
+    let mut setup = ProcessSetup {
+        processMode: 0,
+        symbolicSampleSize: 0,
+        maxSamplesPerBlock: FRAMES as i32,
+        sampleRate: 48e3,
+    };
+    // SAFETY: the calls a host makes, in its order.
+    unsafe {
+        assert_eq!(IPluginBaseTrait::initialize(&guard, ptr::null_mut()), kResultOk);
+        assert_eq!(guard.setupProcessing(&mut setup), kResultOk);
+        assert_eq!(guard.setActive(1), kResultOk);
+        assert_eq!(guard.setProcessing(1), kResultOk);
+    }
+    guard
+}
+
+/// Processes one buffer with all outputs but those that `leave_out` takes away.
+fn processed(
+    guard: &Guard<OverhearMulti>,
+    buses: usize,
+    leave_out: impl Fn(usize, &mut AudioBusBuffers),
+) -> Vec<[Vec<f32>; CHANNELS]> {
+    let mut sound = vec![[vec![f32::NAN; FRAMES], vec![f32::NAN; FRAMES]]; buses];
+    let mut tables: Vec<_> =
+        sound.iter_mut().map(|bus| bus.each_mut().map(|channel| channel.as_mut_ptr())).collect();
+    let mut given: Vec<_> = tables
+        .iter_mut()
+        .map(|table| AudioBusBuffers {
+            numChannels: CHANNELS as i32,
+            silenceFlags: 0,
+            __field0: AudioBusBuffers__type0 { channelBuffers32: table.as_mut_ptr() },
+        })
+        .collect();
+    given.iter_mut().enumerate().for_each(|(index, bus)| leave_out(index, bus));
+    let outputs = if given.is_empty() { ptr::null_mut() } else { given.as_mut_ptr() };
+    let mut data = ProcessData {
+        processMode: 0,
+        symbolicSampleSize: 0,
+        numSamples: FRAMES as i32,
+        numInputs: 0,
+        numOutputs: buses as i32,
+        inputs: ptr::null_mut(),
+        outputs,
+        inputParameterChanges: ptr::null_mut(),
+        outputParameterChanges: ptr::null_mut(),
+        inputEvents: ptr::null_mut(),
+        outputEvents: ptr::null_mut(),
+        processContext: ptr::null_mut(),
+    };
+    // SAFETY: everything the call points to lives here.
+    assert_eq!(unsafe { guard.process(&mut data) }, kResultOk);
+    assert_eq!((data.outputs, data.numOutputs), (outputs, buses as i32), "the host's structure is its own");
+    sound
+}
+
+/// A channel that was written holds silence, as nothing is struck.
+fn written(channel: &[f32]) -> bool {
+    channel.iter().all(|sample| *sample == 0.0)
+}
+
+#[test]
+fn outputs_that_are_left_out_do_not_keep_the_others_from_being_written() {
+    let guard = multi();
+    let whole = processed(&guard, BUSES, |_, _| {});
+    assert!(whole.iter().flatten().all(|channel| written(channel)));
+    for buses in [1, 3, BUSES + 2] {
+        let sound = processed(&guard, buses, |_, _| {});
+        let declared = buses.min(BUSES);
+        assert!(sound[..declared].iter().flatten().all(|channel| written(channel)), "{buses} buses");
+    }
+    let inactive = processed(&guard, BUSES, |index, bus| {
+        if index > 0 {
+            // SAFETY: the table holds two pointers.
+            unsafe {
+                bus.__field0.channelBuffers32.copy_from([ptr::null_mut(); CHANNELS].as_ptr(), CHANNELS)
+            };
+        }
+    });
+    assert!(inactive[0].iter().all(|channel| written(channel)));
+    let without = processed(&guard, BUSES, |index, bus| {
+        if index > 0 {
+            bus.numChannels = 0;
+            bus.__field0.channelBuffers32 = ptr::null_mut();
+        }
+    });
+    assert!(without[0].iter().all(|channel| written(channel)));
+    processed(&guard, 0, |_, _| {});
+}
+
+#[test]
+fn the_factory_makes_both_instruments_and_no_other() {
+    let factory = Factory::new();
+    // SAFETY: ids of 16 bytes, and room for a pointer.
+    unsafe {
+        assert_eq!(factory.countClasses(), 2);
+        let mut object = ptr::null_mut();
+        let interface = <IComponent as nice_plug::wrapper::vst3::vst3::Interface>::IID;
+        for class in [factory.plugins[0].cid, factory.plugins[1].cid] {
+            assert_eq!(
+                factory.createInstance(class.as_ptr().cast(), interface.as_ptr().cast(), &mut object),
+                kResultOk
+            );
+            assert!(!object.is_null());
+            let unknown = object.cast::<FUnknown>();
+            assert_eq!(((*(*unknown).vtbl).release)(unknown), 0);
+        }
+        let stranger = [0_u8; 16];
+        let made = factory.createInstance(stranger.as_ptr().cast(), interface.as_ptr().cast(), &mut object);
+        assert_eq!(made, kInvalidArgument);
+    }
+}

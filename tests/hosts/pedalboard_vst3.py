@@ -1,0 +1,33 @@
+"""Renders one job through a VST3 bundle with pedalboard, which leaves all outputs but the main one inactive.
+
+The argument is a JSON file: plugin, name, rate, block, frames, notes [[sample, key, velocity]], out. Left and then
+right samples are written to `out` as little-endian 32-bit floats.
+"""
+
+import json
+import re
+import sys
+
+import pedalboard
+from pedalboard import _pedalboard
+
+with open(sys.argv[1]) as file:
+    job = json.load(file)
+
+# The format carries controllers as hidden parameters, each of which would be asked for all its values.
+_pedalboard.PARAMETER_NAME_REGEXES_TO_IGNORE.add(re.compile(r"MIDI Ch\. \d+ "))
+
+plugin = pedalboard.VST3Plugin(job["plugin"], plugin_name=job["name"])
+# Pedalboard takes seconds and cuts them to a sample: aim behind its start, not at it.
+notes = [([0x99, key, velocity], (sample + 0.25) / job["rate"]) for sample, key, velocity in job["notes"]]
+sound = plugin(
+    notes,
+    duration=(job["frames"] + job["block"]) / job["rate"],
+    sample_rate=job["rate"],
+    num_channels=2,
+    buffer_size=job["block"],
+)
+sound = sound[:, : job["frames"]]
+if sound.shape != (2, job["frames"]):
+    sys.exit(f"the host gave samples of the shape {sound.shape}")
+sound.astype("<f4").tofile(job["out"])
