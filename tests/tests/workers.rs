@@ -15,8 +15,11 @@ use overhear_tests::{Chance, RATES, kit, stroke};
 #[global_allocator]
 static ALLOCATOR: AllocDisabler = AllocDisabler;
 
-/// A groove on every piece with controls moving, so many things a second, by sample.
-fn score(seconds: f64, rate: f64) -> Vec<(usize, PieceId, Result<Strike, (Control, f64)>)> {
+/// A stroke on a piece, or a control moved.
+type Event = (PieceId, Result<Strike, (Control, f64)>);
+
+/// A groove on every piece with controls moving, many things a second, by sample.
+fn score(seconds: f64, rate: f64) -> Vec<(usize, Event)> {
     let mut chance = Chance::new(rate as u64);
     let frames = (seconds * rate) as usize;
     let mut score: Vec<_> = (0..(25.0 * seconds) as usize)
@@ -31,10 +34,10 @@ fn score(seconds: f64, rate: f64) -> Vec<(usize, PieceId, Result<Strike, (Contro
                 4 => Err((Control::MicrophoneLevel(Microphone::Room), chance.between(-20.0, 0.0))),
                 _ => Ok(chance.stroke(6.0)),
             };
-            (chance.below(frames), id, what)
+            (chance.below(frames), (id, what))
         })
         .collect();
-    score.sort_by_key(|&(at, ..)| at);
+    score.sort_by_key(|&(at, _)| at);
     score
 }
 
@@ -53,13 +56,13 @@ fn play(rate: f64, seconds: f64, workers: usize, mut buffer: impl FnMut() -> usi
         if done == buffer_end {
             buffer_end = (done + buffer()).min(frames);
         }
-        while let Some((_, id, what)) = events.next_if(|&&(at, ..)| at == done) {
+        while let Some((_, (id, what))) = events.next_if(|&&(at, _)| at == done) {
             match what {
                 Ok(strike) => kit.strike(*id, strike),
                 Err((control, value)) => kit.set(*control, *value),
             }
         }
-        let end = events.peek().map_or(buffer_end, |&&(at, ..)| at.min(buffer_end));
+        let end = events.peek().map_or(buffer_end, |&&(at, _)| at.min(buffer_end));
         kit.render(&mut left[done..end], &mut right[done..end]);
         done = end;
     }

@@ -17,6 +17,7 @@ pub mod error;
 pub mod groove;
 pub mod hear;
 pub mod host;
+mod levels;
 pub mod manual;
 pub mod modes;
 pub mod output;
