@@ -48,6 +48,7 @@ impl Kernels {
     /// Name of the instruction set in use.
     pub fn name(&self) -> &'static str {
         match self.level {
+            Level::Baseline if cfg!(target_arch = "x86_64") => "sse2",
             Level::Baseline => "baseline",
             #[cfg(target_arch = "x86_64")]
             Level::Detected(Arch::V4(_)) => "avx512",
