@@ -154,7 +154,7 @@ impl Drum {
         drum.follow_shapes();
         if !options.linear {
             let (stretch, modes) = Stretch::new(&spec.batter.membrane, &drum.blueprint, pitch);
-            drum.surface.set_potential(Box::new(stretch), modes, stretch::STRIDE);
+            drum.surface.set_potential(Box::new(stretch), modes, stretch::stride(options.sample_rate));
         }
         Ok(drum)
     }

@@ -44,8 +44,6 @@ pub enum Surroundings {
 /// How far a set of modes reaches.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ModeRange {
-    /// Lowest and highest tension the modes will be asked for, N/m.
-    pub tension: [f64; 2],
     /// Tension at which the modes below `limit_hz` are chosen, N/m.
     pub reference_tension: f64,
     /// Highest frequency, Hz.
@@ -119,7 +117,7 @@ impl MembraneSpec {
 const MAX_MODES: usize = 2000;
 
 impl Membrane {
-    /// The modes of a head over a range of tensions. Allocates; tens of milliseconds.
+    /// The modes of a head, for all tensions. Allocates; tens of milliseconds.
     ///
     /// # Errors
     /// [`SpecError`] if the spec is out of range.
@@ -149,16 +147,11 @@ impl Membrane {
         let mut membrane = Membrane { spec, modes: Vec::with_capacity(candidates.len()) };
         for (m, n, zero) in candidates {
             let norm = air::shape_norm(m, bessel::j_prime(m, zero));
-            let bare = MembraneMode { m, n, zero, norm, load: MassCurve::VACUUM };
             let load = match surroundings {
                 Surroundings::Vacuum => MassCurve::VACUUM,
-                Surroundings::Air => {
-                    let air = MembraneAir::new(m, &tables[m as usize]);
-                    let [low, high] = range.tension.map(|tension| membrane.rough_u(&bare, tension, &air));
-                    air.curve(zero, 0.9 * low, 1.1 * high)
-                }
+                Surroundings::Air => MembraneAir::new(m, &tables[m as usize]).curve(zero),
             };
-            let mode = MembraneMode { load, ..bare };
+            let mode = MembraneMode { m, n, zero, norm, load };
             let frequency = membrane.ringing(&mode, range.reference_tension).omega / std::f64::consts::TAU;
             if frequency <= range.limit_hz {
                 membrane.modes.push(mode);
@@ -171,16 +164,6 @@ impl Membrane {
     pub fn by_order(mut self) -> Membrane {
         self.modes.sort_by_key(|mode| (mode.m, mode.n));
         self
-    }
-
-    /// About where a mode not yet given its load rings at a tension, `omega a / c`.
-    fn rough_u(&self, mode: &MembraneMode, tension: f64, air: &MembraneAir) -> f64 {
-        let force = self.stiffness(mode, tension) * self.spec.area();
-        let film = self.spec.area_density() * self.spec.area();
-        let u = |mass: f64| (force / mass).sqrt() * self.spec.radius / air::SPEED_OF_SOUND;
-        let mass = |u| film + 2.0 * air::DENSITY * self.spec.radius.powi(3) * air.mass(mode.zero, u);
-        // Each round gains a digit or more.
-        (0..3).fold(u(film), |rough, _| u(mass(rough)))
     }
 
     /// The head.
@@ -275,7 +258,7 @@ mod tests {
     }
 
     fn range(tension: f64) -> ModeRange {
-        ModeRange { tension: [0.5 * tension, 2.0 * tension], reference_tension: tension, limit_hz: 1500.0 }
+        ModeRange { reference_tension: tension, limit_hz: 1500.0 }
     }
 
     fn frequency(membrane: &Membrane, m: u32, n: u32, tension: f64) -> f64 {

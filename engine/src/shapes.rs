@@ -40,12 +40,27 @@ pub struct ShapeTable {
     axes: Vec<[f32; 2]>,
     /// Number of orders.
     orders: usize,
+    /// Modes that mix the same rows, and all modes in their order.
+    groups: Vec<Group>,
+    grouped: Vec<usize>,
     /// `[radial]`: wavenumber of the radial function times the radius; empty if there is no single one.
     waves: Vec<f32>,
 }
 
+/// Modes that mix the same rows.
+#[derive(Debug, Clone, Copy)]
+struct Group {
+    radial: usize,
+    rows: usize,
+    /// How many they are.
+    modes: usize,
+}
+
 /// Orders beyond this would need a larger scratch array; no body has so many.
 const MAX_ORDERS: usize = 160;
+
+/// Nor does any mode mix so many rows.
+const MAX_ROWS: usize = 128;
 
 impl ShapeTable {
     /// Where along the radius radial functions are wanted, shares of it.
@@ -57,7 +72,7 @@ impl ShapeTable {
     /// Allocates.
     ///
     /// # Panics
-    /// If a mode has more nodal diameters than the engine is made for (159).
+    /// If a mode has more nodal diameters (159) or mixes more rows (128) than the engine is made for.
     pub fn new(radial: &[f64], index: Vec<ShapeIndex>) -> ShapeTable {
         let radial = radial.iter().map(|&value| value as f32).collect();
         let axes = index
@@ -75,7 +90,9 @@ impl ShapeTable {
             starts.push(total);
             total += mode.rows;
         }
-        ShapeTable { radial, index, starts, weights: vec![1.0; total], axes, orders, waves: Vec::new() }
+        let (groups, grouped) = group(&index);
+        let weights = vec![1.0; total];
+        ShapeTable { radial, index, starts, weights, axes, orders, groups, grouped, waves: Vec::new() }
     }
 
     /// Tells the wavenumber of every radial function, times the radius, `[radial]`: those of a membrane, of
@@ -118,28 +135,47 @@ impl ShapeTable {
             around[m] = [c * cos - s * sin, s * cos + c * sin];
         }
         let stencil = Stencil::at(radius * INTERVALS as f64, INTERVALS + 1);
-        for (k, (out, mode)) in out.iter_mut().zip(&self.index).enumerate() {
-            let [c, s] = around[mode.m as usize];
-            let [c0, s0] = self.axes[k].map(f64::from);
-            let turn = match mode.member {
-                Member::Cosine => c * c0 + s * s0,
-                Member::Sine => s * c0 - c * s0,
-            };
-            let weights = &self.weights[self.starts[k]..][..mode.rows];
-            let rows = self.radial[mode.radial * (INTERVALS + 1)..].chunks_exact(INTERVALS + 1);
-            let felt = |row: usize| match self.waves.get(mode.radial + row) {
-                Some(&wave) if disc > 0.0 => pressed_share(f64::from(wave) * disc),
-                _ => 1.0,
-            };
-            let radial: f64 = weights
-                .iter()
-                .zip(rows)
-                .enumerate()
-                .map(|(i, (&weight, row))| f64::from(weight) * felt(i) * stencil.blend(|r| f64::from(row[r])))
-                .sum();
-            *out = (radial * turn) as f32;
+        // What a row is here is the same for all that mix it.
+        let mut here = [0.0_f64; MAX_ROWS];
+        let mut modes = self.grouped.iter();
+        for group in &self.groups {
+            let rows = self.radial[group.radial * (INTERVALS + 1)..].chunks_exact(INTERVALS + 1);
+            for (i, (here, row)) in here[..group.rows].iter_mut().zip(rows).enumerate() {
+                let felt = match self.waves.get(group.radial + i) {
+                    Some(&wave) if disc > 0.0 => pressed_share(f64::from(wave) * disc),
+                    _ => 1.0,
+                };
+                *here = felt * stencil.blend(|r| f64::from(row[r]));
+            }
+            for &k in modes.by_ref().take(group.modes) {
+                let mode = &self.index[k];
+                let [c, s] = around[mode.m as usize];
+                let [c0, s0] = self.axes[k].map(f64::from);
+                let turn = match mode.member {
+                    Member::Cosine => c * c0 + s * s0,
+                    Member::Sine => s * c0 - c * s0,
+                };
+                let weights = &self.weights[self.starts[k]..][..mode.rows];
+                let radial: f64 =
+                    weights.iter().zip(&here).map(|(&weight, here)| f64::from(weight) * here).sum();
+                out[k] = (radial * turn) as f32;
+            }
         }
     }
+}
+
+/// Modes by the rows they mix.
+fn group(index: &[ShapeIndex]) -> (Vec<Group>, Vec<usize>) {
+    let rows = |&k: &usize| (index[k].radial, index[k].rows);
+    let mut grouped: Vec<usize> = (0..index.len()).collect();
+    grouped.sort_by_key(rows);
+    let same = grouped.chunk_by(|a, b| rows(a) == rows(b));
+    let groups = same.map(|modes| {
+        let (radial, rows) = rows(&modes[0]);
+        assert!(rows <= MAX_ROWS, "{rows} rows");
+        Group { radial, rows, modes: modes.len() }
+    });
+    (groups.collect(), grouped)
 }
 
 #[cfg(test)]

@@ -85,6 +85,9 @@ fn start_over(kit: &mut Kit, spare: &mut Option<Box<Piece>>) {
         kit.set(Control::Level(id), 0.0);
     }
     kit.reset();
+    if let Some(replaced) = kit.retire() {
+        *spare = Some(replaced);
+    }
     spare.iter_mut().for_each(|spare| spare.reset());
 }
 

@@ -16,10 +16,12 @@ use clap::{CommandFactory, Parser};
 use overhear::presets::Library;
 
 use crate::{
-    bundle, demo, error, groove, hear, manual, modes, output, presets, realism, render, report, settings,
-    suite,
+    bench, bundle, demo, error, groove, hear, manual, modes, output, presets, realism, render, report,
+    settings, suite,
 };
-use arguments::{HearArguments, ModesArguments, PresetTask, RealismArguments, RenderArguments, Task};
+use arguments::{
+    BenchArguments, HearArguments, ModesArguments, PresetTask, RealismArguments, RenderArguments, Task,
+};
 
 /// Developer and user commands of Overhear.
 #[derive(Debug, Parser)]
@@ -88,6 +90,9 @@ fn dispatch(task: Task) -> Result<()> {
         Task::Hear(arguments) => hear(arguments),
         Task::Modes(arguments) => modes(arguments),
         Task::Realism(arguments) => realism(arguments),
+        Task::Bench(_) if cfg!(debug_assertions) => bench::as_released(),
+        Task::Bench(arguments) => bench(arguments),
+        Task::BenchScene { index, quality, simd } => bench::count_this(index, quality.into(), simd.into()),
         Task::Report { pages, output } => report::run(&pages, &output.unwrap_or_else(report::folder)),
         Task::Presets { folder, task } => presets(folder.as_deref(), task),
         Task::Docs => manual::write(),
@@ -130,6 +135,12 @@ fn hear(arguments: HearArguments) -> Result<()> {
 fn realism(arguments: RealismArguments) -> Result<()> {
     let (json, request) = (arguments.json, arguments.into_request()?);
     let report = realism::run(&request)?;
+    say(&if json { serde_json::to_string(&report)? + "\n" } else { report.to_string() })
+}
+
+fn bench(arguments: BenchArguments) -> Result<()> {
+    let json = arguments.json;
+    let report = bench::run(&arguments.into_request())?;
     say(&if json { serde_json::to_string(&report)? + "\n" } else { report.to_string() })
 }
 

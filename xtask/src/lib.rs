@@ -10,6 +10,7 @@
 #![deny(unsafe_op_in_unsafe_fn)]
 
 pub mod analysis;
+pub mod bench;
 pub mod bundle;
 pub mod cli;
 pub mod demo;

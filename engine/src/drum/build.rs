@@ -60,19 +60,15 @@ pub struct Blueprint {
 impl TunedHead {
     /// Stretches a head so that its mode `(m, n)` runs through the pitches.
     fn new(spec: &HeadSpec, (m, n): (u32, u32), pitches: &[f64; PITCHES]) -> Result<TunedHead, SpecError> {
-        let (low, high) = (pitches[0], pitches[PITCHES - 1]);
         // A first look with few modes finds the tensions; the air weighs less than thirty films.
         let zero = bessel::zero(m, n);
-        let guess = |hz| membrane::vacuum_tension(&spec.membrane, zero, hz);
-        let wide = [guess(low), 30.0 * guess(high)];
-        let few = ModeRange { tension: wide, reference_tension: wide[1], limit_hz: 6.0 * high };
+        let high = pitches[PITCHES - 1];
+        let most = 30.0 * membrane::vacuum_tension(&spec.membrane, zero, high);
+        let few = ModeRange { reference_tension: most, limit_hz: 6.0 * high };
         let look = Membrane::new(spec.membrane, Surroundings::Air, &few)?;
-        let tension = |hz| look.tension_for(m, n, hz).unwrap_or(wide[1]);
-        let range = ModeRange {
-            tension: [tension(low), tension(high)],
-            reference_tension: tension(pitches[MIDDLE]),
-            limit_hz: BASIS * spec.limit_hz,
-        };
+        let tension = |hz| look.tension_for(m, n, hz).unwrap_or(most);
+        let range =
+            ModeRange { reference_tension: tension(pitches[MIDDLE]), limit_hz: BASIS * spec.limit_hz };
         let membrane = Membrane::new(spec.membrane, Surroundings::Air, &range)?.by_order();
         let tensions = pitches.map(|hz| membrane.tension_for(m, n, hz).unwrap_or_else(|| tension(hz)));
         Ok(TunedHead { membrane, tensions, limit_hz: spec.limit_hz })

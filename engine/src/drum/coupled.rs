@@ -135,7 +135,9 @@ impl<'a> OrderProblem<'a> {
             parts.iter().map(|part| part.head.membrane.ringing(part.mode, part.head.tension).omega).collect();
         let solved = self.eigenmodes(&parts, &omegas);
         let masses = self.head_masses(&parts, &omegas);
-        solved.into_iter().map(|mode| self.finish(&parts, &masses, mode)).collect()
+        let shapes: Vec<HankelShape> =
+            parts.iter().map(|part| HankelShape::new(self.m, part.mode.zero, self.bessel)).collect();
+        solved.into_iter().map(|mode| self.finish(&parts, &masses, &shapes, mode)).collect()
     }
 
     /// Mass of each head mode with the air on its outer face, kg.
@@ -191,7 +193,13 @@ impl<'a> OrderProblem<'a> {
     }
 
     /// Adds up a mode's losses.
-    fn finish(&self, parts: &[Part], masses: &[f64], solution: Solution) -> CoupledMode {
+    fn finish(
+        &self,
+        parts: &[Part],
+        masses: &[f64],
+        shapes: &[HankelShape],
+        solution: Solution,
+    ) -> CoupledMode {
         let Solution { omega, vector, direction } = solution;
         let heads = parts.len();
         let mut share = [0.0; 2];
@@ -216,7 +224,7 @@ impl<'a> OrderProblem<'a> {
             }
         }
         let outlet = self.outlet(&vector, heads);
-        let resistance = self.resistance(parts, omega, &vector, outlet);
+        let resistance = self.resistance((parts, shapes), omega, &vector, outlet);
         let radius = self.batter.membrane.spec().radius;
         sigma += 0.5 * DENSITY * omega * radius.powi(3) * resistance;
         let monopole_area = air::monopole_area(radius, resistance, omega);
@@ -233,11 +241,15 @@ impl<'a> OrderProblem<'a> {
     }
 
     /// Radiation resistance over `rho omega a^3` at unit modal displacement.
-    fn resistance(&self, parts: &[Part], omega: f64, vector: &[f64], outlet: f64) -> f64 {
+    fn resistance(
+        &self,
+        (parts, shapes): (&[Part], &[HankelShape]),
+        omega: f64,
+        vector: &[f64],
+        outlet: f64,
+    ) -> f64 {
         let radius = self.batter.membrane.spec().radius;
         let u = omega * radius / SPEED_OF_SOUND;
-        let shapes: Vec<HankelShape> =
-            parts.iter().map(|part| HankelShape::new(self.m, part.mode.zero, self.bessel)).collect();
         let panels = (u / 1.5).ceil().max(1.0);
         let rule = GaussLegendre::unit(8);
         let mut sum = 0.0;
@@ -248,8 +260,9 @@ impl<'a> OrderProblem<'a> {
                 // The Hankel transform of a piston.
                 let piston = if x < 1e-6 { 0.5 } else { libm::j1(x) / x };
                 let mut face = [0.0, outlet * piston];
-                for ((part, shape), q) in parts.iter().zip(&shapes).zip(vector) {
-                    face[usize::from(part.far)] += q * shape.at(x);
+                let bessel = self.bessel.value(x);
+                for ((part, shape), q) in parts.iter().zip(shapes).zip(vector) {
+                    face[usize::from(part.far)] += q * shape.of_bessel(x, bessel);
                 }
                 let [near, far] = face;
                 let power = match self.outside {

@@ -6,6 +6,7 @@
 //! they differ by rounding.
 
 pub mod driven;
+pub mod level;
 pub mod polar;
 
 use pulp::{Arch, Scalar128b, Simd, WithSimd};
@@ -34,12 +35,9 @@ enum Level {
 }
 
 impl Kernels {
-    /// The best this machine has.
+    /// The best this machine has, within the [limit](level::limit).
     pub fn detect() -> Kernels {
-        match Arch::new() {
-            Arch::Scalar => Kernels::baseline(),
-            arch => Kernels { level: Level::Detected(arch) },
-        }
+        level::detect().map_or_else(Kernels::baseline, |arch| Kernels { level: Level::Detected(arch) })
     }
 
     /// The form every machine has.
@@ -50,6 +48,7 @@ impl Kernels {
     /// Name of the instruction set in use.
     pub fn name(&self) -> &'static str {
         match self.level {
+            Level::Baseline if cfg!(target_arch = "x86_64") => "sse2",
             Level::Baseline => "baseline",
             #[cfg(target_arch = "x86_64")]
             Level::Detected(Arch::V4(_)) => "avx512",

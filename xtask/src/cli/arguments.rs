@@ -6,12 +6,13 @@ use anyhow::Result;
 use clap::{Args, Subcommand, ValueEnum};
 use overhear_engine::damping::Muffler;
 use overhear_engine::drum::spec::PILLOW;
+use overhear_engine::modal::simd::level::InstructionSet;
 use overhear_engine::piece::{self, BuildOptions};
 use overhear_engine::strike::Strike;
 
 use crate::player::{Blocks, Source};
 use crate::wav::Bits;
-use crate::{hear, realism, render, settings};
+use crate::{bench, hear, realism, render, settings};
 
 /// Sample rates that the engine builds for, Hz.
 const RATES: std::ops::RangeInclusive<i64> = 22_050..=768_000;
@@ -38,6 +39,18 @@ pub enum Task {
     Modes(ModesArguments),
     /// Measure every piece beside recordings of real kits
     Realism(RealismArguments),
+    /// Measure what the instrument costs
+    Bench(BenchArguments),
+    /// Play one scene of `bench` once, for callgrind to count
+    #[command(hide = true)]
+    BenchScene {
+        /// Number of the scene
+        index: usize,
+        /// Tier of the kit's cymbals
+        quality: Quality,
+        /// Instruction set
+        simd: Simd,
+    },
     /// Measure and write the pages of docs/report
     Report {
         /// cascade; all if none is given
@@ -358,6 +371,63 @@ impl RealismArguments {
         let pieces = realism::pieces(&self.pieces)?;
         let settings = realism::settings(&pieces, &self.set)?;
         Ok(realism::Request { pieces, speeds, settings, wav: self.wav })
+    }
+}
+
+/// Arguments of `bench`.
+#[derive(Debug, Args)]
+pub struct BenchArguments {
+    /// Print one JSON object (see docs/commands.md)
+    #[arg(long)]
+    pub json: bool,
+    /// Times that everything is measured
+    #[arg(long, value_name = "N", default_value_t = bench::RUNS as u16, value_parser = clap::value_parser!(u16).range(1..))]
+    runs: u16,
+    /// How far up the modes of the kit's cymbals are coupled
+    #[arg(long, default_value = "standard")]
+    quality: Quality,
+    /// Use no wider instruction set
+    #[arg(long)]
+    simd: Option<Simd>,
+    /// Set the costs beside those of an older report, written with --json
+    #[arg(long, value_name = "OLD.json")]
+    compare: Option<PathBuf>,
+    /// Count instructions, too (needs valgrind)
+    #[arg(long)]
+    callgrind: bool,
+}
+
+impl BenchArguments {
+    /// What is asked for.
+    pub fn into_request(self) -> bench::Request {
+        bench::Request {
+            runs: self.runs.into(),
+            quality: self.quality.into(),
+            simd: self.simd.map(Into::into),
+            compare: self.compare,
+            callgrind: self.callgrind,
+        }
+    }
+}
+
+/// Instruction sets of x86-64.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub enum Simd {
+    /// Four lanes, on every machine
+    Sse2,
+    /// Eight lanes
+    Avx2,
+    /// Sixteen lanes
+    Avx512,
+}
+
+impl From<Simd> for InstructionSet {
+    fn from(simd: Simd) -> InstructionSet {
+        match simd {
+            Simd::Sse2 => InstructionSet::Sse2,
+            Simd::Avx2 => InstructionSet::Avx2,
+            Simd::Avx512 => InstructionSet::Avx512,
+        }
     }
 }
 

@@ -1,0 +1,91 @@
+//! The kernels' forms for different instruction sets make the same sound.
+//!
+//! One test only: the limit it sets is the whole process's.
+
+use overhear_engine::modal::simd::Kernels;
+use overhear_engine::modal::simd::level::{self, InstructionSet};
+use overhear_engine::piece::{BuildOptions, Piece, PieceId};
+use overhear_engine::strike::Strike;
+use overhear_tests::Spectrum;
+use xtask::hear;
+
+const RATE: f64 = 44_100.0;
+
+/// Seconds rendered, and of them the attack: later on a stick that chatters on a splash has multiplied roundings to a
+/// thousandth of the peak.
+const LENGTH: f64 = 3.0;
+const ATTACK: f64 = 0.02;
+
+/// When energies are compared, s.
+const LOOKS: [f64; 2] = [0.05, 0.3];
+
+/// What a piece struck at 4 m/s sounds like, and its energy at [`LOOKS`], J.
+///
+/// Calm: without what makes its motion chaotic, a cymbal's coupling and the snare's wires.
+fn sound(id: PieceId, calm: bool) -> (Vec<f32>, [f64; 2]) {
+    let linear = calm && !id.is_drum();
+    let mut piece = Piece::new(id, &BuildOptions { linear, ..BuildOptions::new(RATE) }).unwrap();
+    piece.throw_wires(!calm);
+    piece.strike(&Strike { speed: 4.0, ..hear::default_strike(id) });
+    let mut out = vec![0.0; (LENGTH * RATE) as usize];
+    let mut done = 0;
+    let energies = LOOKS.map(|seconds| {
+        let until = (seconds * RATE) as usize;
+        piece.render(&mut out[done..until]);
+        done = until;
+        piece.energy()
+    });
+    piece.render(&mut out[done..]);
+    (out, energies)
+}
+
+/// Largest difference over the attack, of the peak.
+fn apart(a: &[f32], b: &[f32]) -> f32 {
+    let peak = a.iter().fold(0.0_f32, |peak, x| peak.max(x.abs()));
+    let attack = a.iter().zip(b).take((ATTACK * RATE) as usize);
+    attack.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max) / peak
+}
+
+/// Largest difference of a third octave, dB, among those within 60 dB of the loudest.
+fn third_octaves_apart(a: &[f32], b: &[f32]) -> f64 {
+    let bands = |sound: &[f32]| {
+        let spectrum = Spectrum::new(sound, RATE);
+        let middles = (0..28).map(|i| 31.25 * 2.0_f64.powf(f64::from(i) / 3.0));
+        middles.map(|hz| spectrum.band(hz * 2.0_f64.powf(-1.0 / 6.0), hz * 2.0_f64.powf(1.0 / 6.0))).collect()
+    };
+    let (a, b): (Vec<f64>, Vec<f64>) = (bands(a), bands(b));
+    let loudest = a.iter().copied().fold(0.0, f64::max);
+    let heard = a.iter().zip(&b).filter(|(a, _)| **a > 1e-6 * loudest);
+    heard.map(|(a, b)| 10.0 * (a / b).log10().abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn every_instruction_set_makes_the_same_sound() {
+    let sets: Vec<_> = InstructionSet::ALL.into_iter().filter(|set| set.is_available()).collect();
+    for id in PieceId::KIT {
+        // Where motion is chaotic a rounding makes another sound of it, equally loud.
+        let chaotic = !id.is_drum() || id == PieceId::Snare;
+        let render = |set| {
+            level::limit(set);
+            assert_eq!(Kernels::detect().name(), InstructionSet::name(set));
+            (sound(id, true), chaotic.then(|| sound(id, false)))
+        };
+        let (plain, wild) = render(InstructionSet::Sse2);
+        for &set in &sets[1..] {
+            let (other, other_wild) = render(set);
+            let (attack, thirds) = (apart(&plain.0, &other.0), third_octaves_apart(&plain.0, &other.0));
+            println!("{} {}: attack {attack:.1e} of the peak, thirds {thirds:.4} dB", id.name(), set.name());
+            assert!(attack < 1e-3, "{id:?} {set:?}: {attack}");
+            assert!(thirds < 0.1, "{id:?} {set:?}: {thirds} dB");
+            for (a, b) in wild.iter().zip(&other_wild) {
+                let energies = a.1.iter().zip(b.1).map(|(a, b)| b / a).collect::<Vec<_>>();
+                println!("    chaotic: energies {energies:.3?}");
+                assert!(
+                    energies.iter().all(|ratio| (0.9..1.1).contains(ratio)),
+                    "{id:?} {set:?}: {energies:?}"
+                );
+            }
+        }
+    }
+    level::limit(InstructionSet::Avx512);
+}

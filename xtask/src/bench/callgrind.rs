@@ -1,0 +1,82 @@
+//! Instructions executed, counted by `valgrind --tool=callgrind`: what no other work on the machine can change.
+//!
+//! Each scene is played once by a process of its own under callgrind, which knows AVX2 at most. Only what happens
+//! inside [`Workload::block`] counts.
+
+use std::process::{Command, Stdio};
+
+use anyhow::{Context, Result};
+use overhear_engine::kit::BLOCK;
+use overhear_engine::modal::simd::level::{self, InstructionSet};
+use overhear_engine::piece::{PieceId, Quality};
+
+use super::workload::{Scene, Workload};
+use super::{RATE, Request};
+use crate::bad_input;
+use crate::progress::Progress;
+
+/// The function counted, as callgrind sees its name.
+const COUNTED: &str = "*bench::workload::Workload::block*";
+
+/// Instructions per second of sound of a scene.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct Count {
+    /// Name of the scene or piece.
+    pub name: String,
+    /// Instructions per second of sound.
+    pub instructions_per_s: f64,
+}
+
+/// The scenes counted: those of the kit, and every piece at the standard tier.
+fn scenes(quality: Quality) -> impl Iterator<Item = Scene> {
+    let kit = [Scene::Groove(quality), Scene::AllAtOnce(quality), Scene::Idle];
+    kit.into_iter().chain(PieceId::KIT.map(|piece| Scene::Piece(piece, Quality::Standard)))
+}
+
+/// Counts every scene.
+///
+/// # Errors
+/// [`BadInput`](crate::error::BadInput) if `valgrind` is not installed; any other if it fails.
+pub fn count(request: &Request) -> Result<Vec<Count>> {
+    let scenes: Vec<Scene> = scenes(request.quality).collect();
+    let mut progress = Progress::new("callgrind", scenes.len() as u64);
+    let set = request.simd.unwrap_or(InstructionSet::Avx2).min(InstructionSet::Avx2);
+    let mut counts = Vec::new();
+    for (index, scene) in scenes.into_iter().enumerate() {
+        let output = Command::new("valgrind")
+            .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
+            .arg(format!("--toggle-collect={COUNTED}"))
+            .arg(std::env::current_exe().context("the path of this program")?)
+            .args(["bench-scene", &index.to_string(), request.quality.name(), set.name()])
+            .stdout(Stdio::null())
+            .output()
+            .map_err(|error| {
+                bad_input!("--callgrind needs valgrind ({error}); on Debian: apt install valgrind")
+            })?;
+        let said = String::from_utf8_lossy(&output.stderr);
+        let collected = said.lines().find_map(|line| line.split_once("Collected : "));
+        let instructions: f64 = collected
+            .and_then(|(_, number)| number.trim().parse().ok())
+            .with_context(|| format!("valgrind counted nothing: {}", said.trim()))?;
+        counts.push(Count {
+            name: scene.name().to_owned(),
+            instructions_per_s: instructions / scene.seconds(),
+        });
+        progress.advance(1);
+    }
+    Ok(counts)
+}
+
+/// What runs under callgrind: plays the scene of that number once.
+///
+/// # Errors
+/// [`BadInput`](crate::error::BadInput) if there is none, or it cannot be built.
+pub fn count_this(index: usize, quality: Quality, set: InstructionSet) -> Result<()> {
+    level::limit(set);
+    let scene = scenes(quality).nth(index).ok_or_else(|| bad_input!("there is no scene {index}"))?;
+    let mut workload = Workload::new(&scene)?;
+    for _ in 0..(scene.seconds() * RATE) as usize / BLOCK {
+        workload.block();
+    }
+    Ok(())
+}

@@ -1,0 +1,116 @@
+//! The clock: CPU time of a workload and of the calibration loop, in turns.
+
+use cpu_time::ThreadTime;
+use overhear_engine::kit::BLOCK;
+
+use super::RATE;
+use super::calibration::{Calibration, SLICES};
+use super::workload::Workload;
+use crate::progress::Progress;
+
+/// What a scene costs, over the runs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cost {
+    /// CPU seconds per second of sound, median.
+    pub share: f64,
+    /// The same over the CPU seconds of the calibration loop, median of the runs' ratios.
+    pub calibrations: f64,
+    /// Least and greatest of those ratios.
+    pub spread: [f64; 2],
+    /// CPU seconds of the whole loop, median.
+    pub calibration_s: f64,
+}
+
+/// CPU time of every block of a scene, the least over the runs, s.
+///
+/// Each run renders the same; what a block took longer in one was the machine's doing.
+#[derive(Debug, Clone, Default)]
+pub struct Blocks(Vec<f64>);
+
+impl Blocks {
+    /// Of several scenes, shortest first.
+    pub fn together(scenes: Vec<Blocks>) -> Blocks {
+        let mut all: Vec<f64> = scenes.into_iter().flat_map(|blocks| blocks.0).collect();
+        all.sort_by(f64::total_cmp);
+        Blocks(all)
+    }
+
+    /// The time that so many blocks stay within, as a share of what the block lasts. Sorted ones only.
+    pub fn within(&self, quantile: f64) -> f64 {
+        let last = self.0.len().saturating_sub(1);
+        let time = self.0.get((quantile * last as f64).round() as usize).copied().unwrap_or(0.0);
+        time * RATE / BLOCK as f64
+    }
+}
+
+/// Plays a workload so many times, once more beforehand to warm the caches.
+pub fn runs(workload: &mut Workload, runs: usize, progress: &mut Progress) -> (Cost, Blocks) {
+    let mut calibration = Calibration::new();
+    let seconds = workload.scene().seconds();
+    let mut shares = Vec::new();
+    let mut ratios = Vec::new();
+    let mut loops = Vec::new();
+    let mut least: Vec<f64> = Vec::new();
+    for run in 0..=runs {
+        let (times, unit) = once(workload, &mut calibration);
+        if run == 0 {
+            least = vec![f64::INFINITY; times.len()];
+            continue;
+        }
+        least.iter_mut().zip(&times).for_each(|(least, &time)| *least = least.min(time));
+        let share = times.iter().sum::<f64>() / seconds;
+        shares.push(share);
+        ratios.push(share / unit);
+        loops.push(unit);
+        progress.advance(1);
+    }
+    let [share, calibration_s] = [&mut shares, &mut loops].map(|values| median(values));
+    let calibrations = median(&mut ratios);
+    // `median` has sorted them.
+    let spread = [ratios[0], ratios[ratios.len() - 1]];
+    (Cost { share, calibrations, spread, calibration_s }, Blocks(least))
+}
+
+/// One run: CPU time of every block, and of the whole calibration loop, s.
+fn once(workload: &mut Workload, calibration: &mut Calibration) -> (Vec<f64>, f64) {
+    workload.rewind();
+    let blocks = (workload.scene().seconds() * RATE / BLOCK as f64) as usize;
+    let slice = blocks.div_ceil(SLICES as usize);
+    let mut times = Vec::with_capacity(blocks);
+    let (mut unit, mut slices) = (0.0, 0);
+    while times.len() < blocks {
+        unit += calibration.slice();
+        slices += 1;
+        for _ in 0..slice.min(blocks - times.len()) {
+            let start = ThreadTime::now();
+            workload.block();
+            times.push(start.elapsed().as_secs_f64());
+        }
+    }
+    (times, unit * f64::from(SLICES) / f64::from(slices))
+}
+
+/// The median; sorts.
+fn median(values: &mut [f64]) -> f64 {
+    values.sort_by(f64::total_cmp);
+    let middle = values.len() / 2;
+    if values.len() % 2 == 1 { values[middle] } else { 0.5 * (values[middle - 1] + values[middle]) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_median_of_an_even_number_lies_between_the_middle_two() {
+        assert_eq!(median(&mut [4.0, 1.0, 3.0, 2.0]), 2.5);
+        assert_eq!(median(&mut [5.0, 1.0, 3.0]), 3.0);
+    }
+
+    #[test]
+    fn quantiles_are_of_sorted_blocks() {
+        let blocks = Blocks::together(vec![Blocks(vec![3.0, 1.0]), Blocks(vec![2.0])]);
+        let share = RATE / BLOCK as f64;
+        assert_eq!([0.0, 0.5, 1.0].map(|q| blocks.within(q) / share), [1.0, 2.0, 3.0]);
+    }
+}

@@ -1,0 +1,233 @@
+//! What was measured, for people and for programs.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use overhear_engine::piece::Quality;
+use serde::Serialize;
+
+use super::Request;
+use super::callgrind::Count;
+use super::compare::Before;
+use super::measure::{Blocks, Cost};
+use super::workload::Scene;
+
+/// Quantiles of the time of a block that are reported.
+const QUANTILES: [(&str, f64); 4] = [("50", 0.5), ("90", 0.9), ("99", 0.99), ("99.9", 0.999)];
+
+/// The report, one object; units are in the names.
+#[derive(Debug, Serialize)]
+pub struct Report {
+    /// CPU seconds of the calibration loop.
+    calibration_s: f64,
+    runs: usize,
+    quality: &'static str,
+    groove: Figure,
+    all_at_once: Figure,
+    pieces: BTreeMap<&'static str, PieceCost>,
+    idle: Idle,
+    /// The longest block over the groove and all at once, of its deadline.
+    worst_block_share: f64,
+    /// The time that so many percent of those blocks stay within, of the deadline.
+    block_share_percentiles: BTreeMap<&'static str, f64>,
+    build_cold_s: f64,
+    build_warm_s: f64,
+    memory_mb: f64,
+    simd: &'static str,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    instructions: Vec<Count>,
+    #[serde(skip)]
+    before: Before,
+}
+
+/// A cost.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct Figure {
+    /// CPU seconds per second of sound.
+    share: f64,
+    calibrations: f64,
+    /// Least and greatest of all runs.
+    calibrations_min: f64,
+    calibrations_max: f64,
+}
+
+/// What a kit at rest costs.
+pub type Idle = Figure;
+
+/// A piece at the standard tier, and a cymbal at the others.
+#[derive(Debug, Serialize)]
+pub struct PieceCost {
+    #[serde(flatten)]
+    standard: Figure,
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    tiers: BTreeMap<&'static str, Figure>,
+}
+
+impl From<Cost> for Figure {
+    fn from(cost: Cost) -> Figure {
+        let Cost { share, calibrations, spread: [calibrations_min, calibrations_max], .. } = cost;
+        Figure { share, calibrations, calibrations_min, calibrations_max }
+    }
+}
+
+/// All that was measured.
+pub struct Measured<'a> {
+    pub request: &'a Request,
+    pub costs: Vec<(Scene, Cost)>,
+    pub blocks: Blocks,
+    pub build_cold_s: f64,
+    pub build_warm_s: f64,
+    pub memory_mb: f64,
+    pub simd: &'static str,
+    pub counts: Vec<Count>,
+}
+
+impl Report {
+    /// Puts in order what was measured.
+    ///
+    /// # Panics
+    /// If the kit's scenes are not among the costs.
+    pub fn new(measured: Measured<'_>) -> Report {
+        let Measured { request, costs, blocks, .. } = measured;
+        let of = |wanted: &str| {
+            let found = costs.iter().find(|(scene, _)| scene.name() == wanted);
+            Figure::from(found.expect("every scene is measured").1)
+        };
+        let mut pieces: BTreeMap<&'static str, PieceCost> = BTreeMap::new();
+        for &(scene, cost) in &costs {
+            let Scene::Piece(piece, quality) = scene else { continue };
+            let figure = Figure::from(cost);
+            let entry = pieces
+                .entry(piece.name())
+                .or_insert_with(|| PieceCost { standard: figure, tiers: BTreeMap::new() });
+            if quality == Quality::Standard {
+                entry.standard = figure;
+            }
+            if !piece.is_drum() {
+                entry.tiers.insert(quality.name(), figure);
+            }
+        }
+        let mut loops: Vec<f64> = costs.iter().map(|(_, cost)| cost.calibration_s).collect();
+        loops.sort_by(f64::total_cmp);
+        Report {
+            calibration_s: loops[loops.len() / 2],
+            runs: request.runs,
+            quality: request.quality.name(),
+            groove: of("groove"),
+            all_at_once: of("all-at-once"),
+            idle: of("idle"),
+            pieces,
+            worst_block_share: blocks.within(1.0),
+            block_share_percentiles: QUANTILES.map(|(name, q)| (name, blocks.within(q))).into(),
+            build_cold_s: measured.build_cold_s,
+            build_warm_s: measured.build_warm_s,
+            memory_mb: measured.memory_mb,
+            simd: measured.simd,
+            instructions: measured.counts,
+            before: Before::new(),
+        }
+    }
+
+    /// The same, with older costs to print beside.
+    pub fn beside(self, before: Before) -> Report {
+        Report { before, ..self }
+    }
+
+    fn row(&self, f: &mut fmt::Formatter, name: &str, figure: &Figure) -> fmt::Result {
+        let Figure { share, calibrations, calibrations_min: least, calibrations_max: most } = figure;
+        write!(f, "{name:<20} {:>7.2} % {calibrations:>9.3}  {least:>7.3} to {most:<7.3}", 100.0 * share)?;
+        match self.before.get(name) {
+            Some(before) => writeln!(f, "  {before:>7.3}  x{:.2}", calibrations / before),
+            None => writeln!(f),
+        }
+    }
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        writeln!(
+            f,
+            "calibration loop {:.4} s, {} runs, one thread, {}, cymbals of the kit at {}\n",
+            self.calibration_s, self.runs, self.simd, self.quality
+        )?;
+        let before = if self.before.is_empty() { "" } else { "   before  ratio" };
+        writeln!(f, "{:<20} {:>9} {:>9}  {:>18}{before}", "", "a core", "calibr.", "least to greatest")?;
+        self.row(f, "groove", &self.groove)?;
+        self.row(f, "all-at-once", &self.all_at_once)?;
+        self.row(f, "idle", &self.idle)?;
+        for (name, PieceCost { standard, tiers }) in &self.pieces {
+            if tiers.is_empty() {
+                self.row(f, name, standard)?;
+            }
+            for quality in Quality::ALL {
+                if let Some(figure) = tiers.get(quality.name()) {
+                    self.row(f, &format!("{name} {}", quality.name()), figure)?;
+                }
+            }
+        }
+        write!(f, "\nblock of its deadline, %: ")?;
+        for (name, share) in &self.block_share_percentiles {
+            write!(f, "{:.1} in {name} %, ", 100.0 * share)?;
+        }
+        writeln!(f, "{:.1} the worst", 100.0 * self.worst_block_share)?;
+        writeln!(
+            f,
+            "build {:.2} s cold, {:.2} s again; memory {:.0} MB",
+            self.build_cold_s, self.build_warm_s, self.memory_mb
+        )?;
+        for Count { name, instructions_per_s } in &self.instructions {
+            writeln!(f, "{name:<20} {:>9.1} million instructions a second", instructions_per_s / 1e6)?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use overhear_engine::piece::PieceId;
+
+    use super::super::compare;
+    use super::*;
+
+    #[test]
+    fn a_report_names_every_scene_and_can_be_compared_with() {
+        let cost = Cost { share: 0.05, calibrations: 0.6, spread: [0.5, 0.7], calibration_s: 0.08 };
+        let quality = Quality::Standard;
+        let kit = [Scene::Groove(quality), Scene::AllAtOnce(quality), Scene::Idle];
+        let crash = Quality::ALL.map(|quality| Scene::Piece(PieceId::Crash, quality));
+        let scenes = kit.into_iter().chain(crash).chain([Scene::Piece(PieceId::Kick, quality)]);
+        let request = Request { runs: 7, quality, simd: None, compare: None, callgrind: false };
+        let report = Report::new(Measured {
+            request: &request,
+            costs: scenes.map(|scene| (scene, cost)).collect(),
+            blocks: Blocks::default(),
+            build_cold_s: 1.0,
+            build_warm_s: 0.5,
+            memory_mb: 40.0,
+            simd: "avx2",
+            counts: Vec::new(),
+        });
+        let json = serde_json::to_value(&report).unwrap();
+        for key in [
+            "calibration_s",
+            "groove",
+            "all_at_once",
+            "pieces",
+            "idle",
+            "worst_block_share",
+            "build_cold_s",
+            "build_warm_s",
+            "memory_mb",
+            "simd",
+        ] {
+            assert!(json.get(key).is_some(), "{key}");
+        }
+        assert_eq!(json["groove"]["calibrations"], 0.6);
+        assert_eq!(json["pieces"]["crash"]["tiers"].as_object().unwrap().len(), Quality::ALL.len());
+        let before = compare::parse(&json.to_string()).unwrap();
+        assert_eq!(before.get("crash high"), Some(&0.6));
+        let table = report.beside(before).to_string();
+        assert!(table.lines().filter(|line| line.ends_with("x1.00")).count() >= 8, "{table}");
+        assert!(compare::parse("{}").unwrap_err().to_string().contains("groove"));
+    }
+}
