@@ -3,7 +3,7 @@
 
 use std::f64::consts::{SQRT_2, TAU};
 
-use crate::air::DENSITY;
+use crate::air::{DENSITY, MassCurves};
 use crate::cavity::{CavityOrder, HeadShape};
 use crate::drum::coupled::{CoupledMode, OrderProblem, Stretched};
 use crate::drum::high_band::{Ear, HighBandSpec};
@@ -59,17 +59,22 @@ pub struct Blueprint {
 
 impl TunedHead {
     /// Stretches a head so that its mode `(m, n)` runs through the pitches.
-    fn new(spec: &HeadSpec, (m, n): (u32, u32), pitches: &[f64; PITCHES]) -> Result<TunedHead, SpecError> {
+    fn new(
+        spec: &HeadSpec,
+        (m, n): (u32, u32),
+        pitches: &[f64; PITCHES],
+        curves: &mut MassCurves,
+    ) -> Result<TunedHead, SpecError> {
         // A first look with few modes finds the tensions; the air weighs less than thirty films.
         let zero = bessel::zero(m, n);
         let high = pitches[PITCHES - 1];
         let most = 30.0 * membrane::vacuum_tension(&spec.membrane, zero, high);
         let few = ModeRange { reference_tension: most, limit_hz: 6.0 * high };
-        let look = Membrane::new(spec.membrane, Surroundings::Air, &few)?;
+        let look = Membrane::sharing(spec.membrane, Surroundings::Air, &few, curves)?;
         let tension = |hz| look.tension_for(m, n, hz).unwrap_or(most);
         let range =
             ModeRange { reference_tension: tension(pitches[MIDDLE]), limit_hz: BASIS * spec.limit_hz };
-        let membrane = Membrane::new(spec.membrane, Surroundings::Air, &range)?.by_order();
+        let membrane = Membrane::sharing(spec.membrane, Surroundings::Air, &range, curves)?.by_order();
         let tensions = pitches.map(|hz| membrane.tension_for(m, n, hz).unwrap_or_else(|| tension(hz)));
         Ok(TunedHead { membrane, tensions, limit_hz: spec.limit_hz })
     }
@@ -127,12 +132,14 @@ impl Blueprint {
         let (low, default, high) = spec.pitch_hz;
         let scale = PitchScale::new(low, high);
         let pitches = scale.pitches();
-        let batter = TunedHead::new(&spec.batter, spec.named_mode, &pitches)?;
+        let mut curves = MassCurves::default();
+        let batter = TunedHead::new(&spec.batter, spec.named_mode, &pitches, &mut curves)?;
         let resonant = spec
             .resonant
             .map(|resonant| {
                 let ratio = resonant.pitch_ratio;
-                TunedHead::new(&resonant.head, spec.named_mode, &pitches.map(|hz| ratio * hz))
+                let pitches = pitches.map(|hz| ratio * hz);
+                TunedHead::new(&resonant.head, spec.named_mode, &pitches, &mut curves)
             })
             .transpose()?;
         let mut blueprint = Blueprint { scale, batter, resonant, modes: Vec::new() };

@@ -27,6 +27,7 @@
 //!
 //! Limits: plane disc; the dome and the bell are neglected, as is the air's mass in the frequencies.
 
+use std::cell::RefCell;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use nalgebra::{Complex, DMatrix, DVector};
@@ -34,7 +35,7 @@ use nalgebra::{Complex, DMatrix, DVector};
 use super::radial::angular_norm;
 use crate::air::{DENSITY, SPEED_OF_SOUND};
 use crate::listening::{ListeningPoint, Radiator};
-use crate::math::quadrature::GaussLegendre;
+use crate::math::quadrature::{GaussLegendre, Rules};
 
 /// What a mode does to the air.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,6 +54,8 @@ pub struct FreeDisc {
     radius: f64,
     points: [ListeningPoint; 2],
     rule: GaussLegendre,
+    /// For the integrals of the impedance.
+    rules: RefCell<Rules>,
 }
 
 /// Functions beyond those that a shape of the mode's fineness needs. *Measured*: more change nothing by 1 %.
@@ -61,7 +64,7 @@ const MARGIN: f64 = 6.0;
 impl FreeDisc {
     /// For a disc of `radius` (m). `nodes` along the radius: three a wavelength of the finest shape.
     pub fn new(radius: f64, points: [ListeningPoint; 2], nodes: usize) -> FreeDisc {
-        FreeDisc { radius, points, rule: GaussLegendre::unit(nodes) }
+        FreeDisc { radius, points, rule: GaussLegendre::unit(nodes), rules: RefCell::default() }
     }
 
     /// Where along the radius shapes are wanted, shares of the radius.
@@ -83,7 +86,10 @@ impl FreeDisc {
                 Complex::from(terms.map(|(((r, w), shape), phi)| r * w * shape * phi).sum::<f64>())
             }),
         );
-        let solved = impedance(m, count, u).lu().solve(&drive).unwrap_or_else(|| DVector::zeros(count));
+        let solved = impedance(m, count, u, &mut self.rules.borrow_mut())
+            .lu()
+            .solve(&drive)
+            .unwrap_or_else(|| DVector::zeros(count));
         // Per unit acceleration into the face.
         let jump = solved * Complex::new(0.0, 2.0 * DENSITY * self.radius);
         let load: Complex<f64> = jump.iter().zip(drive.iter()).map(|(a, b)| a * b).sum();
@@ -155,7 +161,7 @@ impl FreeDisc {
 }
 
 /// `int phi_i phi_j k_z x dx` of order `m` at `u = omega a / c`, in units of the radius.
-fn impedance(m: usize, count: usize, u: f64) -> DMatrix<Complex<f64>> {
+fn impedance(m: usize, count: usize, u: f64, rules: &mut Rules) -> DMatrix<Complex<f64>> {
     let highest = m + 2 * count;
     let mut out = DMatrix::from_diagonal(&DVector::from_iterator(
         count,
@@ -175,15 +181,17 @@ fn impedance(m: usize, count: usize, u: f64) -> DMatrix<Complex<f64>> {
         }
     };
     // What differs from zero frequency: below u, x = u sin(phi) ...
-    let below = GaussLegendre::new(u as usize + 12, 0.0, FRAC_PI_2);
-    for (&phi, &w) in below.nodes.iter().zip(&below.weights) {
+    let below = rules.unit(u as usize + 12);
+    for (t, w) in below.nodes.iter().zip(&below.weights) {
+        let (phi, w) = (FRAC_PI_2 * t, FRAC_PI_2 * w);
         let (sin, cos) = phi.sin_cos();
         add(u * sin, Complex::new(u * cos, u * sin) * (w * cos / sin));
     }
     // ... and above, x = sqrt(u^2 + s^2), until the difference has died away.
     let reach = 1.5 * (highest as f64).max(u) + 12.0;
-    let above = GaussLegendre::new((0.8 * reach) as usize + 8, 0.0, reach);
-    for (&s, &w) in above.nodes.iter().zip(&above.weights) {
+    let above = rules.unit((0.8 * reach) as usize + 8);
+    for (t, w) in above.nodes.iter().zip(&above.weights) {
+        let (s, w) = (reach * t, reach * w);
         let x = u.hypot(s);
         add(x, Complex::new(0.0, (x - s) * s / (x * x) * w));
     }
