@@ -16,7 +16,6 @@
 //! Source: Morse & Ingard, Theoretical Acoustics, ch. 7; Christian et al., JASA 76 (1984).
 
 use std::collections::BTreeMap;
-use std::sync::{Mutex, PoisonError};
 
 use crate::math::bessel::JTable;
 use crate::math::quadrature::GaussLegendre;
@@ -97,21 +96,21 @@ impl<'a> MembraneAir<'a> {
     ///
     /// Held from where waves on the head come near the speed of sound: there its load turns from a mass into a
     /// resistance within a few percent, which no curve follows and no mode survives long enough to show.
-    ///
-    /// The same for every head whatever its size: worked out once in a process and kept.
     pub fn curve(&self, j: f64) -> MassCurve {
-        static KNOWN: Mutex<BTreeMap<(u32, u64), MassCurve>> = Mutex::new(BTreeMap::new());
-        let known = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
-        let key = (self.m, j.to_bits());
-        if let Some(curve) = known().get(&key) {
-            return *curve;
-        }
-        // Not under the lock: others build, too.
         let most = SUBSONIC * j;
         let logarithms = std::array::from_fn(|i| self.mass(j, most * chebyshev(i)).ln());
-        let curve = MassCurve { most, logarithms };
-        known().insert(key, curve);
-        curve
+        MassCurve { most, logarithms }
+    }
+}
+
+/// Mass curves worked out so far: they are the same for every head, whatever its size.
+#[derive(Debug, Clone, Default)]
+pub struct MassCurves(BTreeMap<(u32, u64), MassCurve>);
+
+impl MassCurves {
+    /// That of the mode whose radial wavenumber is the zero `j`.
+    pub fn get(&mut self, air: &MembraneAir, j: f64) -> MassCurve {
+        *self.0.entry((air.m, j.to_bits())).or_insert_with(|| air.curve(j))
     }
 }
 

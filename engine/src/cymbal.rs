@@ -39,6 +39,8 @@ pub struct CymbalSpec {
     pub splitting: Splitting,
     /// Where it is heard from.
     pub listening_point: ListeningPoint,
+    /// In which direction it is heard from far.
+    pub far_point: ListeningPoint,
 }
 
 /// A cymbal stand: felts the plate bounces and rocks on.
@@ -110,6 +112,7 @@ impl CymbalSpec {
             // Beside the cymbal, a little above its plane. *Measured*: from straight above, its dome's breathing
             // covers all else; from here the balance of a ride is that of recordings within 2 dB.
             listening_point: ListeningPoint { distance: 0.5, inclination: 1.1, azimuth: 0.4 },
+            far_point: ListeningPoint::far(0.5, 0.4),
         }
     }
 
@@ -182,11 +185,14 @@ impl Cymbal {
         let mut surface = Surface::new(SurfaceParts {
             modes: modes.iter().map(bare).collect(),
             shapes: ShapeTable::new(&radial_rows(&plate, &tables, &ShapeTable::radii()), index),
-            transfer: transfer(spec, &plate, &radiated),
+            transfer: vec![[0.0; 2]; modes.len()],
             material: spec.material,
             lossless: options.lossless,
             sample_rate: options.sample_rate,
         });
+        let ears = [0, 1].map(|ear| transfer(spec, &plate, &radiated, ear).into_iter());
+        let ([near, far], away) = (ears, spec.far_point.distance);
+        surface.set_transfers(near, far.map(|transfer| transfer.map(|h| h * away)));
         if let Some(Coupled { potential, modes, highest_hz }) = coupled {
             let stride = coupling_stride(highest_hz, options.sample_rate);
             surface.set_potential(Box::new(potential), modes, stride);
@@ -421,7 +427,7 @@ pub(crate) fn radiate(spec: &CymbalSpec, plate: &PlateModes, tables: &PlateTable
     let finest = plate.flat.iter().flatten().map(|flat| flat.root).fold(0.0, f64::max);
     let trace = highest * spec.plate.radius() / air::SPEED_OF_SOUND;
     let nodes = 12 + (0.7 * (finest + trace)) as usize;
-    let disc = FreeDisc::new(spec.plate.radius(), spec.listening_point, nodes);
+    let disc = FreeDisc::new(spec.plate.radius(), [spec.listening_point, spec.far_point], nodes);
     let shapes = plate.radial_shapes(tables, disc.radii());
     let shells = plate.shells.iter().zip(shapes.chunks_exact(nodes));
     shells
@@ -432,14 +438,16 @@ pub(crate) fn radiate(spec: &CymbalSpec, plate: &PlateModes, tables: &PlateTable
         .collect()
 }
 
-/// How each mode is heard at the listening point, `[mode]`.
-fn transfer(spec: &CymbalSpec, plate: &PlateModes, radiated: &[Radiated]) -> Vec<[f64; 2]> {
+/// How each mode is heard by an ear, `[mode]`: 0 at the listening point, 1 far away.
+fn transfer(spec: &CymbalSpec, plate: &PlateModes, radiated: &[Radiated], ear: usize) -> Vec<[f64; 2]> {
+    let point = [spec.listening_point, spec.far_point][ear];
     // Bounce and the two members of the rock.
     let mut out = vec![[0.0, 0.0]; 3];
-    for (shell, Radiated { transfer: [re, im], .. }) in plate.shells.iter().zip(radiated) {
+    for (shell, radiated) in plate.shells.iter().zip(radiated) {
+        let [re, im] = radiated.transfers[ear];
         let axis = spec.splitting.axis(shell.m, shell.n);
         for (member, _) in Splitting::ROUND.members(shell.m, shell.n) {
-            let share = spec.listening_point.toward(shell.m, member, axis);
+            let share = point.toward(shell.m, member, axis);
             out.push([share * re, share * im]);
         }
     }

@@ -15,6 +15,7 @@ pub mod spec;
 pub mod stretch;
 pub mod tuned;
 
+use crate::air::SPEED_OF_SOUND;
 use crate::damping::{Muffler, SIGMA_T60};
 use crate::error::SpecError;
 use crate::glide::Glide;
@@ -81,7 +82,9 @@ enum MufflerCoefs {
 pub struct Drum {
     surface: Surface,
     blueprint: Blueprint,
-    hearing: Hearing,
+    /// From near and from far.
+    hearing: [Hearing; 2],
+    far_distance: f64,
     modes: Vec<BodyMode>,
     /// Shapes on the resonant head, where wires lie against it.
     far_shapes: Option<ShapeTable>,
@@ -112,22 +115,27 @@ impl Drum {
         let rungs: Vec<Rung> = blueprint.modes.iter().map(|mode| mode.at(&place)).collect();
         let modes = lay_out(&spec, &blueprint, options);
         let muffler = MufflerCoefs::new(&spec, &blueprint);
-        let hearing = Hearing::new(&blueprint, &spec);
+        let points = [spec.listening_point, spec.far_point];
+        let near = Hearing::new(&blueprint, &spec, spec.listening_point);
+        let far = near.from(&blueprint, &spec, spec.far_point);
+        let hearing = [near, far];
         let bare =
             |mode: &BodyMode| Mode { omega: rungs[mode.pair].omega, sigma: 0.0, mass: rungs[mode.pair].mass };
-        let surface = Surface::new(SurfaceParts {
+        let mut surface = Surface::new(SurfaceParts {
             modes: modes.iter().map(bare).collect(),
             shapes: blueprint.batter_shapes(spec.splitting),
-            transfer: hearing.transfers(&blueprint.modes, &place, pitch).collect(),
+            transfer: vec![[0.0; 2]; modes.len()],
             material: spec.batter.membrane.material,
             lossless: options.lossless,
             sample_rate: options.sample_rate,
         });
+        surface.set_listener();
         let mut drum = Drum {
             surface,
             far_shapes: if spec.wires { blueprint.resonant_shapes(spec.splitting) } else { None },
             blueprint,
             hearing,
+            far_distance: spec.far_point.distance,
             modes,
             muffler,
             lossless: options.lossless,
@@ -149,7 +157,7 @@ impl Drum {
         }
         if spec.rim {
             let radius = spec.batter.membrane.radius;
-            drum.surface.set_rim(Rim::new(radius, spec.listening_point, options.lossless));
+            drum.surface.set_rim(Rim::new(radius, points, options.lossless));
         }
         drum.follow_shapes();
         if !options.linear {
@@ -243,7 +251,7 @@ impl Drum {
 
     /// Brings the shapes and what is heard of them to where the pitch is; only strokes need the shapes, and hide that
     /// what still rings is heard a little differently.
-    fn follow_shapes(&mut self) {
+    pub fn follow_shapes(&mut self) {
         if !std::mem::take(&mut self.shapes_stale) {
             return;
         }
@@ -260,8 +268,15 @@ impl Drum {
                 }
             }
         }
-        let transfers = self.hearing.transfers(&self.blueprint.modes, &place, self.pitch.value());
-        self.surface.set_transfer(transfers);
+        let Drum { surface, hearing, blueprint, modes, pitch, far_distance, .. } = self;
+        let [near, far] =
+            hearing.each_ref().map(|hearing| hearing.transfers(&blueprint.modes, &place, pitch.value()));
+        surface.set_volumes(modes.iter().map(|mode| {
+            let tuned = &blueprint.modes[mode.pair];
+            let share = all_around(blueprint, tuned, &place);
+            (share * if share > 0.0 { blueprint.volume(tuned, &place) } else { 0.0 }, share)
+        }));
+        surface.set_transfers(near, far.map(|transfer| transfer.map(|h| h * *far_distance)));
         let far = self.blueprint.resonant.as_ref().map(|head| head.film(&place));
         self.surface.set_films(self.blueprint.batter.film(&place), far);
         if let Some(far) = &self.far_shapes {
@@ -322,7 +337,21 @@ impl Drum {
     }
 }
 
-/// A slice of the high band as a mode of the batter; it has no nodes of its own.
+/// Share of a mode's volume that sends sound all around and feels it: none of modes with nodal diameters, and none where
+/// the wave is shorter than the drum.
+fn all_around(blueprint: &Blueprint, mode: &tuned::TunedMode, place: &Place) -> f64 {
+    if mode.m != 0 {
+        return 0.0;
+    }
+    let u = mode.at(place).omega * blueprint.batter.membrane.spec().radius / SPEED_OF_SOUND;
+    (LONG_WAVE[1] - u).clamp(0.0, LONG_WAVE[1] - LONG_WAVE[0]) / (LONG_WAVE[1] - LONG_WAVE[0])
+}
+
+/// `omega a / c` up to which a drum is felt and heard as a volume, and from which on not at all. *Derived*: at 3 a
+/// disc's own directions differ by 6 dB.
+const LONG_WAVE: [f64; 2] = [2.0, 3.0];
+
+/// A slice of the high band as a mode/// A slice of the high band as a mode of the batter; it has no nodes of its own.
 fn sampled(slice: high_band::SliceInfo) -> ModeInfo {
     ModeInfo {
         body: "batter",

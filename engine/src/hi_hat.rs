@@ -35,6 +35,7 @@ use crate::cymbal::{self, CymbalSpec};
 use crate::damping::{LossLaw, Muffler, SIGMA_T60};
 use crate::error::SpecError;
 use crate::glide::Glide;
+use crate::listening::ListeningPoint;
 use crate::modal::Mode;
 use crate::piece::{BuildOptions, ModeInfo, ModeKind};
 use crate::plate::PlateSpec;
@@ -108,6 +109,14 @@ impl Default for HiHatSpec {
             half_rubbing: 25.0,
             lasting: 0.02,
         }
+    }
+}
+
+impl HiHatSpec {
+    /// The same heard from two points: near, and in which direction from far.
+    pub fn heard_at(self, listening_point: ListeningPoint, far_point: ListeningPoint) -> HiHatSpec {
+        let heard = |cymbal: CymbalSpec| CymbalSpec { listening_point, far_point, ..cymbal };
+        HiHatSpec { top: heard(self.top), bottom: heard(self.bottom), ..self }
     }
 }
 
@@ -361,11 +370,13 @@ fn assemble(
     let mut surface = Surface::new(SurfaceParts {
         modes: bare(&top),
         shapes: struck.shapes,
-        transfer: std::mem::take(&mut top.transfer),
+        transfer: vec![[0.0; 2]; top.modes.len()],
         material: spec.top.material,
         lossless,
         sample_rate: options.sample_rate,
     });
+    let [near, far] = std::mem::take(&mut top.transfers);
+    surface.set_transfers(near.into_iter(), far.into_iter());
     if let Some((potential, modes, highest_hz)) = struck.coupled {
         surface.set_potential(
             Box::new(potential),
@@ -381,7 +392,7 @@ fn assemble(
         .map(|(half, mount)| Rigid::new(half.mass, mount, lossless, dt));
     surface.set_pair(Pair::new(PairParts {
         bottom: bare(&bottom),
-        transfer: std::mem::take(&mut bottom.transfer),
+        transfers: std::mem::take(&mut bottom.transfers),
         folded: [std::mem::take(&mut top.folded), std::mem::take(&mut bottom.folded)],
         rigid,
         law,

@@ -1,32 +1,40 @@
-//! The kit: pieces rendered in short blocks on the kit's own clock and mixed to stereo.
+//! The kit: pieces that hear each other, rendered in short blocks on the kit's own clock, and the microphones about them.
 //!
 //! ```text
-//! strike, set --> Kit --> piece --> level --> pan --+--> output of the piece
-//!                                                   +--> master --> left, right
-//!                     --> piece --> level --> pan --+--> output of the piece
-//!                     --> ...
+//!                 +------------- air: after the way's time, weaker ---------+
+//!                 v                                                         |
+//! strike, set --> pieces (posts, on one thread or several) --> sound far away --> overheads, room --+
+//!                                                  \--> sound close by --> close microphones -------+--> desk --> left, right
 //! ```
 //!
 //! Time is cut at multiples of [`BLOCK`] samples of the kit's clock, whatever lengths are asked
-//! for; control-rate work happens there only. Nothing depends on how a caller cuts time.
+//! for; control-rate work happens there only. Nothing depends on how a caller cuts time. No sound
+//! reaches another piece within a run ([`Kit::min_delay`]), so that pieces are rendered apart from each other.
 
+mod air;
 mod control;
 mod gain;
 mod leaving;
+mod line;
+mod mix;
+mod post;
+mod room;
 
-pub use control::Control;
+pub use control::{Control, Microphone};
 pub use gain::{LOUDEST_DB, SILENT_DB};
+pub use post::{Crew, Post};
 
 use crate::hi_hat::SPLASHING;
 use crate::hi_hat::foot::SPEED;
-use crate::layout::Placement;
+use crate::layout::{Layout, Pair};
 use crate::piece::{Piece, PieceId};
 use crate::snapshot::KitSnapshot;
 use crate::strike::Strike;
 use crate::surface::wires::PRELOAD;
 
-use gain::{Gain, Pan};
-use leaving::Leaving;
+use air::Air;
+use gain::{Gain, GainRun};
+use mix::{Desk, PAIRS};
 
 /// Longest stretch a piece renders at once, samples.
 pub const BLOCK: usize = 32;
@@ -34,19 +42,22 @@ pub const BLOCK: usize = 32;
 /// Sound pressure of full scale before the levels, Pa.
 pub const FULL_SCALE: f32 = 20.0;
 
-/// A piece's place in the kit.
-struct Slot {
-    piece: Option<Box<Piece>>,
-    leaving: Leaving,
+/// Outputs beside the main one: each piece's close microphone, in the order of [`PieceId::KIT`], the overheads, the room.
+pub const OUTPUTS: usize = PieceId::KIT.len() + PAIRS;
+
+/// The silence of the room is looked for once in so many blocks.
+const SETTLE_BLOCKS: u64 = 128;
+
+/// A gain for every piece over a run.
+type GainRuns = [GainRun; PieceId::KIT.len()];
+
+/// What a piece is to take over when it is installed.
+struct Seat {
     tuning: f64,
     muffling: f64,
     preload: f64,
     wires: bool,
     pedal: f64,
-    level: Gain,
-    pan: Pan,
-    /// Largest share in the mix since the last snapshot.
-    peak: f32,
 }
 
 /// Two outputs of one length: left, right.
@@ -54,29 +65,89 @@ pub type Stereo<'a> = [&'a mut [f32]; 2];
 
 /// The drum kit. Owns its pieces; renders them; the only way sound leaves the engine.
 pub struct Kit {
-    slots: [Slot; PieceId::KIT.len()],
-    master: Gain,
+    /// Pieces with their runs; one is missing only while a [`Crew`] has not brought it back.
+    posts: [Option<Box<Post>>; PieceId::KIT.len()],
+    seats: [Seat; PieceId::KIT.len()],
+    crew: Option<Box<dyn Crew>>,
+    air: Air,
+    desk: Desk,
+    /// How much the drums hear of each other: the switch, the amount.
+    hearing: bool,
+    sympathy: f32,
+    ears: Gain,
     clock: u64,
     dropped_strikes: u32,
-    peak: [f32; 2],
+    missed_runs: u32,
+    resets: u32,
 }
 
 impl Kit {
     /// An empty kit at a sample rate (Hz). Pieces arrive through [`install`](Self::install).
     pub fn new(sample_rate: f64) -> Kit {
-        let slots = PieceId::KIT.map(|id| Slot {
-            piece: None,
-            leaving: Leaving::new(sample_rate),
-            tuning: Piece::tuning_range(id).1,
-            muffling: 0.0,
-            preload: PRELOAD.1,
-            wires: true,
-            pedal: 0.0,
-            level: Gain::new(sample_rate),
-            pan: Pan::new(sample_rate, Placement::of(id).side()),
-            peak: 0.0,
-        });
-        Kit { slots, master: Gain::new(sample_rate), clock: 0, dropped_strikes: 0, peak: [0.0; 2] }
+        Kit::with_layout(sample_rate, &Layout::default())
+    }
+
+    /// An empty kit that stands so.
+    pub fn with_layout(sample_rate: f64, layout: &Layout) -> Kit {
+        Kit {
+            posts: std::array::from_fn(|_| Some(Box::new(Post::new(sample_rate)))),
+            seats: PieceId::KIT.map(|id| Seat {
+                tuning: Piece::tuning_range(id).1,
+                muffling: 0.0,
+                preload: PRELOAD.1,
+                wires: true,
+                pedal: 0.0,
+            }),
+            crew: None,
+            air: Air::new(sample_rate, layout),
+            desk: Desk::new(sample_rate, layout),
+            hearing: true,
+            sympathy: 1.0,
+            ears: Gain::new(sample_rate),
+            clock: 0,
+            dropped_strikes: 0,
+            missed_runs: 0,
+            resets: 0,
+        }
+    }
+
+    /// Lets somebody else render the posts, and returns who did so far, to be dropped elsewhere. Output does
+    /// not depend on who does.
+    ///
+    /// # Real-time
+    /// No allocation; nothing is dropped here.
+    pub fn hire(&mut self, crew: Option<Box<dyn Crew>>) -> Option<Box<dyn Crew>> {
+        std::mem::replace(&mut self.crew, crew)
+    }
+
+    /// Samples in which no piece hears what another does: the longest run that is rendered at once.
+    pub fn min_delay(&self) -> usize {
+        self.air.min_delay()
+    }
+
+    /// Where pieces and microphones stand.
+    pub fn layout(&self) -> &Layout {
+        self.air.layout()
+    }
+
+    /// Puts the overheads or the room pair somewhere, m, not farther than [`FARTHEST`](crate::layout::FARTHEST) from any piece;
+    /// what is heard fades over in some hundredths of a second. A close microphone is where its piece was built to
+    /// be heard: see [`BuildOptions::close`](crate::piece::BuildOptions::close).
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn place(&mut self, microphones: Microphone, places: Pair) {
+        if places.iter().flatten().all(|x| x.is_finite()) {
+            match microphones {
+                Microphone::Close(_) => {}
+                Microphone::Overheads => self.air.place_pair(0, places),
+                Microphone::Room => self.air.place_pair(1, places),
+            }
+        }
+    }
+
+    fn mut_piece(&mut self, id: PieceId) -> Option<&mut Box<Piece>> {
+        self.posts[id.slot()?].as_mut()?.piece.as_mut()
     }
 
     /// Puts a piece in its place and returns what stood there, to be dropped elsewhere.
@@ -88,19 +159,21 @@ impl Kit {
     /// # Real-time
     /// No allocation; nothing is dropped here.
     pub fn install(&mut self, mut piece: Box<Piece>) -> Option<Box<Piece>> {
-        let Some(slot) = piece.id().slot() else {
+        let Some((slot, post)) = piece.id().slot().and_then(|slot| Some((slot, self.posts[slot].as_mut()?)))
+        else {
             return Some(piece);
         };
-        let slot = &mut self.slots[slot];
-        piece.set_tuning(slot.tuning);
-        piece.set_muffling(slot.muffling);
-        piece.set_preload(slot.preload);
-        piece.throw_wires(slot.wires);
-        piece.press_pedal(slot.pedal, SPEED.1);
+        let seat = &self.seats[slot];
+        piece.set_tuning(seat.tuning);
+        piece.set_muffling(seat.muffling);
+        piece.set_preload(seat.preload);
+        piece.throw_wires(seat.wires);
+        piece.press_pedal(seat.pedal, SPEED.1);
         piece.finish_controls();
         piece.align((self.clock % BLOCK as u64) as usize);
-        let former = slot.piece.replace(piece)?;
-        slot.leaving.see_off(former)
+        self.air.place_close(slot, piece.close().distance);
+        let former = post.piece.replace(piece)?;
+        post.leaving.see_off(former)
     }
 
     /// Hands back a replaced piece that has faded out, to be dropped elsewhere; one a call.
@@ -108,17 +181,17 @@ impl Kit {
     /// # Real-time
     /// No allocation; nothing is dropped here.
     pub fn retire(&mut self) -> Option<Box<Piece>> {
-        self.slots.iter_mut().find_map(|slot| slot.leaving.gone())
+        self.posts.iter_mut().flatten().find_map(|post| post.leaving.gone())
     }
 
     /// Whether every piece has been installed.
     pub fn is_complete(&self) -> bool {
-        self.slots.iter().all(|slot| slot.piece.is_some())
+        PieceId::KIT.iter().all(|&id| self.piece(id).is_some())
     }
 
     /// The piece of that name, once installed.
     pub fn piece(&self, id: PieceId) -> Option<&Piece> {
-        self.slots[id.slot()?].piece.as_deref()
+        self.posts[id.slot()?].as_ref()?.piece.as_deref()
     }
 
     /// Strikes a piece at the next sample. A stroke on a piece not yet built is dropped and counted.
@@ -126,7 +199,7 @@ impl Kit {
     /// # Real-time
     /// No allocation, no lock.
     pub fn strike(&mut self, id: PieceId, strike: &Strike) {
-        match id.slot().and_then(|slot| self.slots[slot].piece.as_mut()) {
+        match self.mut_piece(id) {
             Some(piece) => piece.strike(strike),
             None => self.dropped_strikes = self.dropped_strikes.saturating_add(1),
         }
@@ -137,9 +210,7 @@ impl Kit {
     /// # Real-time
     /// No allocation, no lock.
     pub fn choke(&mut self, id: PieceId, strength: f64) {
-        if let Some(piece) = id.slot().and_then(|slot| self.slots[slot].piece.as_mut())
-            && !strength.is_nan()
-        {
+        if let Some(piece) = self.mut_piece(id).filter(|_| !strength.is_nan()) {
             piece.choke(strength);
         }
     }
@@ -153,43 +224,63 @@ impl Kit {
         if value.is_nan() {
             return;
         }
+        let on = value >= 0.5;
         match control {
-            Control::Master => self.master.set_db(value),
-            Control::Level(id) => {
-                if let Some(slot) = id.slot() {
-                    self.slots[slot].level.set_db(value);
-                }
-            }
-            Control::Pan(id) => {
-                if let Some(slot) = id.slot() {
-                    self.slots[slot].pan.set(value);
-                }
-            }
+            Control::Master => self.desk.set_master(value),
+            Control::Level(id) => self.desk.set_level(id, value),
+            Control::Pan(id) => self.desk.set_balance(Microphone::Close(id), value),
+            Control::Balance(microphone) => self.desk.set_balance(microphone, value),
+            Control::MicrophoneLevel(microphone) => self.desk.set_strip_level(microphone, value),
+            Control::CloseLevel => self.desk.set_close(value),
+            Control::Mute(microphone) => self.desk.mute(microphone, on),
+            Control::Solo(microphone) => self.desk.solo(microphone, on),
+            Control::SafetyClip => self.desk.set_clip(on),
+            Control::Hearing => self.listen(on, self.sympathy),
+            Control::Sympathy => self.listen(self.hearing, value.clamp(0.0, 1.0) as f32),
+            Control::Pedal => self.press_pedal(value, SPEED.1),
+            Control::SnarePreload => self.adjust(PieceId::Snare, control, value),
+            Control::SnareWires => self.adjust(PieceId::Snare, control, value),
+            Control::Tuning(id) | Control::Muffling(id) => self.adjust(id, control, value),
+        }
+    }
+
+    /// Moves a control of a piece, and of whatever takes its place.
+    fn adjust(&mut self, id: PieceId, control: Control, value: f64) {
+        let Some(slot) = id.slot() else { return };
+        let seat = &mut self.seats[slot];
+        let piece = self.posts[slot].as_mut().and_then(|post| post.piece.as_mut());
+        match control {
             Control::SnarePreload => {
-                if let Some(slot) = PieceId::Snare.slot().map(|slot| &mut self.slots[slot]) {
-                    slot.preload = value;
-                    slot.piece.iter_mut().for_each(|piece| piece.set_preload(value));
-                }
+                seat.preload = value;
+                piece.into_iter().for_each(|piece| piece.set_preload(value));
             }
             Control::SnareWires => {
-                if let Some(slot) = PieceId::Snare.slot().map(|slot| &mut self.slots[slot]) {
-                    slot.wires = value >= 0.5;
-                    slot.piece.iter_mut().for_each(|piece| piece.throw_wires(slot.wires));
-                }
+                seat.wires = value >= 0.5;
+                piece.into_iter().for_each(|piece| piece.throw_wires(value >= 0.5));
             }
-            Control::Pedal => self.press_pedal(value, SPEED.1),
-            Control::Tuning(id) => {
-                if let Some(slot) = id.slot().map(|slot| &mut self.slots[slot]) {
-                    slot.tuning = value;
-                    slot.piece.iter_mut().for_each(|piece| piece.set_tuning(value));
-                }
+            Control::Muffling(_) => {
+                seat.muffling = value;
+                piece.into_iter().for_each(|piece| piece.set_muffling(value));
             }
-            Control::Muffling(id) => {
-                if let Some(slot) = id.slot().map(|slot| &mut self.slots[slot]) {
-                    slot.muffling = value;
-                    slot.piece.iter_mut().for_each(|piece| piece.set_muffling(value));
-                }
+            _ => {
+                seat.tuning = value;
+                piece.into_iter().for_each(|piece| piece.set_tuning(value));
             }
+        }
+    }
+
+    fn listen(&mut self, hearing: bool, sympathy: f32) {
+        (self.hearing, self.sympathy) = (hearing, sympathy);
+        self.ears.set(if hearing { sympathy } else { 0.0 });
+    }
+
+    /// Lets somebody step on the hi-hat's pedal, which is then left at a place, 0 to 1, given where it was; on a
+    /// piece that comes later it is there at once.
+    fn step_on(&mut self, left: impl FnOnce(f64) -> f64, step: impl FnOnce(&mut Piece)) {
+        let Some(slot) = PieceId::HiHat.slot() else { return };
+        self.seats[slot].pedal = left(self.seats[slot].pedal);
+        if let Some(piece) = self.mut_piece(PieceId::HiHat) {
+            step(piece);
         }
     }
 
@@ -199,11 +290,8 @@ impl Kit {
     /// # Real-time
     /// No allocation, no lock.
     pub fn press_pedal(&mut self, pedal: f64, speed: f64) {
-        if let Some(slot) =
-            PieceId::HiHat.slot().map(|slot| &mut self.slots[slot]).filter(|_| !pedal.is_nan())
-        {
-            slot.pedal = pedal;
-            slot.piece.iter_mut().for_each(|piece| piece.press_pedal(pedal, speed));
+        if !pedal.is_nan() {
+            self.step_on(|_| pedal, |hat| hat.press_pedal(pedal, speed));
         }
     }
 
@@ -212,10 +300,7 @@ impl Kit {
     /// # Real-time
     /// No allocation, no lock.
     pub fn stamp_pedal(&mut self, speed: f64) {
-        if let Some(slot) = PieceId::HiHat.slot().map(|slot| &mut self.slots[slot]) {
-            slot.pedal = 1.0;
-            slot.piece.iter_mut().for_each(|piece| piece.stamp_pedal(speed));
-        }
+        self.step_on(|_| 1.0, |hat| hat.stamp_pedal(speed));
     }
 
     /// Splashes with the hi-hat's pedal, at up to a speed (m/s); see [`Piece::splash_pedal`].
@@ -223,10 +308,7 @@ impl Kit {
     /// # Real-time
     /// No allocation, no lock.
     pub fn splash_pedal(&mut self, speed: f64) {
-        if let Some(slot) = PieceId::HiHat.slot().map(|slot| &mut self.slots[slot]) {
-            slot.pedal = slot.pedal.min(SPLASHING);
-            slot.piece.iter_mut().for_each(|piece| piece.splash_pedal(speed));
-        }
+        self.step_on(|pedal| pedal.min(SPLASHING), |hat| hat.splash_pedal(speed));
     }
 
     /// Lets every control arrive at once: for setting the kit up before it sounds.
@@ -234,11 +316,11 @@ impl Kit {
     /// # Real-time
     /// No allocation, no lock; linear in the number of modes.
     pub fn finish_controls(&mut self) {
-        self.master.jump();
-        for slot in &mut self.slots {
-            slot.level.jump();
-            slot.pan.jump();
-            slot.piece.iter_mut().for_each(|piece| piece.finish_controls());
+        self.desk.jump();
+        self.ears.jump();
+        self.air.jump();
+        for piece in self.posts.iter_mut().flatten().filter_map(|post| post.piece.as_mut()) {
+            piece.finish_controls();
         }
     }
 
@@ -255,64 +337,100 @@ impl Kit {
 
     /// [`render`](Self::render), and in the same pass each piece by itself.
     ///
-    /// `pieces` are in the order of [`PieceId::KIT`]: with their level and pan, before the master. Pairs
-    /// that are left out at the end, or shorter than the main one, are not written: an output that
-    /// nobody listens to is a pair of empty slices. What is written to `main` does not depend on them.
+    /// `outputs` are the close microphones in the order of [`PieceId::KIT`], then the overheads, then the room, before the
+    /// master: they add up to what the master gets. Pairs that are left out at the end, or shorter than the main
+    /// one, are not written: an output that nobody listens to is a pair of empty slices. What is written to
+    /// `main` does not depend on them.
     ///
     /// # Real-time
     /// No allocation, no lock.
-    pub fn render_outputs(&mut self, main: Stereo<'_>, pieces: &mut [Stereo<'_>]) {
+    pub fn render_outputs(&mut self, main: Stereo<'_>, outputs: &mut [Stereo<'_>]) {
         let [left, right] = main;
         let frames = left.len().min(right.len());
+        let longest = self.min_delay();
         let mut done = 0;
         while done < frames {
             let phase = (self.clock % BLOCK as u64) as usize;
-            let run = done..done + (frames - done).min(BLOCK - phase);
-            self.render_run([&mut left[run.clone()], &mut right[run.clone()]], pieces, run.start);
+            let run = done..done + (frames - done).min(BLOCK - phase).min(longest);
+            if phase == 0 && self.clock.is_multiple_of(SETTLE_BLOCKS * BLOCK as u64) {
+                self.air.settle();
+            }
+            self.render_run([&mut left[run.clone()], &mut right[run.clone()]], outputs, run.start);
             self.clock += run.len() as u64;
             done = run.end;
         }
     }
 
-    /// Renders within one block; pieces are written from sample `at` on.
-    fn render_run(&mut self, main: Stereo<'_>, pieces: &mut [Stereo<'_>], at: usize) {
-        let [left, right] = main;
-        left.fill(0.0);
-        right.fill(0.0);
-        let mut pieces = pieces.iter_mut();
-        let mut shares = [[0.0_f32; BLOCK]; 3];
-        let [sound, mut shares @ ..] = shares.each_mut().map(|row| &mut row[..left.len()]);
-        for slot in &mut self.slots {
-            // Levels move even where nothing plays yet: when a piece is ready must not matter.
-            match &mut slot.piece {
-                Some(piece) => piece.render(sound),
-                None => sound.fill(0.0),
+    /// Renders within one block; outputs are written from sample `at` on.
+    fn render_run(&mut self, mut main: Stereo<'_>, outputs: &mut [Stereo<'_>], at: usize) {
+        let samples = main[0].len();
+        main.iter_mut().for_each(|side| side.fill(0.0));
+        let still = self.is_asleep() && self.desk.rests() && self.ears.rests();
+        self.render_posts(samples);
+        // Asleep before and asleep after: nothing but silence has been sent.
+        if still && self.is_asleep() {
+            for side in outputs.iter_mut().flatten() {
+                side.get_mut(at..at + samples).into_iter().for_each(|side| side.fill(0.0));
             }
-            slot.leaving.render(sound);
-            for (i, sound) in sound.iter().enumerate() {
-                let sound = sound * (slot.level.next() / FULL_SCALE);
-                slot.peak = slot.peak.max(sound.abs());
-                for (share, gain) in shares.iter_mut().zip(slot.pan.next()) {
-                    share[i] = gain * sound;
+            return;
+        }
+        let Kit { posts, air, desk, clock, missed_runs, .. } = self;
+        // Levels move even where nothing plays yet: when a piece is ready must not matter.
+        let levels = desk.levels(samples);
+        let mut outputs = outputs
+            .iter_mut()
+            .map(|output| output.each_mut().map(|side| side.get_mut(at..at + samples).unwrap_or_default()));
+        let mut sent = [0.0; BLOCK];
+        for (slot, post) in posts.iter().enumerate() {
+            // One that has come back late has the sound of an earlier run.
+            match post.as_ref().filter(|post| post.due == *clock) {
+                Some(post) => {
+                    air.send(slot, *clock, post);
+                    let terms = sent.iter_mut().zip(&post.sound[1]).zip(&levels[slot]);
+                    terms.take(samples).for_each(|((sum, sound), level)| *sum += level * sound);
+                }
+                None => {
+                    air.send_silence(slot, *clock, samples);
+                    *missed_runs = missed_runs.saturating_add(1);
                 }
             }
-            let alone = pieces.next().into_iter().flatten();
-            for (alone, share) in alone.zip(&shares) {
-                if let Some(alone) = alone.get_mut(at..at + share.len()) {
-                    alone.copy_from_slice(share);
-                }
+            let mut sound = [0.0; BLOCK];
+            let sound = &mut sound[..samples];
+            air.close(slot, *clock, sound);
+            sound.iter_mut().zip(&levels[slot]).for_each(|(sound, level)| *sound *= level);
+            desk.add(slot, [sound, sound], &mut main, outputs.next());
+        }
+        for pair in 0..PAIRS {
+            let mut heard = air.pair(pair, *clock, samples, &levels, desk);
+            if pair + 1 == PAIRS && !desk.is_shut(pair) {
+                air.tail(&sent[..samples], &mut heard);
             }
-            for (sum, share) in [&mut *left, &mut *right].into_iter().zip(&shares) {
-                sum.iter_mut().zip(share.iter()).for_each(|(sum, share)| *sum += share);
+            let [left, right] = heard.each_ref().map(|side| &side[..samples]);
+            desk.add(PieceId::KIT.len() + pair, [left, right], &mut main, outputs.next());
+        }
+        desk.finish(&mut main);
+    }
+
+    /// Lets every piece hear the others and renders it.
+    fn render_posts(&mut self, samples: usize) {
+        let deaf = self.ears.is_shut();
+        let amount = self.ears.run(samples);
+        for (slot, (id, post)) in PieceId::KIT.iter().zip(&mut self.posts).enumerate() {
+            let Some(post) = post else { continue };
+            post.prepare(self.resets, self.clock, samples);
+            if id.is_drum() && !deaf {
+                self.air.arrive(slot, self.clock, &amount, post);
             }
         }
-        for (left, right) in left.iter_mut().zip(right.iter_mut()) {
-            let gain = self.master.next();
-            *left *= gain;
-            *right *= gain;
-            self.peak[0] = self.peak[0].max(left.abs());
-            self.peak[1] = self.peak[1].max(right.abs());
+        match &mut self.crew {
+            Some(crew) => crew.render(&mut self.posts),
+            None => self.posts.iter_mut().flatten().for_each(|post| post.render()),
         }
+    }
+
+    /// Whether nothing sounds and nothing is under way.
+    pub fn is_asleep(&self) -> bool {
+        self.air.is_silent() && self.posts.iter().flatten().all(|post| post.is_asleep())
     }
 
     /// Puts every piece to rest and the clock to zero; controls keep their values and arrive.
@@ -321,12 +439,11 @@ impl Kit {
     /// No allocation, no lock; linear in the number of modes.
     pub fn reset(&mut self) {
         self.finish_controls();
-        for slot in &mut self.slots {
-            slot.piece.iter_mut().for_each(|piece| piece.reset());
-            slot.leaving.cut();
-            slot.peak = 0.0;
-        }
-        self.peak = [0.0; 2];
+        self.resets = self.resets.wrapping_add(1);
+        // One that is away follows when it is back.
+        self.posts.iter_mut().flatten().for_each(|post| post.reset(self.resets));
+        self.air.reset();
+        self.desk.reset();
         self.clock = 0;
     }
 
@@ -337,10 +454,12 @@ impl Kit {
     pub fn snapshot(&mut self, into: &mut KitSnapshot) {
         into.clock = self.clock;
         into.dropped_strikes = self.dropped_strikes;
-        into.peak = std::mem::take(&mut self.peak);
-        for (slot, into) in self.slots.iter_mut().zip(&mut into.pieces) {
-            into.peak = std::mem::take(&mut slot.peak);
-            match &slot.piece {
+        into.missed_runs = self.missed_runs;
+        into.clipped_samples = self.desk.clipped();
+        into.peak = self.desk.take_peak();
+        for (slot, (post, into)) in self.posts.iter().zip(&mut into.pieces).enumerate() {
+            into.peak = self.desk.take_strip_peak(slot);
+            match post.as_ref().and_then(|post| post.piece.as_ref()) {
                 Some(piece) => piece.snapshot(into),
                 None => into.ready = false,
             }

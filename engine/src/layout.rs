@@ -1,36 +1,97 @@
-//! Where the pieces stand: the one table for sound and picture.
+//! Where pieces and microphones stand: the one table for sound, microphones and picture.
 //!
 //! Coordinates (m): `x` to the drummer's right, `y` up, `z` toward the audience; the origin is on the
 //! floor under the middle of the kit.
 
+use crate::listening::ListeningPoint;
 use crate::piece::PieceId;
+
+/// A place, m.
+pub type Point = [f64; 3];
+
+/// Sound is never taken to come from nearer than this, m: a point source would be infinitely loud.
+pub const NEAREST: f64 = 0.25;
+
+/// From farther than this nothing is heard, m; bounds what is kept of the past.
+pub const FARTHEST: f64 = 20.0;
+
+/// Distance of a close microphone from its piece, m. It is time zero of the mix: what stands farther is later by
+/// the difference.
+pub const CLOSE: f64 = 0.5;
+
+/// Distance between two places, m.
+pub fn distance(a: &Point, b: &Point) -> f64 {
+    length(&[a[0] - b[0], a[1] - b[1], a[2] - b[2]])
+}
+
+fn length(x: &Point) -> f64 {
+    dot(x, x).sqrt()
+}
+
+fn dot(a: &Point, b: &Point) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
 
 /// Where a piece is and which way its struck side faces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Placement {
     /// Centre of the struck surface, m.
-    pub centre: [f64; 3],
+    pub centre: Point,
     /// Unit normal of the struck side.
-    pub normal: [f64; 3],
+    pub normal: Point,
+    /// Depth of the body behind it, as far as sound comes from its other end too, m.
+    pub depth: f64,
 }
 
 impl Placement {
     /// Where the piece stands by default.
     pub fn of(id: PieceId) -> Placement {
-        let (centre, normal) = match id {
-            PieceId::Kick => ([0.0, 0.30, -0.23], [0.0, 0.0, -1.0]),
-            PieceId::Snare => ([-0.40, 0.66, -0.40], [0.0, 0.97, -0.24]),
-            PieceId::RackTom => ([-0.14, 0.88, -0.12], [0.15, 0.85, -0.5]),
-            PieceId::FloorTom => ([0.47, 0.62, -0.34], [0.0, 1.0, 0.0]),
-            PieceId::Crash => ([-0.64, 1.20, 0.0], [0.22, 0.95, -0.25]),
-            PieceId::Ride => ([0.68, 1.06, -0.04], [-0.16, 0.96, -0.22]),
-            PieceId::Splash => ([0.16, 1.22, 0.08], [0.0, 0.97, -0.25]),
-            PieceId::HiHat => ([-0.72, 0.86, -0.30], [0.0, 1.0, 0.0]),
-            // Beyond the floor tom, a turn of the stool away.
-            PieceId::Timpani => ([0.86, 0.78, -0.86], [-0.1, 0.99, -0.05]),
+        let (centre, normal, depth) = match id {
+            PieceId::Kick => ([0.0, 0.30, -0.23], [0.0, 0.0, -1.0], 0.457),
+            PieceId::Snare => ([-0.40, 0.66, -0.40], [0.0, 0.97, -0.24], 0.140),
+            PieceId::RackTom => ([-0.14, 0.88, -0.12], [0.15, 0.85, -0.5], 0.229),
+            PieceId::FloorTom => ([0.47, 0.62, -0.34], [0.0, 1.0, 0.0], 0.406),
+            PieceId::Crash => ([-0.64, 1.20, 0.0], [0.22, 0.95, -0.25], 0.0),
+            PieceId::Ride => ([0.68, 1.06, -0.04], [-0.16, 0.96, -0.22], 0.0),
+            PieceId::Splash => ([0.16, 1.22, 0.08], [0.0, 0.97, -0.25], 0.0),
+            PieceId::HiHat => ([-0.72, 0.86, -0.30], [0.0, 1.0, 0.0], 0.0),
+            // Beyond the floor tom, a turn of the stool away. A kettle is closed.
+            PieceId::Timpani => ([0.86, 0.78, -0.86], [-0.1, 0.99, -0.05], 0.0),
         };
-        let length = normal.iter().map(|x: &f64| x * x).sum::<f64>().sqrt();
-        Placement { centre, normal: normal.map(|x| x / length) }
+        let length = length(&normal);
+        Placement { centre, normal: normal.map(|x| x / length), depth }
+    }
+
+    /// A place on the axis, so far behind the struck surface, m.
+    fn behind(&self, depth: f64) -> Point {
+        std::array::from_fn(|i| self.centre[i] - depth * self.normal[i])
+    }
+
+    /// Where the sound of the whole body comes from: its middle, m.
+    pub fn source(&self) -> Point {
+        self.behind(0.5 * self.depth)
+    }
+
+    /// A point as it is seen from the struck surface; angles as in [`Strike`](crate::strike::Strike), 0 toward the player.
+    pub fn sees(&self, point: &Point) -> ListeningPoint {
+        let to: Point = std::array::from_fn(|i| point[i] - self.centre[i]);
+        let distance = length(&to).max(1e-3);
+        let height = dot(&to, &self.normal);
+        // The player's direction in the disc's plane; below, of a disc that faces the player.
+        let flat = |x: Point| -> Point {
+            let out = dot(&x, &self.normal);
+            std::array::from_fn(|i| x[i] - out * self.normal[i])
+        };
+        let back = flat([0.0, 0.0, -1.0]);
+        let back = if length(&back) > 0.3 { back } else { flat([0.0, -1.0, 0.0]) };
+        let (n, b) = (&self.normal, &back);
+        let right = [n[1] * b[2] - n[2] * b[1], n[2] * b[0] - n[0] * b[2], n[0] * b[1] - n[1] * b[0]];
+        ListeningPoint {
+            distance,
+            inclination: (height / distance).clamp(-1.0, 1.0).acos(),
+            // The drummer's right is against `n x b` of a disc that faces up.
+            azimuth: (-dot(&to, &right)).atan2(dot(&to, &back)),
+        }
     }
 
     /// Where the piece lies in the stereo as the drummer hears it, -1 (left) to 1 (right).
@@ -40,5 +101,77 @@ impl Placement {
         /// How far to the side the outermost pieces go, 0 to 1. *By ear*.
         const SPREAD: f64 = 0.7;
         (self.centre[0] / HALF_WIDTH).clamp(-1.0, 1.0) * SPREAD
+    }
+}
+
+/// A pair of microphones, left and right.
+pub type Pair = [Point; 2];
+
+/// Where everything stands.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Layout {
+    /// In the order of [`PieceId::KIT`].
+    pub pieces: [Placement; PieceId::KIT.len()],
+    /// The pair above the kit.
+    pub overheads: Pair,
+    /// The pair in the room.
+    pub room: Pair,
+}
+
+impl Default for Layout {
+    fn default() -> Layout {
+        Layout {
+            pieces: PieceId::KIT.map(Placement::of),
+            // A spaced pair, both 1.33 m from the snare, so it stands in the middle.
+            overheads: [[-0.85, 1.90, -0.20], [0.45, 1.68, -0.50]],
+            room: [[-1.2, 1.6, 2.8], [1.2, 1.6, 2.8]],
+        }
+    }
+}
+
+impl Layout {
+    /// The direction in which a piece of the default layout is heard from far: that of the overheads' middle.
+    pub fn far_point(id: PieceId) -> ListeningPoint {
+        let [left, right] = Layout::default().overheads;
+        let middle = std::array::from_fn(|i| 0.5 * (left[i] + right[i]));
+        let seen = Placement::of(id).sees(&middle);
+        ListeningPoint::far(seen.inclination, seen.azimuth)
+    }
+
+    /// The way of sound between two pieces, m, by place in [`PieceId::KIT`]: from the middle of one to the struck head
+    /// of the other, the shorter of the two. The same both ways: if it were not, the air between them would do
+    /// work.
+    pub fn way(&self, a: usize, b: usize) -> f64 {
+        let [a, b] = [a, b].map(|piece| &self.pieces[piece]);
+        let ways = [distance(&a.source(), &b.centre), distance(&b.source(), &a.centre)];
+        ways[0].min(ways[1]).clamp(NEAREST, FARTHEST)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::FRAC_PI_2;
+
+    #[test]
+    fn a_disc_that_faces_up_sees_the_player_at_angle_0_and_the_right_at_a_quarter() {
+        let disc = Placement { centre: [0.0; 3], normal: [0.0, 1.0, 0.0], depth: 0.0 };
+        let above = disc.sees(&[0.0, 2.0, 0.0]);
+        assert!((above.distance - 2.0).abs() < 1e-12 && above.inclination.abs() < 1e-6);
+        let player = disc.sees(&[0.0, 0.0, -1.0]);
+        assert!((player.inclination - FRAC_PI_2).abs() < 1e-9 && player.azimuth.abs() < 1e-9);
+        let right = disc.sees(&[1.0, 1.0, 0.0]);
+        assert!((right.azimuth - FRAC_PI_2).abs() < 1e-9, "{}", right.azimuth);
+    }
+
+    #[test]
+    fn the_overheads_stand_as_far_from_the_snare_and_above_every_piece() {
+        let layout = Layout::default();
+        let snare = layout.pieces[1].centre;
+        let [left, right] = layout.overheads.map(|place| distance(&place, &snare));
+        assert!((left - right).abs() < 0.02, "{left} {right}");
+        for piece in layout.pieces {
+            assert!(layout.overheads.iter().all(|place| place[1] > piece.centre[1] + 0.3));
+        }
     }
 }

@@ -33,7 +33,15 @@ pub struct ListeningPoint {
     pub azimuth: f64,
 }
 
+/// Distance from which everything is far, m: a head's finest wave in air reaches its far field within half of it.
+const FAR: f64 = 8.0;
+
 impl ListeningPoint {
+    /// A point far away in a direction (rad), at least a little above the disc's plane.
+    pub const fn far(inclination: f64, azimuth: f64) -> ListeningPoint {
+        ListeningPoint { distance: FAR, inclination: inclination.clamp(0.0, 1.45), azimuth }
+    }
+
     /// The same point seen from a place `depth` (m) further along the disc's axis, away from it.
     pub fn from_behind(&self, depth: f64) -> ListeningPoint {
         let (sin, cos) = self.inclination.sin_cos();

@@ -13,7 +13,7 @@
 //!
 //! Source: Morse & Ingard, Theoretical Acoustics, ch. 5; Rossing, Science of Percussion Instruments.
 
-use crate::air::{self, MassCurve, MembraneAir};
+use crate::air::{self, MassCurve, MassCurves, MembraneAir};
 use crate::contact::Material;
 use crate::damping::LossLaw;
 use crate::error::SpecError;
@@ -126,6 +126,19 @@ impl Membrane {
         surroundings: Surroundings,
         range: &ModeRange,
     ) -> Result<Membrane, SpecError> {
+        Membrane::sharing(spec, surroundings, range, &mut MassCurves::default())
+    }
+
+    /// As [`new`](Self::new), with what other heads of a drum have worked out.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn sharing(
+        spec: MembraneSpec,
+        surroundings: Surroundings,
+        range: &ModeRange,
+        curves: &mut MassCurves,
+    ) -> Result<Membrane, SpecError> {
         let spec = spec.validated()?;
         // Without air a head rings highest; nothing above this zero can ring below the limit.
         let speed = (range.reference_tension / spec.area_density()).sqrt();
@@ -149,7 +162,7 @@ impl Membrane {
             let norm = air::shape_norm(m, bessel::j_prime(m, zero));
             let load = match surroundings {
                 Surroundings::Vacuum => MassCurve::VACUUM,
-                Surroundings::Air => MembraneAir::new(m, &tables[m as usize]).curve(zero),
+                Surroundings::Air => curves.get(&MembraneAir::new(m, &tables[m as usize]), zero),
             };
             let mode = MembraneMode { m, n, zero, norm, load };
             let frequency = membrane.ringing(&mode, range.reference_tension).omega / std::f64::consts::TAU;
@@ -188,6 +201,11 @@ impl Membrane {
     /// Stiffness of a mode at a tension (N/m), N/m.
     pub fn restoring(&self, mode: &MembraneMode, tension: f64) -> f64 {
         self.stiffness(mode, tension) * self.spec.area()
+    }
+
+    /// Volume that a mode without nodal diameters displaces, per modal displacement, m2.
+    pub fn volume(&self, mode: &MembraneMode) -> f64 {
+        2.0 * self.spec.area() * mode.norm * libm::j1(mode.zero) / mode.zero
     }
 
     /// Mass of the air on one face at an angular frequency, kg.

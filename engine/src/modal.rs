@@ -29,6 +29,8 @@ use aligned_vec::{AVec, ConstAlign};
 use simd::driven::Drive;
 use simd::{Kernels, LANES};
 
+pub use simd::EARS;
+
 /// Forces that one call of [`ModalBody::ring_driven`] takes.
 pub const MAX_DRIVES: usize = 16;
 
@@ -102,9 +104,17 @@ impl Port {
     }
 }
 
-/// A point where the body is heard: a weighted sum over the modes' states, plus a part that follows
-/// the force at once.
+/// What is heard of a body at each of its ears, Pa.
+pub type Heard = [f32; EARS];
+
+/// Where the body is heard: weighted sums over the modes' states, plus a part that follows the force at once. The last
+/// ear hears the first modes alone: see [`attend`](Pickup::attend).
 pub struct Pickup {
+    ears: [Ear; EARS],
+}
+
+/// One point where the body is heard.
+struct Ear {
     /// Transfer from each mode's acceleration to the pressure: real part, imaginary part, `[mode]`.
     transfer: Vec<[f64; 2]>,
     weight_re: Row,
@@ -115,29 +125,29 @@ pub struct Pickup {
 
 impl Pickup {
     /// A pickup from the complex transfer `[mode]`, pressure over modal acceleration (Pa s2/m) at
-    /// the mode's frequency, for time going as `e^(i omega t)`. Allocates.
+    /// the mode's frequency, for time going as `e^(i omega t)`. The other ears hear nothing, until
+    /// [told](Self::transfer_mut). Allocates.
     pub fn new(transfer: Vec<[f64; 2]>) -> Pickup {
-        let modes = transfer.len();
-        Pickup {
-            transfer,
-            weight_re: zero_row(modes),
-            weight_im: zero_row(modes),
-            direct: zero_row(modes),
-            slow: zero_row(modes),
-        }
+        let far = vec![[0.0; 2]; transfer.len()];
+        Pickup { ears: [Ear::new(transfer), Ear::new(far), Ear::new(Vec::new())] }
     }
 
-    /// The transfer from each mode's acceleration, `[mode]`; call [`ModalBody::tune`] after a change.
-    pub fn transfer_mut(&mut self) -> &mut [[f64; 2]] {
-        &mut self.transfer
+    /// Lets the last ear hear so many modes. Allocates.
+    pub fn attend(&mut self, modes: usize) {
+        self.ears[EARS - 1] = Ear::new(vec![[0.0; 2]; modes]);
+    }
+
+    /// The transfer from each mode's acceleration to an ear, `[mode]`; call [`ModalBody::tune`] after a change.
+    pub fn transfer_mut(&mut self, ear: usize) -> &mut [[f64; 2]] {
+        &mut self.ears[ear].transfer
     }
 
     /// Pressure at once per unit force at a port, Pa/N.
     ///
     /// # Real-time
     /// Linear in the number of modes.
-    pub fn direct_at(&self, body: &ModalBody, port: &Port) -> f32 {
-        body.kernels.dot(&self.direct, &port.shape)
+    pub fn direct_at(&self, body: &ModalBody, port: &Port) -> Heard {
+        self.ears.each_ref().map(|ear| body.kernels.dot(&ear.direct, &port.shape))
     }
 
     /// Pressure per unit rate of change of a force at a port, Pa s/N.
@@ -148,8 +158,21 @@ impl Pickup {
     ///
     /// # Real-time
     /// Linear in the number of modes.
-    pub fn slow_at(&self, body: &ModalBody, port: &Port) -> f32 {
-        body.kernels.dot(&self.slow, &port.shape)
+    pub fn slow_at(&self, body: &ModalBody, port: &Port) -> Heard {
+        self.ears.each_ref().map(|ear| body.kernels.dot(&ear.slow, &port.shape))
+    }
+}
+
+impl Ear {
+    fn new(transfer: Vec<[f64; 2]>) -> Ear {
+        let row = || zero_row(transfer.len() + simd::REST);
+        Ear { weight_re: row(), weight_im: row(), direct: row(), slow: row(), transfer }
+    }
+
+    /// For [`ModalBody::ring`], from mode `first` on.
+    fn from<'a>(&'a self, first: usize, out: &'a mut [f32]) -> simd::Heard<'a> {
+        let from = |row: &'a [f32]| row.get(first..).unwrap_or_default();
+        simd::Heard { weight_re: from(&self.weight_re), weight_im: from(&self.weight_im), out }
     }
 }
 
@@ -278,9 +301,12 @@ impl ModalBody {
     /// # Real-time
     /// Linear in the number of modes.
     pub fn tune(&self, pickup: &mut Pickup) {
-        let Pickup { transfer, weight_re, weight_im, direct, slow } = pickup;
-        for (k, mode) in self.modes.iter().enumerate() {
-            let [h_re, h_im] = transfer[k];
+        pickup.ears.iter_mut().for_each(|ear| self.tune_ear(ear));
+    }
+
+    fn tune_ear(&self, ear: &mut Ear) {
+        let Ear { transfer, weight_re, weight_im, direct, slow } = ear;
+        for (k, (mode, &[h_re, h_im])) in self.modes.iter().zip(&*transfer).enumerate() {
             let (omega_d, sigma) = (mode.omega_d(), mode.sigma);
             if omega_d * self.dt >= std::f64::consts::PI {
                 (weight_re[k], weight_im[k], direct[k], slow[k]) = (0.0, 0.0, 0.0, 0.0);
@@ -326,9 +352,12 @@ impl ModalBody {
     }
 
     /// Pressure at a pickup now, without what follows the force at once.
-    pub fn listen(&self, pickup: &Pickup) -> f32 {
-        self.kernels.dot(&pickup.weight_re, &self.state.re)
-            + self.kernels.dot(&pickup.weight_im, &self.state.im)
+    pub fn listen(&self, pickup: &Pickup) -> Heard {
+        let dot = |weights, state| self.kernels.dot(weights, state);
+        pickup
+            .ears
+            .each_ref()
+            .map(|ear| dot(&ear.weight_re, &self.state.re) + dot(&ear.weight_im, &self.state.im))
     }
 
     /// Advances without force and listens after each sample: [`step`](Self::step) and
@@ -338,45 +367,41 @@ impl ModalBody {
     ///
     /// # Real-time
     /// Linear in modes times samples; the fastest way. At most [`simd::MAX_RUN`] samples.
-    pub fn ring(&mut self, first: usize, pickup: &Pickup, out: &mut [f32]) {
-        self.kernels.ring(&mut simd::Ring {
-            re: &mut self.state.re[first..],
-            im: &mut self.state.im[first..],
-            turn_re: &self.coefs.turn_re[first..],
-            turn_im: &self.coefs.turn_im[first..],
-            weight_re: &pickup.weight_re[first..],
-            weight_im: &pickup.weight_im[first..],
-            out,
-        });
+    pub fn ring(&mut self, first: usize, pickup: &Pickup, out: [&mut [f32]; EARS]) {
+        self.ring_driven(first, std::iter::empty(), pickup, out);
     }
 
-    /// [`ring`](Self::ring) of all modes under forces at ports, each held over its sample (N, as many as
+    /// [`ring`](Self::ring) under forces at ports, each held over its sample (N, as many as
     /// `out` has); what follows a force at once is not in `out`.
     ///
     /// # Real-time
     /// Linear in modes times samples times forces. At most [`simd::MAX_RUN`] samples and [`MAX_DRIVES`] forces.
     pub fn ring_driven<'a>(
         &mut self,
+        first: usize,
         drives: impl Iterator<Item = (&'a Port, &'a [f32])>,
         pickup: &Pickup,
-        out: &mut [f32],
+        out: [&mut [f32]; EARS],
     ) {
         let mut held = [Drive { gain_re: &[], gain_im: &[], forces: &[] }; MAX_DRIVES];
         let mut count = 0;
         for (held, (port, forces)) in held.iter_mut().zip(drives) {
-            *held = Drive { gain_re: &port.gain_re, gain_im: &port.gain_im, forces };
+            *held = Drive { gain_re: &port.gain_re[first..], gain_im: &port.gain_im[first..], forces };
             count += 1;
         }
+        let [near, far, few] = &pickup.ears;
+        let [near_out, far_out, few_out] = out;
         let mut ring = simd::Ring {
-            re: &mut self.state.re,
-            im: &mut self.state.im,
-            turn_re: &self.coefs.turn_re,
-            turn_im: &self.coefs.turn_im,
-            weight_re: &pickup.weight_re,
-            weight_im: &pickup.weight_im,
-            out,
+            re: &mut self.state.re[first..],
+            im: &mut self.state.im[first..],
+            turn_re: &self.coefs.turn_re[first..],
+            turn_im: &self.coefs.turn_im[first..],
+            heard: [near.from(first, near_out), far.from(first, far_out), few.from(first, few_out)],
         };
-        self.kernels.ring_driven(&mut ring, &held[..count]);
+        match count {
+            0 => self.kernels.ring(&mut ring),
+            _ => self.kernels.ring_driven(&mut ring, &held[..count]),
+        }
     }
 
     /// Vibration energy, J.

@@ -6,9 +6,13 @@ use crate::drum::{Drum, DrumSpec};
 use crate::error::SpecError;
 use crate::hi_hat::{HiHat, HiHatSpec};
 use crate::kit::BLOCK;
+use crate::layout::Layout;
+use crate::listening::ListeningPoint;
+use crate::modal::EARS;
 use crate::snapshot::{FieldShapes, PieceSnapshot, StrikeSnapshot, WireSnapshot};
 use crate::strike::Strike;
 use crate::surface::Surface;
+use crate::surface::air::{AUDIBLE, Incident};
 
 /// Which piece.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -148,6 +152,8 @@ pub struct BuildOptions {
     pub unevenness: Option<f64>,
     /// What muffles a drum, if not its own.
     pub muffler: Option<Muffler>,
+    /// Where the close microphone stands, if not at the piece's own listening point.
+    pub close: Option<ListeningPoint>,
 }
 
 impl BuildOptions {
@@ -164,6 +170,7 @@ impl BuildOptions {
             resonant_ratio: None,
             unevenness: None,
             muffler: None,
+            close: None,
         }
     }
 }
@@ -213,6 +220,13 @@ pub struct ModeInfo {
     pub kind: ModeKind,
 }
 
+/// Sound below this is silence, Pa: 100 dB under full scale.
+const SILENT: f32 = 2e-4;
+
+/// A piece with less energy than this that has been silent for so long falls asleep, J and s.
+const STILL: f64 = 1e-10;
+const DOZE: f64 = 0.05;
+
 /// A built piece that can be struck and heard.
 pub struct Piece {
     id: PieceId,
@@ -225,6 +239,10 @@ pub struct Piece {
     /// Nothing moves and nothing is about: there is nothing to render.
     asleep: bool,
     quarantines: u32,
+    close: ListeningPoint,
+    /// Largest sound since the block began, Pa, and samples for which it has been next to nothing.
+    loudest: f32,
+    quiet: usize,
 }
 
 enum Voice {
@@ -258,11 +276,18 @@ impl Piece {
     /// [`SpecError`] if the options are out of range.
     pub fn new(id: PieceId, options: &BuildOptions) -> Result<Piece, SpecError> {
         SpecError::check("sample rate (Hz)", options.sample_rate, 22_050.0, 768_000.0)?;
-        let drum =
-            |spec: DrumSpec| Drum::new(&spec.with(options), options).map(|drum| Voice::Drum(Box::new(drum)));
-        let cymbal =
-            |spec: CymbalSpec| Cymbal::new(&spec, options).map(|cymbal| Voice::Cymbal(Box::new(cymbal)));
-        let voice = match id {
+        let far_point = Layout::far_point(id);
+        let drum = |spec: DrumSpec| {
+            let listening_point = options.close.unwrap_or(spec.listening_point);
+            let spec = DrumSpec { listening_point, far_point, ..spec.with(options) };
+            Drum::new(&spec, options).map(|drum| (listening_point, Voice::Drum(Box::new(drum))))
+        };
+        let cymbal = |spec: CymbalSpec| {
+            let listening_point = options.close.unwrap_or(spec.listening_point);
+            let spec = CymbalSpec { listening_point, far_point, ..spec };
+            Cymbal::new(&spec, options).map(|cymbal| (listening_point, Voice::Cymbal(Box::new(cymbal))))
+        };
+        let (close, voice) = match id {
             PieceId::Kick => drum(DrumSpec::kick())?,
             PieceId::Snare => drum(DrumSpec::snare())?,
             PieceId::RackTom => drum(DrumSpec::rack_tom())?,
@@ -272,7 +297,10 @@ impl Piece {
             PieceId::Ride => cymbal(CymbalSpec::ride())?,
             PieceId::Splash => cymbal(CymbalSpec::splash())?,
             PieceId::HiHat => {
-                HiHat::new(&HiHatSpec::default(), options).map(|hat| Voice::HiHat(Box::new(hat)))?
+                let spec = HiHatSpec::default();
+                let listening_point = options.close.unwrap_or(spec.top.listening_point);
+                let spec = spec.heard_at(listening_point, far_point);
+                (listening_point, Voice::HiHat(Box::new(HiHat::new(&spec, options)?)))
             }
         };
         Ok(Piece {
@@ -283,6 +311,9 @@ impl Piece {
             unglided: 0,
             asleep: true,
             quarantines: 0,
+            close,
+            loudest: 0.0,
+            quiet: 0,
         })
     }
 
@@ -472,6 +503,77 @@ impl Piece {
         }
     }
 
+    /// Renders sound pressure at the close microphone, far away as at a metre, and what other pieces hear as at a
+    /// metre, Pa, while sound from elsewhere arrives. At most to the end of the piece's block.
+    ///
+    /// As [`render`](Self::render), but what cannot be heard any more falls asleep, and what sleeps wakes when sound above
+    /// [`AUDIBLE`] reaches it.
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn render_in_air(&mut self, mut out: [&mut [f32]; EARS], incident: Option<Incident<'_>>) {
+        if self.phase == 0 {
+            self.doze();
+            self.begin_block();
+        }
+        let samples = out[0].len();
+        debug_assert!(samples <= BLOCK - self.phase);
+        let incident = incident.filter(|_| self.voice.surface().listens());
+        let deaf = self.asleep || self.voice.surface().has_parked_wires();
+        let loud = |incident: Incident<'_>| incident.iter().position(|pressure| pressure.abs() > AUDIBLE);
+        let wakes = incident.filter(|_| deaf).and_then(loud);
+        let before = wakes.unwrap_or(samples);
+        self.render_stretch(out.each_mut().map(|out| &mut out[..before]), incident, 0);
+        if wakes.is_some() {
+            self.hear();
+            self.render_stretch(out.each_mut().map(|out| &mut out[before..]), incident, before);
+        }
+        self.loudest = out.iter().flat_map(|out| out.iter()).fold(self.loudest, |size, x| size.max(x.abs()));
+        self.phase = (self.phase + samples) % BLOCK;
+        self.unglided += samples;
+    }
+
+    /// Renders from sample `from` of what arrives on.
+    fn render_stretch(&mut self, out: [&mut [f32]; EARS], incident: Option<Incident<'_>>, from: usize) {
+        if self.asleep {
+            out.into_iter().for_each(|out| out.fill(0.0));
+            return;
+        }
+        let to = from + out[0].len();
+        self.voice.surface_mut().render_in_air(out, incident.map(|incident| &incident[from..to]));
+    }
+
+    /// Wakes by sound.
+    fn hear(&mut self) {
+        self.asleep = false;
+        self.quiet = 0;
+        if let Voice::Drum(drum) = &mut self.voice {
+            drum.follow_shapes();
+        }
+        self.voice.surface_mut().hear();
+    }
+
+    /// Falls asleep if nothing has been heard of it for a while and next to nothing moves.
+    fn doze(&mut self) {
+        let silent = std::mem::take(&mut self.loudest) < SILENT;
+        let surface = self.voice.surface();
+        if self.asleep || !silent || surface.is_struck() || surface.energy() > STILL {
+            self.quiet = 0;
+            return;
+        }
+        self.quiet += BLOCK;
+        if self.quiet as f64 >= DOZE * self.sample_rate {
+            self.quiet = 0;
+            self.voice.surface_mut().rest();
+            self.asleep = true;
+        }
+    }
+
+    /// Where its close microphone stands, seen from the middle of the struck surface.
+    pub fn close(&self) -> ListeningPoint {
+        self.close
+    }
+
     /// What is done once a block: controls followed, silence made exact, faults caught.
     fn begin_block(&mut self) {
         self.glide();
@@ -503,6 +605,7 @@ impl Piece {
     pub fn reset(&mut self) {
         self.voice.surface_mut().reset();
         self.asleep = true;
+        (self.loudest, self.quiet) = (0.0, 0);
         self.finish_controls();
         self.phase = 0;
         self.unglided = 0;

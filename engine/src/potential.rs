@@ -47,7 +47,7 @@
 
 use crate::modal::front::Front;
 use crate::modal::simd::folded::{Amplitudes, Folded};
-use crate::modal::{ModalBody, Pickup, Port, Row, zero_row};
+use crate::modal::{EARS, Heard, ModalBody, Pickup, Port, Row, zero_row};
 
 /// A potential's energy at one place.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -155,14 +155,14 @@ pub struct NonlinearForce {
     port: Port,
     stiffening: f64,
     /// Pressure at the pickup at once per unit of `psibar`, Pa.
-    direct: f32,
+    direct: Heard,
     /// The present sample's `psibar` without strikers.
     mean: f64,
     /// Pressure per unit rate of change of `psibar`, Pa s, and the force's slow part heard by it, Pa s.
-    slow: f32,
-    lag: f32,
+    slow: Heard,
+    lag: Heard,
     /// Pressure of the latest exchange with the velocities, Pa, for one sample.
-    jolt: f32,
+    jolt: Heard,
     predicted: Row,
     gradient: Row,
     peaks: Peaks,
@@ -203,11 +203,11 @@ impl NonlinearForce {
             shift: LEAST_SHIFT,
             port: Port::new(modes),
             stiffening: 1.0,
-            direct: 0.0,
+            direct: [0.0; EARS],
             mean: 0.0,
-            slow: 0.0,
-            lag: 0.0,
-            jolt: 0.0,
+            slow: [0.0; EARS],
+            lag: [0.0; EARS],
+            jolt: [0.0; EARS],
             predicted: zero_row(modes),
             gradient: zero_row(modes),
             peaks: Peaks::default(),
@@ -315,7 +315,7 @@ impl NonlinearForce {
         self.active = false;
         self.done = false;
         self.psi = 0.0;
-        self.lag = 0.0;
+        self.lag = [0.0; EARS];
         self.astray = 0.0;
         self.shift = LEAST_SHIFT;
     }
@@ -364,15 +364,22 @@ impl NonlinearForce {
     }
 
     /// Applies the force, given `sum p_i F_i` of the strikers; the pressure that follows at once.
-    pub fn finish(&mut self, body: &mut ModalBody, strikers: f64) -> f32 {
+    pub fn finish(&mut self, body: &mut ModalBody, strikers: f64) -> Heard {
         let mean = self.mean + strikers / self.divisor();
         self.psi = 2.0 * mean - self.psi;
         let force = -mean as f32;
         body.push(&self.port, force);
-        // The rate of the slow part: of what changes faster the velocity is right.
-        let rate = (force * self.slow - self.lag) * (1.0 / SLOW_TIME) as f32;
-        self.lag += rate * self.dt as f32;
-        force * self.direct + rate + std::mem::take(&mut self.jolt)
+        std::array::from_fn(|ear| {
+            // The rate of the slow part: of what changes faster the velocity is right.
+            let rate = (force * self.slow[ear] - self.lag[ear]) * (1.0 / SLOW_TIME) as f32;
+            self.lag[ear] += rate * self.dt as f32;
+            force * self.direct[ear] + rate + std::mem::take(&mut self.jolt[ear])
+        })
+    }
+
+    /// The velocities were scaled: that is heard.
+    fn jolted(&mut self, heard: Heard) {
+        self.jolt.iter_mut().zip(heard).for_each(|(sum, jolt)| *sum += jolt);
     }
 
     fn evaluate(&mut self, body: &mut ModalBody) {
@@ -382,7 +389,7 @@ impl NonlinearForce {
         let lost = self.astray > LOST;
         if lost || depth > self.yields_at {
             // Only of the velocities: a dome half turned inside out gains by being bent less.
-            self.jolt += body.jolt(&self.front, if lost { COLLAPSING } else { YIELDING });
+            self.jolted(body.jolt(&self.front, if lost { COLLAPSING } else { YIELDING }));
         }
         self.shift_to(depth);
         // Beyond the depth foretold only by rounding.
@@ -434,7 +441,7 @@ impl NonlinearForce {
         let given = kinetic * (1.0 - f64::from(factor) * f64::from(factor));
         let square = self.psi * self.psi + 2.0 * given;
         if factor != 1.0 && square > 0.0 {
-            self.jolt += body.jolt(&self.front, factor);
+            self.jolted(body.jolt(&self.front, factor));
             self.psi = square.sqrt();
             self.exchanged += given.abs();
         }

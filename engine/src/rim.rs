@@ -62,11 +62,13 @@ pub struct RimMode {
     pub mode: Mode,
     /// Pressure over modal acceleration at the listening point, Pa s2/m.
     pub transfer: [f64; 2],
+    /// The same far away, as at a metre.
+    pub far_transfer: [f64; 2],
 }
 
 impl Rim {
-    /// The rim of a drum of that radius (m), heard from a point; without losses if asked to.
-    pub fn new(radius: f64, point: ListeningPoint, lossless: bool) -> Rim {
+    /// The rim of a drum of that radius (m), heard from a point near and one far; without losses if asked to.
+    pub fn new(radius: f64, [point, far]: [ListeningPoint; 2], lossless: bool) -> Rim {
         let steel = Material::STEEL;
         let shear = steel.youngs_modulus / (2.0 * (1.0 + steel.poisson_ratio));
         let area = WALL * (HEIGHT + FLANGE);
@@ -82,6 +84,7 @@ impl Rim {
             member: Member::Cosine,
             mode: bounce,
             transfer: transfer(radius, point, 0, bounce.omega),
+            far_transfer: transfer(radius, far, 0, bounce.omega).map(|h| h * far.distance),
         }];
         for n in 2.. {
             let n2 = f64::from(n * n);
@@ -91,9 +94,11 @@ impl Rim {
             }
             let mode = Mode { omega, sigma: loss(omega, QUALITY), mass: line * TAU * radius };
             let heard = transfer(radius, point, n, omega);
+            let heard_far = transfer(radius, far, n, omega).map(|h| h * far.distance);
             for member in [Member::Cosine, Member::Sine] {
-                let toward = point.toward(n, member, 0.0);
-                modes.push(RimMode { n, member, mode, transfer: heard.map(|h| h * toward) });
+                let shown = |point: ListeningPoint| move |h: f64| h * point.toward(n, member, 0.0);
+                let (transfer, far_transfer) = (heard.map(shown(point)), heard_far.map(shown(far)));
+                modes.push(RimMode { n, member, mode, transfer, far_transfer });
             }
         }
         Rim { radius, material: steel, modes }
@@ -145,7 +150,7 @@ mod tests {
 
     #[test]
     fn a_snare_hoop_rings_where_hoops_ring() {
-        let rim = Rim::new(0.178, POINT, false);
+        let rim = Rim::new(0.178, [POINT; 2], false);
         let hz = |n: u32| rim.modes.iter().find(|mode| mode.n == n).unwrap().mode.omega / TAU;
         assert!((80.0..250.0).contains(&hz(2)), "{}", hz(2));
         assert!((300.0..800.0).contains(&hz(3)), "{}", hz(3));
@@ -155,7 +160,7 @@ mod tests {
 
     #[test]
     fn shapes_are_of_unit_mean_square() {
-        let rim = Rim::new(0.15, POINT, false);
+        let rim = Rim::new(0.15, [POINT; 2], false);
         let mut sum = vec![0.0_f64; rim.modes.len()];
         let mut out = vec![0.0_f32; rim.modes.len()];
         for i in 0..720 {

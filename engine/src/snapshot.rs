@@ -86,6 +86,10 @@ pub struct KitSnapshot {
     pub peak: [f32; 2],
     /// Strokes that came before their piece was built.
     pub dropped_strikes: u32,
+    /// Runs in which a piece was silent because whoever renders it had not brought it back.
+    pub missed_runs: u32,
+    /// Samples that the safety clip has bent.
+    pub clipped_samples: u64,
 }
 
 /// Shapes of a piece's lowest modes at the points of its displacement field.

@@ -10,6 +10,7 @@
 //! stretch, coupling -------/    together
 //! ```
 
+pub mod air;
 pub mod oscillator;
 mod paired;
 pub mod patch;
@@ -23,13 +24,15 @@ use crate::contact::Material;
 use crate::drum::high_band::HighBand;
 use crate::hi_hat::pair::Pair;
 use crate::modal::simd::MAX_RUN;
-use crate::modal::{ModalBody, Mode, Pickup};
+use crate::modal::{EARS, ModalBody, Mode, Pickup};
 use crate::potential::{NonlinearForce, Potential};
 use crate::rim::Rim;
 use crate::shapes::ShapeTable;
 use crate::snapshot::StrikeSnapshot;
 
+use air::{Incident, Listener};
 use patch::Film;
+use sample::add;
 use together::Compliances;
 use touch::{TouchPoint, Toucher};
 use wires::SnareWires;
@@ -80,6 +83,8 @@ pub struct Surface {
     points: Vec<TouchPoint>,
     wires: Option<SnareWires>,
     rim: Option<RimBody>,
+    /// What the surrounding air presses on.
+    listener: Option<Listener>,
     /// Points present.
     live: [usize; MAX_POINTS],
     live_count: usize,
@@ -153,6 +158,7 @@ impl Surface {
             points: (0..FIRST_WIRE).map(|_| TouchPoint::absent(count, dt)).collect(),
             wires: None,
             rim: None,
+            listener: None,
             live: [0; MAX_POINTS],
             live_count: 0,
             beyond: None,
@@ -204,6 +210,9 @@ impl Surface {
         }
         let body = ModalBody::new(modes, 1.0 / self.dt);
         let mut pickup = Pickup::new(rim.modes.iter().map(|mode| mode.transfer).collect());
+        for (far, mode) in pickup.transfer_mut(1).iter_mut().zip(&rim.modes) {
+            *far = mode.far_transfer;
+        }
         body.tune(&mut pickup);
         self.rim = Some(RimBody { rim, body, pickup });
     }
@@ -282,14 +291,19 @@ impl Surface {
         self.follow_modes();
     }
 
-    /// Changes how each mode is heard, as in [`SurfaceParts::transfer`]; what rings is heard so at once.
+    /// Changes how each mode is heard from near, as in [`SurfaceParts::transfer`], and from far away, as at a metre;
+    /// what rings is heard so at once.
     ///
     /// # Real-time
     /// No allocation; linear in the number of modes.
-    pub fn set_transfer(&mut self, transfer: impl Iterator<Item = [f64; 2]>) {
-        for (place, transfer) in self.pickup.transfer_mut().iter_mut().zip(transfer) {
-            *place = transfer;
-        }
+    pub fn set_transfers(
+        &mut self,
+        near: impl Iterator<Item = [f64; 2]>,
+        far: impl Iterator<Item = [f64; 2]>,
+    ) {
+        self.pickup.transfer_mut(0).iter_mut().zip(near).for_each(|(place, transfer)| *place = transfer);
+        self.pickup.transfer_mut(1).iter_mut().zip(far).for_each(|(place, transfer)| *place = transfer);
+        self.follow_volumes();
         self.follow_modes();
     }
 
@@ -301,6 +315,9 @@ impl Surface {
         }
         if let Some(pair) = &mut self.pair {
             pair.follow(&self.body, &self.pickup);
+        }
+        if let Some(listener) = &mut self.listener {
+            listener.connect(&self.body, &self.pickup);
         }
         for n in 0..self.live_count {
             self.connect(self.live[n]);
@@ -322,43 +339,75 @@ impl Surface {
         }
     }
 
-    /// Renders sound pressure at the pickup, Pa, overwriting `out`. At most
+    /// Renders sound pressure at the near ear, Pa, overwriting `out`. At most [`MAX_RUN`] samples.
+    ///
+    /// # Real-time
+    /// As [`render_in_air`](Self::render_in_air).
+    pub fn render(&mut self, out: &mut [f32]) {
+        let mut others = [[0.0; MAX_RUN]; 2];
+        let [far, few] = others.each_mut().map(|row| &mut row[..out.len()]);
+        self.render_in_air([out, far, few], None);
+    }
+
+    /// Renders sound pressure at each ear, Pa, overwriting `out`, while sound from elsewhere arrives: at the listening
+    /// point, far away as at a metre, and as far as it goes all around, what other pieces hear. At most
     /// [`MAX_RUN`] samples.
     ///
     /// # Real-time
     /// Linear in modes times samples; a few times dearer while something touches, and by the cost
     /// of the potential while that acts.
-    pub fn render(&mut self, out: &mut [f32]) {
+    pub fn render_in_air(&mut self, mut out: [&mut [f32]; EARS], incident: Option<Incident<'_>>) {
         let mut done = 0;
         let together = self.pair.as_ref().is_some_and(|pair| pair.is_engaged());
-        while (self.live_count > 0 || together) && done < out.len() {
-            out[done] = self.step(done);
+        while (self.live_count > 0 || together) && done < out[0].len() {
+            let heard = self.step(done, incident);
+            out.iter_mut().zip(heard).for_each(|(out, heard)| out[done] = heard);
             done += 1;
         }
-        let rest = &mut out[done..];
-        let Surface { body, pickup, beyond, rim, .. } = self;
+        self.ring(out.each_mut().map(|out| &mut out[done..]), incident, done);
+        if let Some(pair) = self.pair.as_mut().filter(|_| !together) {
+            pair.ring(&mut out, done);
+        }
+        let [near, far, _] = out;
+        self.high.iter_mut().chain(&mut self.far_high).for_each(|high| high.render(near, far));
+    }
+
+    /// Renders while nothing touches, from sample `from` of what arrives on.
+    fn ring(&mut self, mut out: [&mut [f32]; EARS], incident: Option<Incident<'_>>, from: usize) {
+        let samples = out[0].len();
+        let Surface { body, pickup, beyond, rim, listener, .. } = self;
+        let pressed = listener.as_ref().zip(incident);
+        let drive = pressed.and_then(|(listener, incident)| listener.drive(incident, from));
         match beyond {
             Some(force) if force.is_active() => {
-                body.ring(force.front().length(), pickup, &mut *rest);
-                for sample in rest.iter_mut() {
+                let first = force.front().length();
+                body.ring_driven(first, drive.into_iter(), pickup, out.each_mut().map(|out| &mut **out));
+                for i in 0..samples {
                     force.begin(body, pickup);
                     body.step_front(force.front());
+                    if let Some((port, pressures)) = drive {
+                        body.push_front(force.front(), port, pressures[i]);
+                    }
                     force.free(body);
-                    *sample += force.finish(body, 0.0) + body.listen_front(force.front(), pickup);
+                    let mut heard = force.finish(body, 0.0);
+                    add(&mut heard, body.listen_front(force.front(), pickup));
+                    out.iter_mut().zip(heard).for_each(|(out, heard)| out[i] += heard);
                 }
             }
-            _ => body.ring(0, pickup, &mut *rest),
+            _ => body.ring_driven(0, drive.into_iter(), pickup, out.each_mut().map(|out| &mut **out)),
+        }
+        if let Some((listener, incident)) = pressed {
+            for (i, &pressure) in incident[from..].iter().enumerate() {
+                out.iter_mut().zip(listener.echo(pressure)).for_each(|(out, echo)| out[i] += echo);
+            }
         }
         if let Some(rim) = rim.as_mut().filter(|rim| !rim.body.is_still()) {
-            let mut heard = [0.0; MAX_RUN];
-            let heard = &mut heard[..rest.len()];
-            rim.body.ring(0, &rim.pickup, heard);
-            rest.iter_mut().zip(heard).for_each(|(sum, x)| *sum += *x);
+            let mut heard = [[0.0; MAX_RUN]; EARS];
+            rim.body.ring(0, &rim.pickup, heard.each_mut().map(|row| &mut row[..samples]));
+            for (out, heard) in out.iter_mut().zip(&heard) {
+                out.iter_mut().zip(heard).for_each(|(sum, x)| *sum += x);
+            }
         }
-        if let Some(pair) = self.pair.as_mut().filter(|_| !together) {
-            pair.ring(out, done);
-        }
-        self.high.iter_mut().chain(&mut self.far_high).for_each(|high| high.render(out));
     }
 
     /// Energy of the strikers and of what their contacts hold, J.
@@ -394,7 +443,7 @@ impl Surface {
             && self.body.is_finite()
             && self.rim.as_ref().is_none_or(|rim| rim.body.is_finite())
             && self.live[..self.live_count].iter().all(|&i| self.points[i].compression.is_finite());
-        let strikers = self.touchers[..MAX_STRIKERS].iter().any(|striker| striker.present);
+        let strikers = self.is_struck();
         let finite = finite && self.settle_pair(strikers);
         if !finite {
             self.reset();
@@ -412,6 +461,18 @@ impl Surface {
         let rim = self.rim.as_ref().is_none_or(|rim| rim.body.is_still());
         let pair = self.pair.as_ref().is_none_or(|pair| pair.is_still());
         high && rim && pair && self.live_count == 0 && self.body.is_still()
+    }
+
+    /// Whether strikers are about.
+    pub fn is_struck(&self) -> bool {
+        self.touchers[..MAX_STRIKERS].iter().any(|striker| striker.present)
+    }
+
+    /// Puts everything to rest as [`reset`](Self::reset) does; what was counted stays.
+    pub fn rest(&mut self) {
+        let counted = (self.brought_energy, self.departed_energy);
+        self.reset();
+        (self.brought_energy, self.departed_energy) = counted;
     }
 
     /// Puts everything to rest; strikers are gone.

@@ -1,7 +1,7 @@
 //! The editor: the kit's levels, one piece's motion, its parameters.
 //!
 //! It reads snapshots, mode shapes and parameters and never touches the engine. Drawing is split
-//! into the surface, the panels around it, the knob and the theme; what stays here is the
+//! into the surface, the panels around it, those of presets and of playing, the knob and the theme; what stays here is the
 //! window: opening it at the size the project stored, and storing the size it is given.
 
 use std::error::Error;
@@ -21,13 +21,18 @@ use crate::NAME;
 use crate::builder::Shapes;
 use crate::host_parameters::{HostParameters, SMALLEST_WINDOW};
 use crate::monitor::Viewer;
+use crate::presets::Library;
 
 mod knob;
 mod panels;
+mod playing;
+mod presets;
 mod surface;
 mod theme;
 
 use panels::Panels;
+use playing::PlayingPanel;
+use presets::PresetBar;
 
 /// What every window of an instance looks at.
 #[derive(Clone)]
@@ -115,11 +120,22 @@ struct App {
     sources: Sources,
     gui: Option<GuiContext>,
     panels: Panels,
+    presets: PresetBar,
+    playing: PlayingPanel,
+    /// Whether the panel of playing covers the surface.
+    plays: bool,
 }
 
 impl App {
     fn new(sources: Sources) -> App {
-        App { sources, gui: None, panels: Panels::default() }
+        App {
+            sources,
+            gui: None,
+            panels: Panels::default(),
+            presets: PresetBar::new(Library::default()),
+            playing: PlayingPanel::default(),
+            plays: false,
+        }
     }
 }
 
@@ -147,6 +163,17 @@ impl NiceEguiApp for App {
             gesture_to_host(&gui.param_setter(), parameter, gesture);
         };
         self.panels.show(ui, &snapshot, &shapes, self.sources.parameters.values(), &mut set);
+        if self.plays {
+            let cover = self.panels.stage_rect();
+            self.playing.show(ui, cover, &self.sources.parameters, &mut set);
+        }
+        let bar = panels::bar_rect(ui.max_rect());
+        ui.scope_builder(egui::UiBuilder::new().max_rect(bar), |ui| {
+            ui.horizontal(|ui| {
+                ui.toggle_value(&mut self.plays, "Playing");
+                self.presets.show(ui, &self.sources.parameters, &mut set);
+            });
+        });
     }
 
     fn resized(&mut self, size: WindowSize) {

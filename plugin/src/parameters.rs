@@ -196,7 +196,12 @@ impl Parameter {
     }
 
     fn is_level(&self) -> bool {
-        matches!(self.drives, Drives::Control(Control::Level(_) | Control::Master))
+        matches!(
+            self.drives,
+            Drives::Control(
+                Control::Level(_) | Control::MicrophoneLevel(_) | Control::CloseLevel | Control::Master
+            )
+        )
     }
 }
 
@@ -228,15 +233,15 @@ mod tests {
     use overhear_engine::piece::Piece;
 
     /// Changing this list breaks every project that was ever saved.
-    const FROZEN_IDS: [&str; 72] = [
+    const FROZEN_IDS: [&str; 78] = [
         "kktune", "kkmuff", "kklevl", "sntune", "snmuff", "snlevl", "rttune", "rtmuff", "rtlevl", "fttune",
         "ftmuff", "ftlevl", "crtune", "crmuff", "crlevl", "rdtune", "rdmuff", "rdlevl", "sptune", "spmuff",
         "splevl", "master", "dynam", "snprel", "snwire", "tptune", "tpmuff", "tplevl", "kkpan", "snpan",
         "rtpan", "ftpan", "crpan", "rdpan", "sppan", "tppan", "kkplac", "snplac", "rtplac", "ftplac",
         "crplac", "rdplac", "spplac", "tpplac", "kkstik", "snstik", "rtstik", "ftstik", "crstik", "rdstik",
         "spstik", "tpstik", "velcur", "humpla", "humspd", "notmap", "midchn", "chokes", "poscc", "qualit",
-        "offqua", "kkreso", "snreso", "rtreso", "ftreso", "hhtune", "hhmuff", "hhlevl", "hhpan", "hhplac",
-        "hhstik", "hhpedl",
+        "offqua", "kkreso", "snreso", "rtreso", "ftreso", "cllevl", "ohlevl", "rmlevl", "hear", "sympat",
+        "clip", "hhtune", "hhmuff", "hhlevl", "hhpan", "hhplac", "hhstik", "hhpedl",
     ];
 
     #[test]

@@ -142,4 +142,49 @@ mod tests {
         assert_eq!(notes("38=49 x 300=38 41=loud 40=silent =  200=38"), changed);
         assert!(notes("").is_empty());
     }
+
+    /// What a project stores, changed at random; the sequence is the same every time (xorshift, Marsaglia 2003).
+    #[test]
+    fn a_hundred_thousand_mutated_states_are_put_in_order_or_refused() {
+        let params = PARAMETERS.iter().map(|p| (p.id.to_owned(), ParamValue::F32(p.default))).collect();
+        let fields = [(SCHEMA_FIELD, "1"), (WINDOW_FIELD, "[980,640]"), (NOTES_FIELD, "38=49 40=silent")];
+        let fields = fields.map(|(name, value)| (name.to_owned(), value.to_owned())).into();
+        let state = PluginState { version: "0.1.0".into(), params, fields };
+        let bytes = serde_json::to_vec(&state).unwrap();
+        let host = crate::host_parameters::HostParameters::default();
+        let (mut seed, mut read) = (1_u64, 0);
+        let mut next = |below: usize| {
+            seed ^= seed << 13;
+            seed ^= seed >> 7;
+            seed ^= seed << 17;
+            (seed >> 33) as usize % below
+        };
+        for _ in 0..100_000 {
+            let mut mutated = bytes.clone();
+            for _ in 0..=next(3) {
+                let at = next(mutated.len());
+                match next(5) {
+                    0 => mutated.truncate(at.max(1)),
+                    1 => mutated[at] = next(256) as u8,
+                    2 => mutated[at] = b"0123456789.-eE\"[]{},:ntf"[next(24)],
+                    3 => mutated.insert(at, b"0123456789.-eE\"[]{},:ntf"[next(24)]),
+                    _ => {
+                        mutated.remove(at);
+                        mutated.push(b' ');
+                    }
+                }
+            }
+            let Ok(mut state) = serde_json::from_slice::<PluginState>(&mutated) else { continue };
+            read += 1;
+            put_in_order(&mut state);
+            assert_eq!(state.params.len(), PARAMETERS.len());
+            for parameter in &PARAMETERS {
+                let ParamValue::F32(value) = state.params[parameter.id] else { panic!("{}", parameter.id) };
+                assert!((parameter.min..=parameter.max).contains(&value), "{}: {value}", parameter.id);
+            }
+            host.deserialize_fields(&state.fields);
+            assert!(host.assignments().changed().len() < NOTES);
+        }
+        assert!(read > 5_000, "only {read} could be read at all");
+    }
 }

@@ -13,6 +13,8 @@ mod lifecycle;
 mod midi;
 #[path = "hosts/multi.rs"]
 mod multi;
+#[path = "hosts/resources.rs"]
+mod resources;
 #[path = "hosts/score.rs"]
 mod score;
 #[path = "hosts/state.rs"]

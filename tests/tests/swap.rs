@@ -1,6 +1,6 @@
 //! Pieces replaced while they ring.
 
-use overhear_engine::kit::Kit;
+use overhear_engine::kit::{Control, Kit, Microphone};
 use overhear_engine::piece::PieceId;
 use overhear_engine::strike::Striker;
 use overhear_tests::{kit, piece, stroke};
@@ -12,6 +12,11 @@ const BEFORE: usize = 4_801;
 
 fn struck(id: PieceId) -> Kit {
     let mut kit = kit(RATE);
+    // Nothing but the piece: the other drums would ring on, the room as well.
+    kit.set(Control::Hearing, 0.0);
+    kit.set(Control::Mute(Microphone::Overheads), 1.0);
+    kit.set(Control::Mute(Microphone::Room), 1.0);
+    kit.finish_controls();
     kit.strike(id, &stroke(Striker::Stick, 4.0, 0.4, 0.2));
     kit
 }

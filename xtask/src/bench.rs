@@ -1,6 +1,6 @@
 //! `cargo xtask bench`: what the instrument costs.
 //!
-//! A cost is the CPU time a second of sound takes over the CPU time of a fixed [loop](calibration), both cut into slices
+//! A cost is the CPU time a second of sound takes over the CPU time of a fixed loop (`calibration`), both cut into slices
 //! that take turns: what else the machine does then hits both alike. Every run does exactly the same work, for the
 //! engine is deterministic; what differs between runs is the machine, and the median and the spread say by how much.
 

@@ -1,16 +1,15 @@
 //! `demo`: from a fresh clone to a groove you can hear.
 //!
 //! Sets up, builds, bundles, loads the built CLAP into the embedded host, plays
-//! `assets/groove.mid` through it at 48 kHz, writes `demo.wav` and `demo.png`, and says what each
-//! piece contributed and what it cost.
+//! `assets/groove.mid` through it at 48 kHz, writes `demo.wav` and `demo.png`, and says how loud each
+//! piece is at each microphone and what it cost.
 
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, ensure};
-use overhear::midi_map;
-use overhear_engine::piece::PieceId;
 
-use crate::player::{Blocks, Hit, Played, Setup, Source, Take};
+use crate::levels::{self, Row};
+use crate::player::{Blocks, Played, Setup, Source, Take};
 use crate::progress::Progress;
 use crate::render::{Style, takes};
 use crate::song::Song;
@@ -40,20 +39,20 @@ pub fn run(folder: &Path) -> Result<()> {
     let song = Song::read(&workspace::root().join("assets/groove.mid"))?;
     let style = style(Source::Clap(clap.clone()));
     let (take, _) = takes(&song, &style)?;
-    let (played, left, right) = play(&take, &style, None, "groove")?;
+    let (played, left, right) = play(&take, &style, "groove")?;
     ensure!(played.finite, "the plugin gave values that are not numbers");
     ensure!(played.peak > 0.0, "the plugin stayed silent");
-    step(3, "playing every piece by itself through the engine");
-    let peaks = piece_peaks(&take)?;
+    step(3, "striking every piece by itself, at every microphone");
+    let levels = levels::table(RATE)?;
     step(4, "writing demo.wav and drawing demo.png");
     let mut file = WavFile::create(&wav, Bits::Float32, RATE, 2, take.frames)?;
     file.write(&[&left, &right])?;
     file.finish()?;
     output::write(&png, &picture::png("Overhear: assets/groove.mid", &left, &right, RATE)?)?;
-    report(&take, &played, &peaks, [&wav, &png, &clap]);
+    report(&take, &played, &levels, [&wav, &png, &clap]);
     ensure!(played.peak <= 1.0, "the mix is clipped: its peak is {:.3}", played.peak);
     let silent: Vec<_> =
-        peaks.iter().filter(|(_, peak)| *peak <= 0.0).map(|(piece, _)| piece.name()).collect();
+        levels.iter().filter(|row| row.peaks.contains(&0.0)).map(|row| row.piece.name()).collect();
     ensure!(silent.is_empty(), "silent: {}", silent.join(", "));
     Ok(())
 }
@@ -77,15 +76,10 @@ fn style(source: Source) -> Style {
 }
 
 /// Plays a take to memory.
-fn play(
-    take: &Take,
-    style: &Style,
-    only: Option<PieceId>,
-    label: &str,
-) -> Result<(Played, Vec<f32>, Vec<f32>)> {
+fn play(take: &Take, style: &Style, label: &str) -> Result<(Played, Vec<f32>, Vec<f32>)> {
     let (mut left, mut right) = (Vec::new(), Vec::new());
     let mut progress = Progress::new(label, take.frames);
-    let setup = Setup { rate: style.rate, settings: style.settings.clone(), only };
+    let setup = Setup { rate: style.rate, settings: style.settings.clone() };
     let played = style.source.perform(&setup, |player| {
         take.play(player, style.blocks, |l, r| {
             progress.advance(l.len() as u64);
@@ -97,33 +91,21 @@ fn play(
     Ok((played, left, right))
 }
 
-/// Peak of each piece's share of the mix.
-fn piece_peaks(take: &Take) -> Result<Vec<(PieceId, f32)>> {
-    let style = style(Source::Engine);
-    let part = |piece| {
-        let strikes = |hit: &&Hit| midi_map::stroke(hit.key).is_some_and(|stroke| stroke.piece == piece);
-        Take { hits: take.hits.iter().filter(strikes).copied().collect(), ..*take }
-    };
-    PieceId::KIT
-        .into_iter()
-        .map(|piece| (piece, part(piece)))
-        // A groove has no use for a timpani; what it strikes must be heard.
-        .filter(|(_, part)| !part.hits.is_empty())
-        .map(|(piece, part)| Ok((piece, play(&part, &style, Some(piece), piece.name())?.0.peak)))
-        .collect()
-}
-
-fn report(take: &Take, played: &Played, peaks: &[(PieceId, f32)], [wav, png, clap]: [&Path; 3]) {
+fn report(take: &Take, played: &Played, levels: &[Row], [wav, png, clap]: [&Path; 3]) {
     let decibels = |peak: f32| match peak {
         0.0 => "silent".to_owned(),
         peak => format!("{:6.1} dBFS", 20.0 * peak.log10()),
     };
     let seconds = take.frames as f64 / f64::from(RATE);
-    println!("\npeak of each piece");
-    for (piece, peak) in peaks {
-        println!("  {:<10} {}", piece.name(), decibels(*peak));
+    println!("\npeak of a stroke at full velocity, dBFS, at the microphones: close, overheads, room");
+    for Row { piece, peaks } in levels {
+        println!(
+            "  {:<10}{}",
+            piece.name(),
+            peaks.map(|peak| format!("{:8.1}", 20.0 * peak.log10())).concat()
+        );
     }
-    println!("  {:<10} {}", "the mix", decibels(played.peak));
+    println!("peak of the groove: {}", decibels(played.peak).trim_start());
     let share = 100.0 * played.busy.as_secs_f64() / seconds;
     println!("\n{seconds:.1} s of sound, {} notes, {share:.1} % of real time", take.hits.len());
     println!("sound    {}", wav.display());

@@ -18,6 +18,7 @@ pub mod error;
 pub mod groove;
 pub mod hear;
 pub mod host;
+mod levels;
 pub mod manual;
 pub mod modes;
 pub mod output;

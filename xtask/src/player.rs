@@ -57,8 +57,6 @@ pub struct Setup {
     pub rate: u32,
     /// Parameters moved before the start.
     pub settings: Vec<Setting>,
-    /// Build this piece only, if the source can; its notes are all that is played then.
-    pub only: Option<PieceId>,
 }
 
 impl Source {
@@ -103,12 +101,18 @@ impl Source {
     }
 }
 
-struct EnginePlayer {
-    performer: Performer,
+/// The engine by itself.
+pub struct EnginePlayer {
+    /// Who plays it.
+    pub performer: Performer,
 }
 
 impl EnginePlayer {
-    fn new(setup: &Setup) -> Result<EnginePlayer> {
+    /// Builds the kit as a file is rendered.
+    ///
+    /// # Errors
+    /// [`BadInput`](crate::error::BadInput) if the sample rate cannot be used.
+    pub fn new(setup: &Setup) -> Result<EnginePlayer> {
         let rate = f64::from(setup.rate);
         let mut performer = Performer::new(rate);
         // Before the pieces, as the plugin does it: they start with these values.
@@ -117,29 +121,40 @@ impl EnginePlayer {
         }
         let value = |index: usize| performer.parameter(index).unwrap_or(PARAMETERS[index].default);
         let plan = BuildPlan::of(value, Pace::Offline);
-        let ids = PieceId::KIT.into_iter().filter(|id| setup.only.is_none_or(|only| only == *id));
-        for id in ids {
+        for id in PieceId::KIT {
             let piece = Piece::new(id, &plan.options(id, rate)).map_err(|error| bad_input!("{error}"))?;
             performer.install(Box::new(piece));
         }
         Ok(EnginePlayer { performer })
     }
-}
 
-impl Player for EnginePlayer {
-    fn render(&mut self, hits: &[Hit], left: &mut [f32], right: &mut [f32]) -> Result<()> {
+    /// Plays notes within a buffer; `render` is called for each part between them.
+    pub fn play(
+        &mut self,
+        hits: &[Hit],
+        frames: usize,
+        mut render: impl FnMut(&mut Performer, std::ops::Range<usize>),
+    ) {
         let mut now = 0;
         for hit in hits {
             let at = hit.sample as usize;
             if at > now {
-                self.performer.render(&mut left[now..at], &mut right[now..at]);
+                render(&mut self.performer, now..at);
                 now = at;
             }
             self.performer.note_on(hit.key, velocity_from_midi(hit.velocity), hit.channel);
         }
-        if now < left.len() {
-            self.performer.render(&mut left[now..], &mut right[now..]);
+        if now < frames {
+            render(&mut self.performer, now..frames);
         }
+    }
+}
+
+impl Player for EnginePlayer {
+    fn render(&mut self, hits: &[Hit], left: &mut [f32], right: &mut [f32]) -> Result<()> {
+        self.play(hits, left.len(), |performer, part| {
+            performer.render(&mut left[part.clone()], &mut right[part]);
+        });
         Ok(())
     }
 }

@@ -1,6 +1,7 @@
 //! `render`: MIDI files to WAV files, one deterministic job per file.
 
 mod job;
+mod stems;
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -23,7 +24,7 @@ pub struct Request {
     pub inputs: Vec<PathBuf>,
     /// The WAV file, or a folder for several.
     pub output: PathBuf,
-    /// A folder for one more file per piece.
+    /// A folder for one more file per microphone.
     pub stems: Option<PathBuf>,
     /// Files rendered at once; as many as there are cores by default.
     pub jobs: Option<usize>,

@@ -1,9 +1,9 @@
 //! From a drum's description to its modes: heads stretched, orders solved at every pitch, all laid
 //! out as one modal body.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{SQRT_2, TAU};
 
-use crate::air::DENSITY;
+use crate::air::{DENSITY, MassCurves};
 use crate::cavity::{CavityOrder, HeadShape};
 use crate::drum::coupled::{CoupledMode, OrderProblem, Stretched};
 use crate::drum::high_band::{Ear, HighBandSpec};
@@ -59,17 +59,22 @@ pub struct Blueprint {
 
 impl TunedHead {
     /// Stretches a head so that its mode `(m, n)` runs through the pitches.
-    fn new(spec: &HeadSpec, (m, n): (u32, u32), pitches: &[f64; PITCHES]) -> Result<TunedHead, SpecError> {
+    fn new(
+        spec: &HeadSpec,
+        (m, n): (u32, u32),
+        pitches: &[f64; PITCHES],
+        curves: &mut MassCurves,
+    ) -> Result<TunedHead, SpecError> {
         // A first look with few modes finds the tensions; the air weighs less than thirty films.
         let zero = bessel::zero(m, n);
         let high = pitches[PITCHES - 1];
         let most = 30.0 * membrane::vacuum_tension(&spec.membrane, zero, high);
         let few = ModeRange { reference_tension: most, limit_hz: 6.0 * high };
-        let look = Membrane::new(spec.membrane, Surroundings::Air, &few)?;
+        let look = Membrane::sharing(spec.membrane, Surroundings::Air, &few, curves)?;
         let tension = |hz| look.tension_for(m, n, hz).unwrap_or(most);
         let range =
             ModeRange { reference_tension: tension(pitches[MIDDLE]), limit_hz: BASIS * spec.limit_hz };
-        let membrane = Membrane::new(spec.membrane, Surroundings::Air, &range)?.by_order();
+        let membrane = Membrane::sharing(spec.membrane, Surroundings::Air, &range, curves)?.by_order();
         let tensions = pitches.map(|hz| membrane.tension_for(m, n, hz).unwrap_or_else(|| tension(hz)));
         Ok(TunedHead { membrane, tensions, limit_hz: spec.limit_hz })
     }
@@ -127,12 +132,14 @@ impl Blueprint {
         let (low, default, high) = spec.pitch_hz;
         let scale = PitchScale::new(low, high);
         let pitches = scale.pitches();
-        let batter = TunedHead::new(&spec.batter, spec.named_mode, &pitches)?;
+        let mut curves = MassCurves::default();
+        let batter = TunedHead::new(&spec.batter, spec.named_mode, &pitches, &mut curves)?;
         let resonant = spec
             .resonant
             .map(|resonant| {
                 let ratio = resonant.pitch_ratio;
-                TunedHead::new(&resonant.head, spec.named_mode, &pitches.map(|hz| ratio * hz))
+                let pitches = pitches.map(|hz| ratio * hz);
+                TunedHead::new(&resonant.head, spec.named_mode, &pitches, &mut curves)
             })
             .transpose()?;
         let mut blueprint = Blueprint { scale, batter, resonant, modes: Vec::new() };
@@ -224,6 +231,24 @@ impl Blueprint {
         tuned::follow(m, &solved, self.head_shapes(m).len(), grid, keep)
     }
 
+    /// Volume by which a mode without nodal diameters makes the drum smaller, per modal displacement, m2: that of
+    /// the point in free air that loses as much by radiation as the mode does.
+    ///
+    /// # Real-time
+    /// Linear in the head modes it mixes.
+    pub fn volume(&self, mode: &TunedMode, place: &Place) -> f64 {
+        let (first, near) = self.batter.order(0);
+        let volume = |head: &TunedHead, at: usize, skip: usize| -> f64 {
+            let modes = head.membrane.modes()[at..].iter().take_while(|mode| mode.m == 0).enumerate();
+            modes.map(|(i, head_mode)| mode.share(skip + i, place) * head.membrane.volume(head_mode)).sum()
+        };
+        let far = self.resonant.as_ref().map_or(0.0, |head| volume(head, head.order(0).0, near));
+        // Along the stroke is into the drum at the one and out of it at the other.
+        let moved = volume(&self.batter, first, 0) - far;
+        // A point in free air loses half of what it would in a baffle.
+        (SQRT_2 * mode.reference.monopole_area * mode.at(place).mass.sqrt()).copysign(moved)
+    }
+
     /// Shapes on the batter of every mode of the body, `[mode]`, pairs as two.
     pub fn batter_shapes(&self, splitting: Splitting) -> ShapeTable {
         self.shapes(&self.batter, splitting)
@@ -248,7 +273,8 @@ impl Blueprint {
 
     /// What the batter does above its modes.
     pub fn high_band(&self, spec: &DrumSpec, options: &BuildOptions) -> HighBandSpec {
-        let ear = Ear { point: spec.listening_point, outside: spec.outside, far: false };
+        let ear =
+            Ear { point: spec.listening_point, away: spec.far_point, outside: spec.outside, far: false };
         self.batter.high_band(ear, options, STRIKER_PLACES)
     }
 
@@ -256,7 +282,7 @@ impl Blueprint {
     pub fn far_high_band(&self, spec: &DrumSpec, options: &BuildOptions) -> Option<HighBandSpec> {
         let behind = spec.cavity.map_or(0.0, |cavity| cavity.depth);
         let point = spec.listening_point.from_behind(behind);
-        let ear = Ear { point, outside: spec.outside, far: true };
+        let ear = Ear { point, away: spec.far_point, outside: spec.outside, far: true };
         let head = self.resonant.as_ref()?;
         Some(head.high_band(ear, options, wires::GROUPS))
     }

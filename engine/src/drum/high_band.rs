@@ -55,7 +55,7 @@ use crate::drum::shadow;
 use crate::listening::ListeningPoint;
 use crate::membrane::MembraneSpec;
 use crate::modal::simd::MAX_RUN;
-use crate::modal::{MAX_DRIVES, ModalBody, Mode, Pickup, Port};
+use crate::modal::{EARS, MAX_DRIVES, ModalBody, Mode, Pickup, Port};
 use crate::split::hash;
 
 /// Slices in an octave.
@@ -76,6 +76,8 @@ const FADE: f64 = 1.03;
 pub struct Ear {
     /// The point, seen from the head's centre.
     pub point: ListeningPoint,
+    /// A point far away.
+    pub away: ListeningPoint,
     /// What surrounds the drum.
     pub outside: Outside,
     /// Whether the head is on the far side of the drum.
@@ -178,6 +180,8 @@ pub struct HighBand {
     places: Vec<Place>,
     /// How far the slow part of a force follows it in a sample.
     follow: f32,
+    /// What is heard far away, as at a metre, over what is heard at the point.
+    away: f32,
     /// Whether anything moves.
     rings: bool,
 }
@@ -199,6 +203,7 @@ impl HighBand {
         };
         let corner = SQRT_2 * SPEED_OF_SOUND / spec.head.radius;
         let mut band = HighBand {
+            away: away(spec, &slices),
             spec: *spec,
             body: ModalBody::new(modes, spec.sample_rate),
             pickup: Pickup::new(vec![[0.0; 2]; count]),
@@ -218,7 +223,7 @@ impl HighBand {
     pub fn retune(&mut self, tension: f64, muffling: &HighMuffling) {
         let HighBand { spec, body, pickup, slices, .. } = self;
         let top = top_hz(spec.sample_rate);
-        for (k, (slice, transfer)) in slices.iter().zip(pickup.transfer_mut()).enumerate() {
+        for (k, (slice, transfer)) in slices.iter().zip(pickup.transfer_mut(0)).enumerate() {
             let mut mode = mode(spec, slice, tension);
             if !spec.lossless {
                 let edge = 2.0 * slice.zero * (1.0 - muffling.pad.1);
@@ -233,7 +238,7 @@ impl HighBand {
         body.tune(pickup);
         for place in &mut self.places {
             body.connect(&mut place.port);
-            place.direct = pickup.direct_at(body, &place.port);
+            [place.direct, ..] = pickup.direct_at(body, &place.port);
         }
     }
 
@@ -250,7 +255,7 @@ impl HighBand {
             *shape = (slice.at(radius, angle) * pressed(slice.zero * patch / spec.head.radius)) as f32;
         }
         body.connect(port);
-        *direct = pickup.direct_at(body, port);
+        [*direct, ..] = pickup.direct_at(body, port);
     }
 
     /// Tells place `i` what the complete set's pressure is at once per unit force there, Pa/N.
@@ -268,28 +273,31 @@ impl HighBand {
         self.places[i].pressed |= force != 0.0;
     }
 
-    /// Ends the run: adds its sound to `out`, Pa, at most [`MAX_RUN`] samples.
+    /// Ends the run: adds its sound to what is heard at the point and far away, Pa, at most [`MAX_RUN`] samples.
     ///
     /// # Real-time
     /// Linear in slices times samples times places pressed; nothing at rest.
-    pub fn render(&mut self, out: &mut [f32]) {
-        let HighBand { body, pickup, places, follow, rings, .. } = self;
+    pub fn render(&mut self, near: &mut [f32], far: &mut [f32]) {
+        let HighBand { body, pickup, places, follow, rings, away, .. } = self;
         *rings |= places.iter().any(|place| place.pressed);
         if !*rings {
             return;
         }
-        let mut sound = [0.0; MAX_RUN];
-        let sound = &mut sound[..out.len()];
+        let mut sounds = [[0.0; MAX_RUN]; EARS];
+        let [sound, unheard @ ..] = sounds.each_mut().map(|row| &mut row[..near.len()]);
+        let [far_unheard, few_unheard] = unheard;
         let pressed = places.iter().filter(|place| place.pressed);
-        body.ring_driven(pressed.map(|place| (&place.port, &place.forces[..])), pickup, sound);
+        let drives = pressed.map(|place| (&place.port, &place.forces[..]));
+        body.ring_driven(0, drives, pickup, [&mut *sound, far_unheard, few_unheard]);
         for place in places.iter_mut().filter(|place| place.pressed || place.slow != 0.0) {
             place.add_direct(*follow, sound);
             if std::mem::take(&mut place.pressed) {
                 place.forces.fill(0.0);
             }
         }
-        for (out, sound) in out.iter_mut().zip(&*sound) {
-            *out += sound;
+        for ((near, far), sound) in near.iter_mut().zip(far).zip(&*sound) {
+            *near += sound;
+            *far += *away * sound;
         }
     }
 
@@ -461,9 +469,21 @@ fn loudness(spec: &HighBandSpec, slice: &Slice, omega: f64) -> f64 {
     slice.gain * DENSITY / TAU * rim_strip(spec, slice, omega) * near
 }
 
+/// How much louder the slices are far away, as at a metre, than at the point, in the mean: they come by chance in any
+/// phase here and there.
+fn away(spec: &HighBandSpec, slices: &[Slice]) -> f32 {
+    let from_away = HighBandSpec { ear: Ear { point: spec.ear.away, ..spec.ear }, ..*spec };
+    let ratio = |slice: &Slice| {
+        let (omega, _, _) = wave(&spec.head, slice.zero, spec.tensions[1]);
+        let there = loudness(&from_away, &Slice { gain: gain(&from_away, omega), ..*slice }, omega);
+        (there * spec.ear.away.distance / loudness(spec, slice, omega)).ln()
+    };
+    (slices.iter().map(ratio).sum::<f64>() / slices.len().max(1) as f64).exp() as f32
+}
+
 /// Amplitude at the point over that of the same head in a baffle.
 fn gain(spec: &HighBandSpec, omega: f64) -> f64 {
-    let Ear { point, outside, far } = spec.ear;
+    let Ear { point, outside, far, .. } = spec.ear;
     let ka = omega * spec.head.radius / SPEED_OF_SOUND;
     match outside {
         Outside::Baffle => 1.0,

@@ -52,6 +52,8 @@ pub struct DrumSpec {
     pub splitting: Splitting,
     /// Where it is heard from.
     pub listening_point: ListeningPoint,
+    /// In which direction it is heard from far.
+    pub far_point: ListeningPoint,
     /// Whether snare wires lie against the resonant head.
     pub wires: bool,
     /// Whether there is a rim within a stick's reach.
@@ -102,6 +104,7 @@ impl DrumSpec {
             muffler: Muffler::GEL,
             splitting: Splitting::DRUM,
             listening_point: ListeningPoint { distance: 0.5, inclination: 0.6, azimuth: 0.4 },
+            far_point: ListeningPoint::far(0.6, 0.4),
             wires: false,
             rim: false,
         }

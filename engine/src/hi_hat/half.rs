@@ -64,8 +64,8 @@ pub struct Damping {
 pub struct Half {
     /// `[mode]`.
     pub modes: Vec<HalfMode>,
-    /// How each is heard, `[mode]`.
-    pub transfer: Vec<[f64; 2]>,
+    /// How each is heard from near and from far away, as at a metre, `[mode]`.
+    pub transfers: [Vec<[f64; 2]>; 2],
     /// What the rim feels of each.
     pub folded: Folded,
     loss: LossLaw,
@@ -109,8 +109,8 @@ impl Half {
         let radiated = cymbal::radiate(spec, &plate, &tables);
         let at_rim = plate.radial_shapes(&tables, &[1.0]);
         let at_mount = plate.radial_shapes(&tables, &[mount.reach]);
-        let (mut modes, mut index, mut transfer, mut shares, mut pairs) =
-            (Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let (mut modes, mut index, mut shares, mut pairs) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let mut transfers = [Vec::new(), Vec::new()];
         let mut front = 0;
         for Ranked { shell: row, rank: (part, _) } in order(&plate, coupled_hz) {
             let shell = &plate.shells[row];
@@ -131,8 +131,11 @@ impl Half {
                     monopole_area: monopole_area(spec, shell.omega, &radiated[row]),
                 });
                 index.push(ShapeIndex { radial: row, rows: 1, m: shell.m, member, axis });
-                let toward = spec.listening_point.toward(shell.m, member, axis);
-                transfer.push(radiated[row].transfer.map(|x| toward * x));
+                let points = [(spec.listening_point, 1.0), (spec.far_point, spec.far_point.distance)];
+                for (ear, (point, scale)) in points.into_iter().enumerate() {
+                    let share = scale * point.toward(shell.m, member, axis);
+                    transfers[ear].push(radiated[row].transfers[ear].map(|x| share * x));
+                }
                 shares.push(share(shell.m, member, axis, at_rim[row]));
             }
             if part < 2 {
@@ -145,7 +148,7 @@ impl Half {
         let shapes = ShapeTable::new(&plate.radial_shapes(&tables, &ShapeTable::radii()), index);
         let mut half = Half {
             modes,
-            transfer,
+            transfers,
             folded: Folded::new(&shares),
             loss: spec.loss,
             heat: Thermoelastic::bronze(&spec.plate),

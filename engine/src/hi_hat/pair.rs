@@ -27,7 +27,7 @@
 use crate::contact::ContactLaw;
 use crate::modal::simd::Kernels;
 use crate::modal::simd::folded::{Amplitudes, Folded};
-use crate::modal::{ModalBody, Mode, Pickup};
+use crate::modal::{EARS, ModalBody, Mode, Pickup};
 use crate::snapshot::WireSnapshot;
 use crate::surface::STRIKER_PLACES;
 use crate::surface::together::Compliances;
@@ -42,8 +42,8 @@ use super::rigid::{Rigid, Weights};
 pub struct PairParts {
     /// The lower cymbal's modes.
     pub bottom: Vec<Mode>,
-    /// How they are heard.
-    pub transfer: Vec<[f64; 2]>,
+    /// How they are heard from near and from far away, as at a metre.
+    pub transfers: [Vec<[f64; 2]>; 2],
     /// What the rims feel of the modes of the upper and of the lower cymbal.
     pub folded: [Folded; 2],
     /// Both as stiff bodies.
@@ -124,8 +124,8 @@ pub struct Pair {
     pub(super) whole: Compliances<POINTS>,
     /// `shells` times the preloads, m.
     pub(super) eased: [f64; POINTS],
-    /// Pressure at once per force amplitude, of both, Pa/N.
-    pub(super) direct: [Amplitudes; 2],
+    /// Pressure at each ear at once per force amplitude, of both, Pa/N.
+    pub(super) direct: [[Amplitudes; EARS]; 2],
     /// Coupling of the places with the force beyond the upper cymbal's modes, into it as a place presses.
     pub(super) coupling: [f64; POINTS],
     pub(super) strikers: [StrikerPlace; STRIKER_PLACES],
@@ -162,10 +162,13 @@ impl Pair {
     /// A pair with the pedal up, at rest. Allocates.
     pub fn new(parts: PairParts) -> Pair {
         let dt = 1.0 / parts.sample_rate;
+        let [near, far] = parts.transfers;
+        let mut pickup = Pickup::new(near);
+        pickup.transfer_mut(1).copy_from_slice(&far);
         let nowhere = StrikerPlace { weights: [0.0; 3], shell: [0.0; POINTS], whole: [0.0; POINTS] };
         Pair {
             bottom: ModalBody::new(parts.bottom, parts.sample_rate),
-            pickup: Pickup::new(parts.transfer),
+            pickup,
             folded: parts.folded,
             rigid: parts.rigid,
             law: parts.law,
@@ -178,7 +181,7 @@ impl Pair {
             shells: [[0.0; POINTS]; POINTS],
             whole: [[0.0; POINTS]; POINTS],
             eased: [0.0; POINTS],
-            direct: [Amplitudes::default(); 2],
+            direct: [[Amplitudes::default(); EARS]; 2],
             coupling: [0.0; POINTS],
             strikers: [nowhere; STRIKER_PLACES],
             rest: Rest::OPEN,

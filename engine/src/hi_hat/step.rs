@@ -5,8 +5,9 @@
 //! the force beyond the upper cymbal's modes has to do with a contact is counted as that contact presses.
 
 use crate::contact::ContactStep;
+use crate::modal::simd::MAX_RUN;
 use crate::modal::simd::folded::Amplitudes;
-use crate::modal::{ModalBody, Port};
+use crate::modal::{EARS, Heard, ModalBody, Port};
 use crate::potential::NonlinearForce;
 use crate::surface::together::Meeting;
 
@@ -173,13 +174,13 @@ impl Pair {
 
     /// Applies the forces, with those of `strikers` `(point, force, coupling)`; returns what they press the force
     /// beyond the modes with, and the pressure at once, Pa.
-    pub fn press(&mut self, top: &mut ModalBody) -> (f64, f32) {
+    pub fn press(&mut self, top: &mut ModalBody) -> (f64, Heard) {
         if !self.engaged {
-            return (0.0, 0.0);
+            return (0.0, Heard::default());
         }
         let beyond: [f64; POINTS] = std::array::from_fn(|j| self.force[j] - self.rest.preload[j]);
         if beyond == [0.0; POINTS] && self.force == [0.0; POINTS] {
-            return (0.0, 0.0);
+            return (0.0, Heard::default());
         }
         let mut felt = [0.0; 3];
         for (weights, force) in self.weights.iter().zip(&self.force) {
@@ -198,15 +199,20 @@ impl Pair {
             forces.iter().flatten().zip(direct.iter().flatten()).map(|(force, direct)| force * direct).sum()
         };
         let pressed = beyond.iter().zip(&self.coupling).map(|(force, u)| force * u).sum();
-        (pressed, heard(&up, &self.direct[0]) + heard(&down, &self.direct[1]))
+        let [above, below] = &self.direct;
+        (pressed, std::array::from_fn(|ear| heard(&up, &above[ear]) + heard(&down, &below[ear])))
     }
 
     /// Ends the sample; `strikers` are the points about, their forces (N) and their coupling. What is heard of the
     /// lower shell, Pa.
-    pub fn finish(&mut self, strikers: impl Iterator<Item = (usize, f64, f64)> + Clone, divisor: f64) -> f32 {
+    pub fn finish(
+        &mut self,
+        strikers: impl Iterator<Item = (usize, f64, f64)> + Clone,
+        divisor: f64,
+    ) -> Heard {
         self.pedal_work += self.damper * (self.rigid[0].place()[0] - self.from);
         if !self.engaged {
-            return 0.0;
+            return Heard::default();
         }
         let of_strikers: f64 = strikers.clone().map(|(_, force, u)| force * u).sum();
         let of_rims: f64 = self.force.iter().zip(&self.coupling).map(|(force, u)| force * u).sum();
@@ -234,18 +240,20 @@ impl Pair {
 
     /// Many samples in which no rim meets the other: adds what is heard of the lower shell, Pa. As stiff bodies both
     /// have moved for the first `stiff` of them already.
-    pub fn ring(&mut self, out: &mut [f32], stiff: usize) {
-        for _ in stiff..out.len() {
+    pub fn ring(&mut self, out: &mut [&mut [f32]; EARS], stiff: usize) {
+        let samples = out[0].len();
+        for _ in stiff..samples {
             let (drawn, _) = self.rigid[0].drawn(self.foot.place(), 0.0);
             self.rigid.iter_mut().for_each(Rigid::step);
             self.rigid[0].push(&[1.0, 0.0, 0.0], drawn);
             self.age += 1;
         }
         if !self.bottom.is_still() {
-            let mut heard = [0.0; crate::modal::simd::MAX_RUN];
-            let heard = &mut heard[..out.len()];
-            self.bottom.ring(0, &self.pickup, heard);
-            out.iter_mut().zip(heard).for_each(|(sum, x)| *sum += *x);
+            let mut heard = [[0.0; MAX_RUN]; EARS];
+            self.bottom.ring(0, &self.pickup, heard.each_mut().map(|row| &mut row[..samples]));
+            for (out, heard) in out.iter_mut().zip(&heard) {
+                out.iter_mut().zip(heard).for_each(|(sum, x)| *sum += x);
+            }
         }
     }
 }

@@ -2,7 +2,18 @@
 
 use crate::piece::PieceId;
 
-/// A live control of the kit. Acts from the next sample on, smoothed.
+/// A microphone, or a pair of them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Microphone {
+    /// The one close to a piece.
+    Close(PieceId),
+    /// The pair above the kit.
+    Overheads,
+    /// The pair in the room.
+    Room,
+}
+
+/// A live control of the kit. Acts from the next sample on, smoothed. Switches are on from one half up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Control {
     /// Pitch of a drum, Hz, or of a cymbal, ratio; see [`Piece::tuning_range`](crate::piece::Piece::tuning_range).
@@ -15,12 +26,28 @@ pub enum Control {
     SnareWires,
     /// The hi-hat's pedal, 0 (up) to 1 (down); see [`Piece::press_pedal`](crate::piece::Piece::press_pedal).
     Pedal,
-    /// Level of a piece in the mix, dB; at or below [`SILENT_DB`](crate::kit::SILENT_DB) the piece is silent.
+    /// Level of a piece in every microphone, dB; at or below [`SILENT_DB`](crate::kit::SILENT_DB) the piece is silent.
+    /// What other pieces hear of it stays.
     Level(PieceId),
-    /// Where a piece lies in the stereo, -1 (left) to 1 (right); see [`Placement::side`].
-    ///
-    /// [`Placement::side`]: crate::layout::Placement::side
+    /// Where a piece's close microphone lies in the stereo, -1 (left) to 1 (right); see
+    /// [`Placement::side`](crate::layout::Placement::side). Of a pair, see [`Balance`](Self::Balance).
     Pan(PieceId),
+    /// Balance of a pair of microphones, -1 (left alone) to 1 (right alone); of a close one, its pan.
+    Balance(Microphone),
+    /// Level of a microphone or a pair, dB.
+    MicrophoneLevel(Microphone),
+    /// Level of all close microphones, dB.
+    CloseLevel,
+    /// Switch: the microphone is silent.
+    Mute(Microphone),
+    /// Switch: only microphones with this are heard, if any has it.
+    Solo(Microphone),
+    /// Switch: the drums hear the other pieces.
+    Hearing,
+    /// How much of the other pieces' sound reaches the drums, 0 to 1 (all of it).
+    Sympathy,
+    /// Switch: the outputs bend softly instead of passing full scale.
+    SafetyClip,
     /// Level of the whole mix, dB.
     Master,
 }

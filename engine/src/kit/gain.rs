@@ -1,5 +1,7 @@
 //! Gains that follow their targets without a step.
 
+use super::BLOCK;
+
 /// Levels at or below this are silence, dB.
 pub const SILENT_DB: f64 = -60.0;
 
@@ -8,6 +10,12 @@ pub const LOUDEST_DB: f64 = 24.0;
 
 /// Time constant of a level change, s. *By ear*: without zipper noise, without lag.
 const LEVEL_TIME: f64 = 0.005;
+
+/// A level (dB) as a gain.
+pub(super) fn gain(db: f64) -> f32 {
+    let db = db.min(LOUDEST_DB);
+    if db <= SILENT_DB { 0.0 } else { 10.0_f64.powf(db / 20.0) as f32 }
+}
 
 /// A gain that follows its target exponentially, sample by sample.
 #[derive(Debug, Clone, Copy)]
@@ -18,25 +26,43 @@ pub(super) struct Gain {
     keep: f32,
 }
 
+/// A gain over the samples of a run.
+pub(super) type GainRun = [f32; BLOCK];
+
 impl Gain {
     pub(super) fn new(sample_rate: f64) -> Gain {
         Gain { value: 1.0, target: 1.0, keep: (-1.0 / (LEVEL_TIME * sample_rate)).exp() as f32 }
     }
 
-    pub(super) fn set_db(&mut self, db: f64) {
-        let db = db.min(LOUDEST_DB);
-        self.target = if db <= SILENT_DB { 0.0 } else { 10.0_f64.powf(db / 20.0) as f32 };
+    pub(super) fn set(&mut self, gain: f32) {
+        self.target = gain;
     }
 
-    pub(super) fn next(&mut self) -> f32 {
-        if self.value != self.target {
+    /// Whether it is zero and stays so.
+    pub(super) fn is_shut(&self) -> bool {
+        self.value == 0.0 && self.target == 0.0
+    }
+
+    /// Whether it has arrived.
+    pub(super) fn rests(&self) -> bool {
+        self.value == self.target
+    }
+
+    /// Advances by a run; its values.
+    pub(super) fn run(&mut self, samples: usize) -> GainRun {
+        if self.value == self.target {
+            return [self.value; BLOCK];
+        }
+        let mut out = [0.0; BLOCK];
+        for out in &mut out[..samples] {
             self.value = self.target + (self.value - self.target) * self.keep;
             // -140 dB away is there; the last step cannot be heard.
             if (self.value - self.target).abs() < 1e-7 {
                 self.value = self.target;
             }
+            *out = self.value;
         }
-        self.value
+        out
     }
 
     /// Arrives at once.
@@ -62,12 +88,24 @@ impl Pan {
 
     pub(super) fn set(&mut self, side: f64) {
         let (sin, cos) = ((side.clamp(-1.0, 1.0) + 1.0) * std::f64::consts::FRAC_PI_4).sin_cos();
-        (self.sides[0].target, self.sides[1].target) = (cos as f32, sin as f32);
+        self.sides[0].set(cos as f32);
+        self.sides[1].set(sin as f32);
     }
 
-    /// Gains of the left and the right output.
-    pub(super) fn next(&mut self) -> [f32; 2] {
-        [self.sides[0].next(), self.sides[1].next()]
+    /// Of a pair, which is at full level in the middle.
+    pub(super) fn set_balance(&mut self, side: f64) {
+        self.sides[0].set((1.0 - side).clamp(0.0, 1.0) as f32);
+        self.sides[1].set((1.0 + side).clamp(0.0, 1.0) as f32);
+    }
+
+    /// Whether it has arrived.
+    pub(super) fn rests(&self) -> bool {
+        self.sides.iter().all(Gain::rests)
+    }
+
+    /// Gains of the left and the right output over a run.
+    pub(super) fn run(&mut self, samples: usize) -> [GainRun; 2] {
+        self.sides.each_mut().map(|side| side.run(samples))
     }
 
     /// Arrives at once.

@@ -1,6 +1,7 @@
 //! A piece that another has replaced: it fades out under the new one instead of stopping short.
 
 use crate::kit::BLOCK;
+use crate::modal::EARS;
 use crate::piece::Piece;
 
 /// Length of the fade, s. *By ear*: no click, even of a kick; over before a new stroke has decayed.
@@ -35,22 +36,30 @@ impl Leaving {
         if self.left == 0 { self.piece.take() } else { None }
     }
 
+    /// Whether nobody is heard leaving.
+    pub fn is_over(&self) -> bool {
+        self.left == 0
+    }
+
     /// Lets whoever leaves be silent from now on.
     pub fn cut(&mut self) {
         self.left = 0;
     }
 
-    /// Adds what is still heard, within one block.
-    pub fn render(&mut self, sound: &mut [f32]) {
+    /// Adds what is still heard at every ear, within one block.
+    pub fn render(&mut self, sound: [&mut [f32]; EARS]) {
         let Some(piece) = self.piece.as_mut().filter(|_| self.left > 0) else { return };
-        let mut fading = [0.0_f32; BLOCK];
-        let fading = &mut fading[..sound.len()];
-        piece.render(fading);
-        for (sound, fading) in sound.iter_mut().zip(fading) {
-            self.left = self.left.saturating_sub(1);
-            let share = self.left as f32 / self.length as f32;
-            // Level at both ends: a straight fade's corner is heard on a low drum.
-            *sound += *fading * share * share * (3.0 - 2.0 * share);
+        let mut fading = [[0.0_f32; BLOCK]; EARS];
+        let samples = sound[0].len();
+        piece.render_in_air(fading.each_mut().map(|row| &mut row[..samples]), None);
+        let before = self.left;
+        self.left = before.saturating_sub(samples as u32);
+        for (sound, fading) in sound.into_iter().zip(&fading) {
+            for (i, (sound, fading)) in sound.iter_mut().zip(fading).enumerate() {
+                let share = before.saturating_sub(1 + i as u32) as f32 / self.length as f32;
+                // Level at both ends: a straight fade's corner is heard on a low drum.
+                *sound += *fading * share * share * (3.0 - 2.0 * share);
+            }
         }
     }
 }

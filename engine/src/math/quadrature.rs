@@ -5,9 +5,8 @@
 //!
 //! Source: Abramowitz & Stegun, 25.4.29 and 22.16.6. Checked up to 512 nodes.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::f64::consts::PI;
-use std::sync::{Arc, Mutex, PoisonError};
 
 /// Nodes and weights on an interval.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,7 +27,8 @@ impl GaussLegendre {
     pub fn new(n: usize, a: f64, b: f64) -> GaussLegendre {
         let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
         let (mut nodes, mut weights) = (vec![middle; n], vec![0.0; n]);
-        for (i, &(x, weight)) in known(n).iter().enumerate() {
+        for i in 0..n.div_ceil(2) {
+            let (x, weight) = node(n, i);
             nodes[i] = middle - half * x;
             nodes[n - 1 - i] = middle + half * x;
             weights[i] = half * weight;
@@ -44,17 +44,16 @@ impl GaussLegendre {
     }
 }
 
-/// Right halves of rules, from the end to the middle, `(node, weight)` on `-1..1`.
-type Halves = HashMap<usize, Arc<[(f64, f64)]>>;
+/// Rules on `0..1` that have been asked for: where every mode of a plate wants the same few hundred, finding their
+/// nodes takes longer than what is integrated with them (*measured*: a tenth of building a kit).
+#[derive(Debug, Clone, Default)]
+pub struct Rules(BTreeMap<usize, GaussLegendre>);
 
-/// The right half of the rule of `n` nodes. The same few hundred are asked for by every mode of a plate and take
-/// longer than what is integrated with them (*measured*: a tenth of building a kit), so they are kept.
-fn known(n: usize) -> Arc<[(f64, f64)]> {
-    static KNOWN: Mutex<Option<Halves>> = Mutex::new(None);
-    // A panic elsewhere cannot leave a half-made rule in it.
-    let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
-    let rules = known.get_or_insert_default();
-    rules.entry(n).or_insert_with(|| (0..n.div_ceil(2)).map(|i| node(n, i)).collect()).clone()
+impl Rules {
+    /// The rule of `n` nodes.
+    pub fn unit(&mut self, n: usize) -> &GaussLegendre {
+        self.0.entry(n).or_insert_with(|| GaussLegendre::unit(n))
+    }
 }
 
 /// The `i`-th node of `n` from the right end of `-1..1`, and its weight.

@@ -1,7 +1,7 @@
 //! A body felt and pushed at all places around its rim at once; see [`Folded`].
 
 use super::simd::folded::{Amplitudes, Folded, MAX_CLASSES, Spread};
-use super::{ModalBody, Pickup, Port};
+use super::{EARS, ModalBody, Pickup, Port};
 
 /// Compliances of each class between its cosine and its sine, `[class][cosine, sine][cosine, sine]`, m/N.
 pub type ClassCompliances = [[[f64; 2]; 2]; MAX_CLASSES];
@@ -28,9 +28,9 @@ impl ModalBody {
         self.kernels.gather_folded(folded, &from.gain_im)
     }
 
-    /// Pressure at a pickup at once per unit of force on each amplitude, Pa/N.
-    pub fn folded_direct(&self, folded: &Folded, pickup: &Pickup) -> Amplitudes {
-        self.kernels.gather_folded(folded, &pickup.direct)
+    /// Pressure at each ear at once per unit of force on each amplitude, Pa/N.
+    pub fn folded_direct(&self, folded: &Folded, pickup: &Pickup) -> [Amplitudes; EARS] {
+        pickup.ears.each_ref().map(|ear| self.kernels.gather_folded(folded, &ear.direct))
     }
 
     /// One-sample compliances of the rim, m/N.

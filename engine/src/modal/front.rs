@@ -4,7 +4,7 @@
 //! other modes can ring on in long stretches meanwhile ([`ModalBody::ring`]).
 
 use super::simd::LANES;
-use super::{ModalBody, Pickup, Port, Row, zero_row};
+use super::{EARS, Heard, ModalBody, Pickup, Port, Row, zero_row};
 
 /// Rows about the first modes of one body, whole SIMD lanes of them.
 pub struct Front {
@@ -18,8 +18,8 @@ pub struct Front {
     /// `M omega_d^2 / 2`: kinetic energy over the square of the real part, but for terms of the order
     /// of `sigma / omega`.
     kinetic: Row,
-    /// Pressure per change of the real part within a sample: what a jolt is heard as.
-    jolt: Row,
+    /// Pressure per change of the real part within a sample, `[ear]`: what a jolt is heard as.
+    jolt: [Row; EARS],
 }
 
 impl Front {
@@ -27,7 +27,14 @@ impl Front {
     pub fn new(modes: usize) -> Front {
         let row = || zero_row(modes);
         let length = modes.div_ceil(LANES) * LANES;
-        Front { length, kept: row(), ahead_re: row(), ahead_im: row(), kinetic: row(), jolt: row() }
+        Front {
+            length,
+            kept: row(),
+            ahead_re: row(),
+            ahead_im: row(),
+            kinetic: row(),
+            jolt: std::array::from_fn(|_| row()),
+        }
     }
 
     /// Modes in front, padded to whole lanes.
@@ -54,7 +61,10 @@ impl ModalBody {
             let decay = (-mode.sigma * time).exp();
             front.ahead_re[k] = (decay * cos) as f32;
             front.ahead_im[k] = (decay * sin) as f32;
-            front.jolt[k] = (f64::from(pickup.direct[k]) * mode.mass * omega_d / self.dt) as f32;
+            for (jolt, ear) in front.jolt.iter_mut().zip(&pickup.ears) {
+                let direct = ear.direct.get(k).copied().unwrap_or(0.0);
+                jolt[k] = (f64::from(direct) * mode.mass * omega_d / self.dt) as f32;
+            }
             front.kinetic[k] = (0.5 * mode.mass * omega_d * omega_d) as f32;
         }
     }
@@ -87,10 +97,21 @@ impl ModalBody {
     }
 
     /// Pressure at a pickup from the modes in front alone; see [`listen`](Self::listen).
-    pub fn listen_front(&self, front: &Front, pickup: &Pickup) -> f32 {
+    pub fn listen_front(&self, front: &Front, pickup: &Pickup) -> Heard {
         let n = front.length.min(self.state.im.len());
-        self.kernels.dot(&pickup.weight_re[..n], &self.state.re[..n])
-            + self.kernels.dot(&pickup.weight_im[..n], &self.state.im[..n])
+        let dot =
+            |weights: &[f32], state: &[f32]| self.kernels.dot(&weights[..n.min(weights.len())], &state[..n]);
+        pickup
+            .ears
+            .each_ref()
+            .map(|ear| dot(&ear.weight_re, &self.state.re) + dot(&ear.weight_im, &self.state.im))
+    }
+
+    /// [`push`](Self::push) of the modes in front alone.
+    pub fn push_front(&mut self, front: &Front, port: &Port, force: f32) {
+        let n = front.length.min(self.state.im.len());
+        self.kernels.axpy(&mut self.state.re[..n], &port.gain_re[..n], force);
+        self.kernels.axpy(&mut self.state.im[..n], &port.gain_im[..n], force);
     }
 
     /// Kinetic energy of the modes in front, J.
@@ -100,8 +121,8 @@ impl ModalBody {
 
     /// Scales the velocities of the modes in front; returns the pressure of the jolt it is, heard over
     /// the sample that follows.
-    pub fn jolt(&mut self, front: &Front, factor: f32) -> f32 {
-        let heard = (factor - 1.0) * self.kernels.dot(&front.jolt, &self.state.re);
+    pub fn jolt(&mut self, front: &Front, factor: f32) -> Heard {
+        let heard = front.jolt.each_ref().map(|jolt| (factor - 1.0) * self.kernels.dot(jolt, &self.state.re));
         let n = front.length.min(self.state.re.len());
         self.kernels.scale(&mut self.state.re[..n], factor);
         heard

@@ -122,7 +122,7 @@ impl Kernels {
     /// # Panics
     /// If `out` is longer than [`MAX_RUN`].
     pub fn ring(&self, ring: &mut Ring<'_>) {
-        assert!(ring.out.len() <= MAX_RUN, "a run of {} samples", ring.out.len());
+        ring.check();
         self.run(ring);
     }
 
@@ -402,12 +402,41 @@ pub struct Ring<'a> {
     pub turn_re: &'a [f32],
     /// Rotation.
     pub turn_im: &'a [f32],
-    /// What of the state is heard.
+    /// Where it is heard; all `out` of one length.
+    pub heard: [Heard<'a>; EARS],
+}
+
+/// Points at which a body is heard at once: two that hear all of it, near and far, and one that hears its first modes
+/// alone, as few as its weights are long.
+pub const EARS: usize = 3;
+
+/// Ears that hear all modes.
+const FULL: usize = 2;
+
+/// A row that is shorter than others ends in so many zeros, the modes that are advanced together at most.
+pub const REST: usize = GROUPS * LANES;
+
+/// One point at which a body is heard.
+pub struct Heard<'a> {
+    /// What of the state is heard, `[mode]`.
     pub weight_re: &'a [f32],
-    /// What of the state is heard.
+    /// What of the state is heard, `[mode]`.
     pub weight_im: &'a [f32],
     /// Receives the sum after each sample.
     pub out: &'a mut [f32],
+}
+
+impl Ring<'_> {
+    /// Samples asked for.
+    fn samples(&self) -> usize {
+        self.heard[0].out.len()
+    }
+
+    fn check(&self) {
+        let samples = self.samples();
+        assert!(samples <= MAX_RUN, "a run of {samples} samples");
+        assert!(self.heard.iter().all(|heard| heard.out.len() == samples), "runs of different lengths");
+    }
 }
 
 /// Groups of modes advanced together: their rotations are independent, which hides the latency
@@ -418,44 +447,86 @@ impl Kernel for &mut Ring<'_> {
     type Output = ();
     #[inline(always)]
     fn with<S: Simd>(self, simd: S, fma: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s + Copy) {
-        let n = self.out.len();
-        let mut sums = [simd.splat_f32s(0.0); MAX_RUN];
+        let n = self.samples();
+        let mut sums = [[simd.splat_f32s(0.0); EARS]; MAX_RUN];
         let re = S::as_mut_simd_f32s(self.re).0;
         let im = S::as_mut_simd_f32s(self.im).0;
-        let rows =
-            [self.turn_re, self.turn_im, self.weight_re, self.weight_im].map(|row| S::as_simd_f32s(row).0);
+        let rows = RingRows::new(self.turn_re, self.turn_im, &self.heard);
         let groups = re.len();
         let mut first = 0;
         while first + GROUPS <= groups {
-            ring_groups::<S, GROUPS>(simd, fma, first, (re, im), &rows, &mut sums[..n]);
+            if rows.reach_all(first + GROUPS) {
+                ring_groups::<S, GROUPS, EARS>(simd, fma, first, (re, im), &rows, &mut sums[..n]);
+            } else {
+                ring_groups::<S, GROUPS, FULL>(simd, fma, first, (re, im), &rows, &mut sums[..n]);
+            }
             first += GROUPS;
         }
         for rest in first..groups {
-            ring_groups::<S, 1>(simd, fma, rest, (re, im), &rows, &mut sums[..n]);
+            if rows.reach_all(rest + 1) {
+                ring_groups::<S, 1, EARS>(simd, fma, rest, (re, im), &rows, &mut sums[..n]);
+            } else {
+                ring_groups::<S, 1, FULL>(simd, fma, rest, (re, im), &rows, &mut sums[..n]);
+            }
         }
-        for (out, &sum) in self.out.iter_mut().zip(&sums) {
-            *out = simd.reduce_sum_f32s(sum);
+        write_sums(simd, &sums, &mut self.heard);
+    }
+}
+
+/// The rows a ring reads.
+struct RingRows<'a, S: Simd> {
+    turn: [&'a [S::f32s]; 2],
+    heard: [[&'a [S::f32s]; 2]; EARS],
+}
+
+impl<'a, S: Simd> RingRows<'a, S> {
+    #[inline(always)]
+    fn new(turn_re: &'a [f32], turn_im: &'a [f32], heard: &'a [Heard<'_>; EARS]) -> Self {
+        let rows =
+            |heard: &'a Heard<'_>| [heard.weight_re, heard.weight_im].map(|row| S::as_simd_f32s(row).0);
+        RingRows {
+            turn: [turn_re, turn_im].map(|row| S::as_simd_f32s(row).0),
+            heard: heard.each_ref().map(rows),
+        }
+    }
+
+    /// Whether every ear hears groups up to there.
+    #[inline(always)]
+    fn reach_all(&self, groups: usize) -> bool {
+        groups <= self.heard[EARS - 1][0].len()
+    }
+}
+
+/// Adds up the lanes of every sample's sums.
+#[inline(always)]
+fn write_sums<S: Simd>(simd: S, sums: &[[S::f32s; EARS]], heard: &mut [Heard<'_>; EARS]) {
+    for (ear, heard) in heard.iter_mut().enumerate() {
+        for (out, sum) in heard.out.iter_mut().zip(sums) {
+            *out = simd.reduce_sum_f32s(sum[ear]);
         }
     }
 }
 
-/// Advances `G` groups of modes through every sample, their state in registers throughout.
+/// Advances `G` groups of modes through every sample, their state in registers throughout; the first `E` ears hear them.
 #[inline(always)]
-fn ring_groups<S: Simd, const G: usize>(
+fn ring_groups<S: Simd, const G: usize, const E: usize>(
     simd: S,
     fma: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s + Copy,
     first: usize,
     (re, im): (&mut [S::f32s], &mut [S::f32s]),
-    rows: &[&[S::f32s]; 4],
-    sums: &mut [S::f32s],
+    rows: &RingRows<'_, S>,
+    sums: &mut [[S::f32s; EARS]],
 ) {
     let load = |row: &[S::f32s]| -> [S::f32s; G] { std::array::from_fn(|i| row[first + i]) };
     let (mut z_re, mut z_im) = (load(re), load(im));
-    let [t_re, t_im, w_re, w_im] = rows.map(load);
+    let [t_re, t_im] = rows.turn.map(load);
+    let weights: [_; E] = std::array::from_fn(|ear| rows.heard[ear].map(load));
     for sum in sums {
         for i in 0..G {
             (z_re[i], z_im[i]) = turn(simd, fma, (z_re[i], z_im[i]), (t_re[i], t_im[i]));
-            *sum = fma(w_im[i], z_im[i], fma(w_re[i], z_re[i], *sum));
+            for (sum, [w_re, w_im]) in sum.iter_mut().zip(&weights) {
+                *sum = fma(w_im[i], z_im[i], fma(w_re[i], z_re[i], *sum));
+            }
         }
     }
     re[first..first + G].copy_from_slice(&z_re);

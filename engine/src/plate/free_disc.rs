@@ -27,6 +27,7 @@
 //!
 //! Limits: plane disc; the dome and the bell are neglected, as is the air's mass in the frequencies.
 
+use std::cell::RefCell;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use nalgebra::{Complex, DMatrix, DVector};
@@ -34,25 +35,27 @@ use nalgebra::{Complex, DMatrix, DVector};
 use super::radial::angular_norm;
 use crate::air::{DENSITY, SPEED_OF_SOUND};
 use crate::listening::{ListeningPoint, Radiator};
-use crate::math::quadrature::GaussLegendre;
+use crate::math::quadrature::{GaussLegendre, Rules};
 
 /// What a mode does to the air.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Radiated {
-    /// Pressure at the point over modal acceleration, `[re, im]` in Pa s2/m, for a member whose shape
+    /// Pressure at each point over modal acceleration, `[re, im]` in Pa s2/m, for a member whose shape
     /// is largest toward the point.
-    pub transfer: [f64; 2],
+    pub transfers: [[f64; 2]; 2],
     /// Radiation resistance of both faces, kg/s.
     pub resistance: f64,
     /// Mass of air moved along, kg.
     pub air_mass: f64,
 }
 
-/// A disc, its modes' shapes on a grid, and a point.
+/// A disc, its modes' shapes on a grid, and points.
 pub struct FreeDisc {
     radius: f64,
-    point: ListeningPoint,
+    points: [ListeningPoint; 2],
     rule: GaussLegendre,
+    /// For the integrals of the impedance.
+    rules: RefCell<Rules>,
 }
 
 /// Functions beyond those that a shape of the mode's fineness needs. *Measured*: more change nothing by 1 %.
@@ -60,8 +63,8 @@ const MARGIN: f64 = 6.0;
 
 impl FreeDisc {
     /// For a disc of `radius` (m). `nodes` along the radius: three a wavelength of the finest shape.
-    pub fn new(radius: f64, point: ListeningPoint, nodes: usize) -> FreeDisc {
-        FreeDisc { radius, point, rule: GaussLegendre::unit(nodes) }
+    pub fn new(radius: f64, points: [ListeningPoint; 2], nodes: usize) -> FreeDisc {
+        FreeDisc { radius, points, rule: GaussLegendre::unit(nodes), rules: RefCell::default() }
     }
 
     /// Where along the radius shapes are wanted, shares of the radius.
@@ -83,7 +86,10 @@ impl FreeDisc {
                 Complex::from(terms.map(|(((r, w), shape), phi)| r * w * shape * phi).sum::<f64>())
             }),
         );
-        let solved = impedance(m, count, u).lu().solve(&drive).unwrap_or_else(|| DVector::zeros(count));
+        let solved = impedance(m, count, u, &mut self.rules.borrow_mut())
+            .lu()
+            .solve(&drive)
+            .unwrap_or_else(|| DVector::zeros(count));
         // Per unit acceleration into the face.
         let jump = solved * Complex::new(0.0, 2.0 * DENSITY * self.radius);
         let load: Complex<f64> = jump.iter().zip(drive.iter()).map(|(a, b)| a * b).sum();
@@ -92,7 +98,7 @@ impl FreeDisc {
             .map(|r| jump.iter().zip(&basis).map(|(a, phi)| a * phi[r]).sum())
             .collect();
         Radiated {
-            transfer: self.hear(mode, &field),
+            transfers: self.points.map(|point| self.hear(&point, mode, &field)),
             resistance: (mode.omega * load.im).max(0.0),
             air_mass: -load.re,
         }
@@ -126,11 +132,11 @@ impl FreeDisc {
         out
     }
 
-    /// Pressure at the point of a jump on the grid.
-    fn hear(&self, mode: &Radiator, jump: &[Complex<f64>]) -> [f64; 2] {
+    /// Pressure at a point of a jump on the grid.
+    fn hear(&self, point: &ListeningPoint, mode: &Radiator, jump: &[Complex<f64>]) -> [f64; 2] {
         let k = mode.omega / SPEED_OF_SOUND;
-        let (sin, cos) = self.point.inclination.sin_cos();
-        let (height, offset) = (self.point.distance * cos, self.point.distance * sin);
+        let (sin, cos) = point.inclination.sin_cos();
+        let (height, offset) = (point.distance * cos, point.distance * sin);
         let waves = f64::from(mode.m) + k * self.radius * sin;
         let count = 8 + (0.6 * waves) as usize + (3.0 * waves.cbrt()) as usize;
         let places: Vec<(f64, f64)> = (0..count)
@@ -143,7 +149,7 @@ impl FreeDisc {
             let mut ring = Complex::new(0.0, 0.0);
             for &(cos, around) in &places {
                 let d = (height * height + offset * offset + x * x - 2.0 * offset * x * cos).sqrt();
-                let (sin_kd, cos_kd) = (k * (self.point.distance - d)).sin_cos();
+                let (sin_kd, cos_kd) = (k * (point.distance - d)).sin_cos();
                 let slope = Complex::new(1.0 / d, k) * Complex::new(cos_kd, sin_kd);
                 ring += slope * (around * height / (d * d));
             }
@@ -155,7 +161,7 @@ impl FreeDisc {
 }
 
 /// `int phi_i phi_j k_z x dx` of order `m` at `u = omega a / c`, in units of the radius.
-fn impedance(m: usize, count: usize, u: f64) -> DMatrix<Complex<f64>> {
+fn impedance(m: usize, count: usize, u: f64, rules: &mut Rules) -> DMatrix<Complex<f64>> {
     let highest = m + 2 * count;
     let mut out = DMatrix::from_diagonal(&DVector::from_iterator(
         count,
@@ -175,15 +181,17 @@ fn impedance(m: usize, count: usize, u: f64) -> DMatrix<Complex<f64>> {
         }
     };
     // What differs from zero frequency: below u, x = u sin(phi) ...
-    let below = GaussLegendre::new(u as usize + 12, 0.0, FRAC_PI_2);
-    for (&phi, &w) in below.nodes.iter().zip(&below.weights) {
+    let below = rules.unit(u as usize + 12);
+    for (t, w) in below.nodes.iter().zip(&below.weights) {
+        let (phi, w) = (FRAC_PI_2 * t, FRAC_PI_2 * w);
         let (sin, cos) = phi.sin_cos();
         add(u * sin, Complex::new(u * cos, u * sin) * (w * cos / sin));
     }
     // ... and above, x = sqrt(u^2 + s^2), until the difference has died away.
     let reach = 1.5 * (highest as f64).max(u) + 12.0;
-    let above = GaussLegendre::new((0.8 * reach) as usize + 8, 0.0, reach);
-    for (&s, &w) in above.nodes.iter().zip(&above.weights) {
+    let above = rules.unit((0.8 * reach) as usize + 8);
+    for (t, w) in above.nodes.iter().zip(&above.weights) {
+        let (s, w) = (reach * t, reach * w);
         let x = u.hypot(s);
         add(x, Complex::new(0.0, (x - s) * s / (x * x) * w));
     }
@@ -223,7 +231,7 @@ mod tests {
     const POINT: ListeningPoint = ListeningPoint { distance: 0.5, inclination: 0.6, azimuth: 0.0 };
 
     fn rigid(u: f64) -> Radiated {
-        let disc = FreeDisc::new(A, POINT, 48);
+        let disc = FreeDisc::new(A, [POINT; 2], 48);
         let radial = vec![1.0; 48];
         disc.radiate(&Radiator { m: 0, radial: &radial, omega: u * SPEED_OF_SOUND / A }, 0.0)
     }
@@ -263,8 +271,9 @@ mod tests {
         let nodes = 140;
         let (a, distance) = (plate.spec.radius(), 40.0);
         let rule = GaussLegendre::new(120, 0.0, FRAC_PI_2);
-        let disc =
-            |inclination| FreeDisc::new(a, ListeningPoint { distance, inclination, azimuth: 0.0 }, nodes);
+        let disc = |inclination| {
+            FreeDisc::new(a, [ListeningPoint { distance, inclination, azimuth: 0.0 }; 2], nodes)
+        };
         let shapes = plate.radial_shapes(&tables, disc(0.0).radii());
         for (m, n) in [(0, 1), (1, 1), (4, 5), (0, 8), (10, 9), (5, 18)] {
             let i = plate.shells.iter().position(|s| (s.m, s.n) == (m, n)).unwrap();
@@ -272,7 +281,7 @@ mod tests {
             let root = plate.flat_of(shell).iter().find(|f| f.n == n).unwrap().root;
             let mode = Radiator { m, radial: &shapes[i * nodes..][..nodes], omega: shell.omega };
             let square = |theta: f64| {
-                let [re, im] = disc(theta).radiate(&mode, root).transfer;
+                let [re, im] = disc(theta).radiate(&mode, root).transfers[0];
                 (re * re + im * im) * theta.sin()
             };
             let sides = 2.0 * angular_norm(m) * distance * distance;
@@ -295,7 +304,7 @@ mod tests {
         let radial = vec![1.0; 64];
         let ratio = |u: f64| {
             let mode = Radiator { m: 0, radial: &radial, omega: u * SPEED_OF_SOUND / A };
-            let [a, b] = FreeDisc::new(A, point, 64).radiate(&mode, 0.0).transfer;
+            let [a, b] = FreeDisc::new(A, [point; 2], 64).radiate(&mode, 0.0).transfers[0];
             let [c, d] = crate::listening::Rayleigh::new(A, point, 64).transfer(&mode);
             (Complex::new(a, b) / Complex::new(c, d)).to_polar()
         };

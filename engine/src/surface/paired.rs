@@ -4,7 +4,7 @@ use crate::contact::ContactStep;
 use crate::hi_hat::POINTS;
 use crate::hi_hat::foot::Foot;
 use crate::hi_hat::pair::{Pair, Settled};
-use crate::modal::Mode;
+use crate::modal::{Heard, Mode};
 use crate::potential::NonlinearForce;
 
 use super::together::{self, Compliances, Meeting};
@@ -144,9 +144,9 @@ impl Surface {
     }
 
     /// Ends the sample underneath; what is heard of it, Pa.
-    pub(super) fn finish_pair(&mut self, divisor: f64) -> f32 {
+    pub(super) fn finish_pair(&mut self, divisor: f64) -> Heard {
         let Surface { pair: Some(pair), points, live, live_count, coupling, .. } = self else {
-            return 0.0;
+            return Heard::default();
         };
         let live = live[..*live_count].iter();
         pair.finish(live.map(|&i| (i, points[i].force, coupling[i])), divisor)

@@ -1,10 +1,17 @@
 //! One sample with something touching: everything steps freely, then all forces are found together.
 
 use crate::contact::ContactStep;
+use crate::modal::Heard;
 
+use super::air::Incident;
 use super::together::{self, Meeting};
 use super::touch::Side;
 use super::{FIRST_WIRE, MAX_POINTS, Surface, above, owner};
+
+/// Adds at every ear.
+pub(super) fn add(sum: &mut Heard, more: Heard) {
+    sum.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
+}
 
 impl Surface {
     /// Works out what the body tells point `i` and the others of each other.
@@ -20,7 +27,7 @@ impl Surface {
         self.coupling[i] = beyond.map_or(0.0, |force| force.coupling(body, &point.port));
         if side == Side::Surface {
             let (high, place) = above(i, &mut self.high, &mut self.far_high);
-            high.iter_mut().for_each(|high| high.complete(place, self.points[i].direct));
+            high.iter_mut().for_each(|high| high.complete(place, self.points[i].direct[0]));
         }
         if let Some(pair) = &mut self.pair {
             pair.connect_striker(i, &self.body, &self.points[i].port);
@@ -42,9 +49,9 @@ impl Surface {
         }
     }
 
-    /// One sample with something about; which of the run.
-    pub(super) fn step(&mut self, sample: usize) -> f32 {
-        let mean = self.step_free();
+    /// One sample with something about; which of the run, and what arrives over it.
+    pub(super) fn step(&mut self, sample: usize, incident: Option<Incident<'_>>) -> Heard {
+        let (mean, mut direct) = self.step_free(sample, incident);
         let divisor = self.divisor();
         self.step_pair(mean);
         let dt = self.dt;
@@ -70,7 +77,6 @@ impl Surface {
             Some(_) => self.solve_paired(),
             None => self.solve(),
         }
-        let mut direct = 0.0;
         let mut pressed = 0.0;
         for &i in &self.live[..self.live_count] {
             let point = &self.points[i];
@@ -84,7 +90,7 @@ impl Surface {
                 if let Some(pair) = &mut self.pair {
                     pair.push_striker(i, force);
                 }
-                direct += force as f32 * point.direct;
+                add(&mut direct, point.direct.map(|direct| force as f32 * direct));
                 pressed += force * self.coupling[i];
                 if point.side == Side::Surface {
                     let (high, place) = above(i, &mut self.high, &mut self.far_high);
@@ -95,10 +101,10 @@ impl Surface {
         if let Some(pair) = &mut self.pair {
             let (of_rims, at_once) = pair.press(&mut self.body);
             pressed += of_rims;
-            direct += at_once;
+            add(&mut direct, at_once);
         }
         if let Some(beyond) = self.beyond.as_mut().filter(|beyond| beyond.is_active()) {
-            direct += beyond.finish(&mut self.body, pressed);
+            add(&mut direct, beyond.finish(&mut self.body, pressed));
         }
         for &i in &self.live[..self.live_count] {
             let mut others = self.moved_by_others(i);
@@ -116,8 +122,12 @@ impl Surface {
         }
         let below = self.finish_pair(divisor);
         self.watch_strikers();
-        let rim = self.rim.as_ref().map_or(0.0, |rim| rim.body.listen(&rim.pickup));
-        self.body.listen(&self.pickup) + rim + below + direct
+        let rim = self.rim.as_ref().map_or(Heard::default(), |rim| rim.body.listen(&rim.pickup));
+        let mut heard = self.body.listen(&self.pickup);
+        add(&mut heard, rim);
+        add(&mut heard, direct);
+        add(&mut heard, below);
+        heard
     }
 
     /// How far the forces of all other points have brought point `i` out of the surface, m.
@@ -126,16 +136,17 @@ impl Surface {
         others.map(|&j| self.yielding[i][j] * self.points[j].pressing()).sum()
     }
 
-    /// Lets the body step by itself; works out how what touches meets it. Returns what multiplies their
-    /// coupling to give how far the force beyond the modes has moved the surface by itself.
-    pub(super) fn step_free(&mut self) -> f64 {
+    /// Lets the body step under nothing but the air; works out how what touches meets it. Returns what multiplies their
+    /// coupling to give how far the force beyond the modes has moved the surface by itself, and what is heard at
+    /// once.
+    pub(super) fn step_free(&mut self, sample: usize, incident: Option<Incident<'_>>) -> (f64, Heard) {
         if self.live_count > 0 {
             self.yielding = self.compliance;
         }
         let Some(force) = self.beyond.as_mut().filter(|force| force.is_active()) else {
             self.pair.iter_mut().for_each(|pair| pair.couple(&self.body, None));
             self.body.step();
-            return 0.0;
+            return (0.0, self.press(incident, sample));
         };
         let live = &self.live[..self.live_count];
         if force.begin(&mut self.body, &self.pickup) {
@@ -147,12 +158,16 @@ impl Surface {
             }
         }
         self.body.step();
+        let echo = self.press(incident, sample);
+        let (Some(force), live) = (&mut self.beyond, &self.live[..self.live_count]) else {
+            return (0.0, echo);
+        };
         for &i in live {
             for &j in live {
                 self.yielding[i][j] -= self.coupling[i] * self.coupling[j] / force.divisor();
             }
         }
-        force.free(&self.body)
+        (force.free(&self.body), echo)
     }
 
     /// Forces of all contacts for this sample.

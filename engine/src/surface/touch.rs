@@ -9,7 +9,7 @@
 //! beyond this equilibrium, and only what a force is beyond the preload acts.
 
 use crate::contact::{ContactLaw, ContactStep, Material};
-use crate::modal::Port;
+use crate::modal::{Heard, Port};
 use crate::stick::Stick;
 use crate::strike::{Across, Striker, StrikerSpec};
 
@@ -39,7 +39,7 @@ pub struct TouchPoint {
     /// Where it touches.
     pub port: Port,
     /// Pressure at the pickup at once per unit force, Pa/N.
-    pub direct: f32,
+    pub direct: Heard,
     /// How much it feels of each part of its toucher.
     pub weights: [f64; PARTS],
     /// The head right under it, so many bands of it.
@@ -73,7 +73,7 @@ impl TouchPoint {
             side: Side::Surface,
             law: ContactLaw::new(&spec.tip, &Material::FILM, spec.restitution),
             port: Port::new(modes),
-            direct: 0.0,
+            direct: Heard::default(),
             weights: [0.0; PARTS],
             bands: [Oscillator::free(1.0, dt); BANDS],
             band_count: 0,

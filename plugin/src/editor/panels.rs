@@ -18,6 +18,9 @@ use crate::parameters::PARAMETERS;
 /// Space around and between panels, points.
 const GAP: f32 = 10.0;
 
+/// Room of a knob where there is enough, points.
+const KNOB_WIDTH: f32 = 96.0;
+
 /// Bottom of the meters, dB.
 const FLOOR_DB: f32 = -60.0;
 
@@ -33,6 +36,8 @@ pub struct Panels {
     surface: Surface,
     /// Levels shown, dB: one for each piece, then left and right.
     levels: [f32; PieceId::KIT.len() + 2],
+    /// Where the surface was drawn last.
+    stage: Rect,
     /// Clock of the latest snapshot whose peaks were taken.
     clock: u64,
 }
@@ -43,9 +48,19 @@ impl Default for Panels {
             selected: 1,
             surface: Surface::default(),
             levels: [FLOOR_DB; PieceId::KIT.len() + 2],
+            stage: Rect::ZERO,
             clock: 0,
         }
     }
+}
+
+/// Where in a window there is room in the header.
+pub fn bar_rect(window: Rect) -> Rect {
+    let right = window.max.x - GAP;
+    Rect::from_min_max(
+        pos2((right - 520.0).max(window.min.x), window.min.y + 6.0),
+        pos2(right, window.min.y + 38.0),
+    )
 }
 
 impl Panels {
@@ -69,11 +84,17 @@ impl Panels {
         let (stage, meters) = right.split_left_right_at_x(right.max.x - 54.0);
         let stage = Rect::from_min_max(stage.min + vec2(GAP, 0.0), stage.max - vec2(GAP, 0.0));
 
+        self.stage = stage;
         self.header(ui, header, snapshot);
         self.list(ui, list, snapshot);
         self.stage(ui, stage, snapshot, shapes);
         self.main_meters(ui, meters);
         self.knobs(ui, knobs, parameters, set);
+    }
+
+    /// Where the surface was drawn last.
+    pub fn stage_rect(&self) -> Rect {
+        self.stage
     }
 
     /// Meters jump up at once and fall slowly.
@@ -197,19 +218,17 @@ impl Panels {
     fn knobs(&self, ui: &mut Ui, rect: Rect, parameters: &[FloatParam], set: &mut dyn FnMut(usize, Gesture)) {
         ui.painter().rect_filled(rect, theme::CORNER, theme::PANEL);
         let piece = title(PieceId::KIT[self.selected]);
-        let width = 96.0;
-        let row = |x: f32| Rect::from_min_size(pos2(x, rect.min.y + 26.0), vec2(width, 96.0));
         let left = rect.min.x + 12.0;
-        caption(ui, pos2(left + 6.0, rect.min.y + 13.0), piece);
-        let kit = rect.max.x - 2.0 * width - 12.0;
-        caption(ui, pos2(kit + 6.0, rect.min.y + 13.0), "Kit");
-        for (group, start) in [(piece, left), ("Kit", kit)] {
-            let mut x = start;
-            for (index, (parameter, value)) in PARAMETERS.iter().zip(parameters).enumerate() {
-                if parameter.group == group {
-                    knob::knob(ui, row(x), parameter.label, value, |gesture| set(index, gesture));
-                    x += width;
-                }
+        let kit = rect.max.x - 2.0 * KNOB_WIDTH - 12.0;
+        for (group, start, room) in [(piece, left, kit - left), ("Kit", kit, 2.0 * KNOB_WIDTH)] {
+            caption(ui, pos2(start + 6.0, rect.min.y + 13.0), group);
+            let shown =
+                || PARAMETERS.iter().zip(parameters).enumerate().filter(|(_, (p, _))| p.group == group);
+            let width = KNOB_WIDTH.min(room / shown().count().max(1) as f32);
+            for (place, (index, (parameter, value))) in shown().enumerate() {
+                let at = pos2(start + place as f32 * width, rect.min.y + 26.0);
+                let cell = Rect::from_min_size(at, vec2(width, 96.0));
+                knob::knob(ui, cell, parameter.label, value, |gesture| set(index, gesture));
             }
         }
     }

@@ -48,10 +48,18 @@ pub fn about(parameter: &Parameter) -> &'static str {
         Drives::Control(Tuning(_)) => "Pitch of the drum; glides over a few milliseconds.",
         Drives::Semitones(_) => "Pitch of the cymbal from its own.",
         Drives::Control(Muffling(_)) => "How much of what can muffle the piece lies on it.",
-        Drives::Control(Level(_)) => "Level of the piece in the mix and at its own output.",
+        Drives::Control(Level(_)) => "Level of the piece in every microphone and at its own output.",
         Drives::Control(Pan(_)) | Drives::Percent(_) => {
             "Place in the stereo, left to right; by default where the piece stands."
         }
+        Drives::Control(MicrophoneLevel(_)) => "Level of the pair of microphones in the mix.",
+        Drives::Control(CloseLevel) => "Level of the close microphones, at the pieces' own outputs too.",
+        Drives::Control(Balance(_)) => "Balance of the pair of microphones.",
+        Drives::Control(Mute(_)) => "The microphone is silent.",
+        Drives::Control(Solo(_)) => "Only microphones with this are heard, if any has it.",
+        Drives::Control(Hearing) => "Whether the drums hear the other pieces through the air.",
+        Drives::Control(Sympathy) => "How much of the other pieces' sound reaches the drums.",
+        Drives::Control(SafetyClip) => "Whether the mix bends softly instead of passing full scale; counted.",
         Drives::Control(Master) => "Level of the mix.",
         Drives::Control(SnarePreload) => "Force that presses the snare wires on.",
         Drives::Control(SnareWires) => "The strainer's lever.",

@@ -1,6 +1,6 @@
 //! The table of parameters.
 
-use overhear_engine::kit::{Control, SILENT_DB};
+use overhear_engine::kit::{Control, Microphone, SILENT_DB};
 use overhear_engine::piece::PieceId;
 
 use super::{Construction, Drives, Manner, Parameter};
@@ -8,7 +8,7 @@ use crate::midi::maps::NoteMap;
 use crate::midi::playing::ChokeRule;
 
 /// Every parameter, in the order hosts see. Frozen: append only.
-pub static PARAMETERS: [Parameter; 72] = {
+pub static PARAMETERS: [Parameter; 78] = {
     use PieceId::*;
     [
         drum_tune(Kick, "Kick", "kktune", "kick_tune", [35.0, 55.0, 90.0]),
@@ -198,6 +198,26 @@ pub static PARAMETERS: [Parameter; 72] = {
         resonant_ratio(Snare, "Snare", "snreso", "snare_resonant_ratio", 1.5),
         resonant_ratio(RackTom, "Rack tom", "rtreso", "rack_tom_resonant_ratio", 1.15),
         resonant_ratio(FloorTom, "Floor tom", "ftreso", "floor_tom_resonant_ratio", 1.15),
+        microphones("cllevl", "close_level", "Close", 0.0, Control::CloseLevel),
+        microphones("ohlevl", "overheads_level", "Overheads", 0.0, OVERHEADS),
+        microphones("rmlevl", "room_level", "Room", -9.0, ROOM),
+        switch("hear", "hearing", "Hear each other", 1.0, Control::Hearing),
+        Parameter {
+            id: "sympat",
+            name: "sympathy",
+            label: "Sympathy",
+            group: "Kit",
+            unit: "",
+            min: 0.0,
+            max: 1.0,
+            default: 1.0,
+            centre: 0.5,
+            step: 0.001,
+            decimals: 3,
+            drives: Drives::Control(Control::Sympathy),
+            choices: &[],
+        },
+        switch("clip", "safety_clip", "Safety clip", 0.0, Control::SafetyClip),
         cymbal_tune(HiHat, "Hi-hat", "hhtune", "hi_hat_tune"),
         muffle(HiHat, "Hi-hat", "hhmuff", "hi_hat_muffle", 0.0),
         level(HiHat, "Hi-hat", "hhlevl", "hi_hat_level", 0.0),
@@ -221,6 +241,43 @@ pub static PARAMETERS: [Parameter; 72] = {
         },
     ]
 };
+
+const OVERHEADS: Control = Control::MicrophoneLevel(Microphone::Overheads);
+const ROOM: Control = Control::MicrophoneLevel(Microphone::Room);
+
+const fn microphones(
+    id: &'static str,
+    name: &'static str,
+    label: &'static str,
+    default: f32,
+    control: Control,
+) -> Parameter {
+    Parameter { id, name, label, group: "Microphones", default, ..decibels(control) }
+}
+
+const fn switch(
+    id: &'static str,
+    name: &'static str,
+    label: &'static str,
+    default: f32,
+    control: Control,
+) -> Parameter {
+    Parameter {
+        id,
+        name,
+        label,
+        group: "Kit",
+        unit: "",
+        min: 0.0,
+        max: 1.0,
+        default,
+        centre: 0.5,
+        step: 1.0,
+        decimals: 0,
+        drives: Drives::Control(control),
+        choices: &["off", "on"],
+    }
+}
 
 const fn drum_tune(
     piece: PieceId,

@@ -5,7 +5,7 @@ use xtask::host::{Instance, parameter_id};
 use xtask::player::Blocks;
 
 use crate::score::{Sound, assert_same, notes, through_plugin};
-use crate::{alone, instance};
+use crate::{alone, here, instance};
 
 const RATE: f64 = 48_000.0;
 
@@ -77,4 +77,69 @@ fn a_broken_state_is_refused_and_nothing_is_lost() {
     }
     assert_same(&play(&mut instance), &expected, "after six broken states");
     instance.load_state(&state).unwrap();
+}
+
+/// States as earlier versions stored them, each with the values it was given.
+const EARLIER: [(&str, &[(&str, f32)]); 1] = [(
+    "state-23-parameters.bin",
+    &[
+        ("kktune", 62.38),
+        ("snmuff", 0.7),
+        ("rdtune", 6.0),
+        ("dynam", 4.6),
+        ("crlevl", -31.92),
+        ("kkmuff", 0.3),
+    ],
+)];
+
+#[test]
+fn states_of_earlier_versions_bring_their_values_and_defaults_for_what_they_lack() {
+    let _turn = alone();
+    for (file, stored) in EARLIER {
+        let bytes = std::fs::read(here("fixtures").join(file)).unwrap();
+        let text = String::from_utf8_lossy(&bytes);
+        // Something else before: a parameter that the state lacks must not stay.
+        let mut instance = instance();
+        set(
+            &mut instance,
+            &[("snare_preload", 1.0), ("crash_pan", 90.0), ("note_map", 2.0), ("kick_tune", 40.0)],
+        );
+        instance.load_state(&bytes).unwrap();
+        for (parameter, found) in PARAMETERS.iter().zip(instance.parameters().unwrap()) {
+            let known = stored.iter().find(|(id, _)| *id == parameter.id).map(|(_, value)| *value);
+            let lacks = !text.contains(&format!("\"{}\"", parameter.id));
+            if let Some(expected) = known.or(lacks.then_some(parameter.default)) {
+                let expected = f64::from(parameter.normalized(expected));
+                assert!(
+                    (found.value - expected).abs() < 1e-5,
+                    "{file}: {} is {}",
+                    parameter.name,
+                    found.value
+                );
+            }
+        }
+        // Stored again it is a state of this version and comes back to the byte.
+        let again = instance.save_state().unwrap();
+        instance.load_state(&again).unwrap();
+        assert_eq!(instance.save_state().unwrap(), again);
+    }
+}
+
+#[test]
+fn assignments_of_notes_travel_with_the_state() {
+    let _turn = alone();
+    let mut instance = instance();
+    let state = String::from_utf8(instance.save_state().unwrap()[8..].to_vec()).unwrap();
+    let json = state.replace("\"notes\":\"\"", "\"notes\":\"60=silent 61=36\"");
+    assert!(json != state, "{state}");
+    let bytes = [&(json.len() as u64).to_le_bytes()[..], json.as_bytes()].concat();
+    instance.load_state(&bytes).unwrap();
+    assert_eq!(instance.save_state().unwrap(), bytes);
+    let sound = |instance: &mut Instance, key| {
+        let score = vec![(0, crate::score::Happening::Note(key, 100))];
+        through_plugin(instance, &score, RATE, Blocks::Fixed(512))
+    };
+    assert_eq!(crate::score::peak(&sound(&mut instance, 60)), 0.0);
+    let kick = sound(&mut instance, 36);
+    assert_same(&sound(&mut instance, 61), &kick, "an assigned kick");
 }

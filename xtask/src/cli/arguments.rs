@@ -141,7 +141,7 @@ pub struct RenderArguments {
     /// Samples rendered at a time, 1 to 8192 or `random`; does not change the sound
     #[arg(long, value_name = "N|random", default_value = "512")]
     block: Blocks,
-    /// Write one more WAV file per piece into this folder
+    /// Write one more WAV file per microphone into this folder
     #[arg(long, value_name = "DIR")]
     stems: Option<PathBuf>,
     /// Bits per sample

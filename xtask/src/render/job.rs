@@ -5,10 +5,9 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use anyhow::{Result, ensure};
-use overhear_engine::piece::PieceId;
 
 use super::Style;
-use crate::bad_input;
+use super::stems::Stems;
 use crate::output::Folder;
 use crate::player::{Hit, Played, Setup, Take};
 use crate::progress::Progress;
@@ -23,7 +22,7 @@ pub struct Job {
     pub song: PathBuf,
     /// The WAV file.
     pub output: PathBuf,
-    /// A folder for one more file per piece.
+    /// A folder for one more file per microphone.
     pub stems: Option<PathBuf>,
 }
 
@@ -74,20 +73,17 @@ impl Job {
         let (take, silent) = takes(&song, style)?;
         let mut file = WavFile::create(&self.output, style.bits, style.rate, 2, take.frames)?;
         let _folder = self.stems.as_deref().map(Folder::new).transpose()?;
-        let stems = self.stem_files(style, take.frames)?;
+        let stems =
+            self.stems.as_deref().map(|folder| Stems::create(folder, &self.output, style, take.frames));
+        let stems = stems.transpose()?;
         let name = self.output.display().to_string();
         let progress = |label: String| {
             if show { Progress::new(label, take.frames) } else { Progress::hidden() }
         };
-        let played = play(&take, style, None, &mut file, progress(name.clone()))?;
+        let played = play(&take, style, &mut file, progress(name.clone()))?;
         let mut files = vec![file];
-        for (piece, mut file) in stems {
-            let stroke = |hit: &Hit| settings::stroke(&style.settings, hit.key);
-            let strikes = |hit: &&Hit| stroke(hit).is_some_and(|stroke| stroke.piece == piece);
-            let part = Take { hits: take.hits.iter().filter(strikes).copied().collect(), ..take };
-            let label = format!("{name}, {}", piece.name());
-            play(&part, style, Some(piece), &mut file, progress(label))?;
-            files.push(file);
+        if let Some(stems) = stems {
+            files.extend(stems.render(&take, style, progress(format!("{name}, stems")))?);
         }
         let stems = files.len() - 1;
         // All are whole before any gets its name.
@@ -102,35 +98,10 @@ impl Job {
             stems,
         })
     }
-
-    fn stem_files(&self, style: &Style, frames: u64) -> Result<Vec<(PieceId, WavFile)>> {
-        let Some(folder) = &self.stems else {
-            return Ok(Vec::new());
-        };
-        PieceId::KIT
-            .into_iter()
-            .map(|piece| {
-                let path = folder.join(format!("{}.wav", piece.name()));
-                if path == self.output {
-                    return Err(bad_input!(
-                        "`{}` would be the song and a stem, accepted: different names",
-                        path.display(),
-                    ));
-                }
-                Ok((piece, WavFile::create(&path, style.bits, style.rate, 2, frames)?))
-            })
-            .collect()
-    }
 }
 
-fn play(
-    take: &Take,
-    style: &Style,
-    only: Option<PieceId>,
-    file: &mut WavFile,
-    mut progress: Progress,
-) -> Result<Played> {
-    let setup = Setup { rate: style.rate, settings: style.settings.clone(), only };
+fn play(take: &Take, style: &Style, file: &mut WavFile, mut progress: Progress) -> Result<Played> {
+    let setup = Setup { rate: style.rate, settings: style.settings.clone() };
     let played = style.source.perform(&setup, |player| {
         take.play(player, style.blocks, |left, right| {
             progress.advance(left.len() as u64);

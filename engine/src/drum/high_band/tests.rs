@@ -32,7 +32,7 @@ fn slices_follow_on_the_complete_set_in_frequency_mass_count_and_loudness() {
     let low = highest.omega / 2.0_f64.sqrt();
     let (mut heard, mut count) = (0.0, 0.0);
     let spec = DrumSpec { pitch_hz: (spec.pitch_hz.0, middle, spec.pitch_hz.2), ..spec };
-    let hearing = Hearing::new(&blueprint, &spec);
+    let hearing = Hearing::new(&blueprint, &spec, spec.listening_point);
     let transfer: Vec<_> = hearing.transfers(&blueprint.modes, &place, middle).collect();
     let mut k = 0;
     for mode in &blueprint.modes {
@@ -92,7 +92,9 @@ fn how_a_run_is_cut_changes_no_sample() {
                 band.push(0, n, 3.0 + (0.3 * time).sin());
                 band.push(2, n, if (20.0..40.0).contains(&time) { time } else { 0.0 });
             }
-            band.render(run);
+            let mut far = [0.0; MAX_RUN];
+            let far = &mut far[..run.len()];
+            band.render(run, far);
             (at, rest) = (at + run.len(), later);
             if rest.is_empty() {
                 break;

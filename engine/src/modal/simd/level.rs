@@ -1,6 +1,6 @@
 //! Which instruction set the kernels are compiled for at run time.
 
-use std::sync::atomic::{AtomicU8, Ordering};
+use core::sync::atomic::{AtomicU8, Ordering};
 
 use pulp::Arch;
 #[cfg(target_arch = "x86_64")]

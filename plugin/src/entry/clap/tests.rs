@@ -152,7 +152,9 @@ fn outputs_that_are_left_out_neither_silence_nor_change_the_others() {
     let whole = struck(&mut multi, PORTS, |_, _| {});
     assert!(whole[0][0].iter().any(|sample| *sample != 0.0));
     assert!(whole[snare][0].iter().any(|sample| *sample != 0.0));
-    assert!(whole[1].iter().flatten().all(|sample| *sample == 0.0), "the kick was not struck");
+    let loudest =
+        |port: usize| whole[port].iter().flatten().fold(0.0_f32, |most, sample| most.max(sample.abs()));
+    assert!(loudest(1) < 0.1 * loudest(snare), "the kick was not struck, it only hears the snare");
 
     let main_only = struck(&mut multi, 1, |_, _| {});
     assert!(main_only[0] == whole[0]);

@@ -1,0 +1,57 @@
+//! What the kit costs: seconds to build each piece, and the share of real time that a groove takes with and
+//! without the pieces hearing each other, asleep too. In CPU time of the thread, as Linux counts it; it needs `/proc`.
+
+use overhear_engine::kit::{Control, Kit, Microphone};
+use overhear_engine::piece::{BuildOptions, Piece, PieceId};
+use overhear_engine::strike::{Strike, Striker};
+
+const RATE: f64 = 44_100.0;
+
+/// CPU time of this thread so far, s.
+fn cpu() -> f64 {
+    let text = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
+    1e-9 * text.split(' ').next().and_then(|field| field.parse().ok()).unwrap_or(f64::NAN)
+}
+
+/// Renders so many seconds with a stroke every eighth of one; share of real time.
+fn play(kit: &mut Kit, seconds: usize, strikes: bool) -> f64 {
+    let (mut left, mut right) = (vec![0.0; 64], vec![0.0; 64]);
+    let start = cpu();
+    for buffer in 0..seconds * RATE as usize / 64 {
+        let pattern = [PieceId::Ride, PieceId::Kick, PieceId::Ride, PieceId::Snare];
+        if strikes && buffer.is_multiple_of(86) {
+            let strike = Strike { speed: 3.0, radius: 0.35, angle: 0.0, striker: Striker::Stick };
+            kit.strike(pattern[buffer / 86 % 4], &strike);
+        }
+        kit.render(&mut left, &mut right);
+    }
+    (cpu() - start) / seconds as f64
+}
+
+fn main() {
+    let mut kit = Kit::new(RATE);
+    for id in PieceId::KIT {
+        let start = cpu();
+        if let Ok(piece) = Piece::new(id, &BuildOptions::new(RATE)) {
+            println!("{}: built in {:.3} s", id.name(), (cpu() - start));
+            drop(kit.install(Box::new(piece)));
+        }
+    }
+    println!("idle: {:.5} of real time", play(&mut kit, 60, false));
+    for (what, hearing, mics) in
+        [("deaf, close microphones alone", 0.0, 1.0), ("deaf", 0.0, 0.0), ("hearing each other", 1.0, 0.0)]
+    {
+        kit.set(Control::Hearing, hearing);
+        kit.set(Control::Mute(Microphone::Overheads), mics);
+        kit.set(Control::Mute(Microphone::Room), mics);
+        kit.reset();
+        println!("groove, {what}: {:.3} of real time", play(&mut kit, 8, true));
+    }
+    let start = cpu();
+    let mut seconds = 0;
+    while !kit.is_asleep() && seconds < 90 {
+        play(&mut kit, 1, false);
+        seconds += 1;
+    }
+    println!("asleep {seconds} s after the last stroke ({:.1} s)", (cpu() - start));
+}

@@ -1,0 +1,218 @@
+//! The air of the kit: what every piece sends out, how it reaches the drums' heads and the microphones.
+//!
+//! Model: a piece sends out what it is heard as far away, in the direction of the overheads, as at a metre; and, of a drum to
+//! the others, what goes [all around](crate::surface::air). Everywhere it arrives after the way over the speed of
+//! sound, weakened as one over the way. Pieces neither shade nor mirror each other.
+//!
+//! Limits: one direction stands for all. That is right for a drum's low modes, which go all around; high modes
+//! and cymbals, which are dipoles, are given to the side what they send up.
+
+use super::line::{Line, MovingTap, Tap};
+use super::mix::{Desk, PAIRS};
+use super::post::Post;
+use super::room::{self, SILENT_RUN, Tail};
+use super::{BLOCK, GainRuns};
+use crate::layout::{CLOSE, Layout, Pair, distance};
+use crate::modal::EARS;
+use crate::piece::PieceId;
+
+const PIECES: usize = PieceId::KIT.len();
+
+/// Faces of a surface of the room.
+const IMAGES: usize = 6;
+
+/// What a pair of microphones hears over a run, Pa.
+pub(super) type PairRun = [[f32; BLOCK]; 2];
+
+/// The kit's air.
+pub(super) struct Air {
+    sample_rate: f64,
+    layout: Layout,
+    /// What each piece sends out: to its close microphone, far away, and to other pieces.
+    lines: [[Line; EARS]; PIECES],
+    /// Of each piece, from the others: `[listener][source]`.
+    heard: Box<[[Tap; PIECES]; PIECES]>,
+    /// To the close microphone.
+    close: [Tap; PIECES],
+    /// `[pair][side][piece]`.
+    pairs: Box<[[[MovingTap; PIECES]; 2]; PAIRS]>,
+    /// `[side][piece][image]`, of the room pair.
+    images: Box<[[[MovingTap; IMAGES]; PIECES]; 2]>,
+    tail: Tail,
+    min_delay: usize,
+}
+
+impl Air {
+    /// Still air. Allocates.
+    pub(super) fn new(sample_rate: f64, layout: &Layout) -> Air {
+        let still = Tap::new(0.0, 0.0, sample_rate);
+        let moving = MovingTap::new(still, sample_rate);
+        let mut air = Air {
+            sample_rate,
+            layout: *layout,
+            lines: std::array::from_fn(|_| std::array::from_fn(|_| Line::new(sample_rate))),
+            heard: Box::new([[still; PIECES]; PIECES]),
+            close: [still; PIECES],
+            pairs: Box::new([[[moving; PIECES]; 2]; PAIRS]),
+            images: Box::new([[[moving; IMAGES]; PIECES]; 2]),
+            tail: Tail::new(sample_rate),
+            min_delay: BLOCK,
+        };
+        for (to, row) in air.heard.iter_mut().enumerate() {
+            for (from, tap) in row.iter_mut().enumerate().filter(|&(from, _)| from != to) {
+                *tap = Tap::way(layout.way(from, to), 0.0, sample_rate);
+            }
+        }
+        let drums = PieceId::KIT.iter().enumerate().filter(|(_, id)| id.is_drum());
+        let ways =
+            drums.flat_map(|(to, _)| (0..PIECES).filter(move |&from| from != to).map(move |from| (to, from)));
+        let reach = ways.map(|(to, from)| air.heard[to][from].reach()).min();
+        air.min_delay = reach.unwrap_or(BLOCK).max(1);
+        (0..PIECES).for_each(|piece| air.place_close(piece, CLOSE));
+        air.place_pair(0, layout.overheads);
+        air.place_pair(1, layout.room);
+        air.jump();
+        air
+    }
+
+    /// The shortest way between two pieces that hear each other, less what reading it needs, samples.
+    pub(super) fn min_delay(&self) -> usize {
+        self.min_delay
+    }
+
+    /// Puts a close microphone so far (m) from its piece.
+    pub(super) fn place_close(&mut self, piece: usize, metres: f64) {
+        // What distance does to the level is in the piece's own sound.
+        let late = (metres - CLOSE).max(0.0) / crate::air::SPEED_OF_SOUND;
+        self.close[piece] = Tap::new(late, 1.0, self.sample_rate);
+    }
+
+    /// Puts a pair of microphones somewhere; what is heard fades over.
+    pub(super) fn place_pair(&mut self, pair: usize, places: Pair) {
+        let rate = self.sample_rate;
+        for (side, place) in places.iter().enumerate() {
+            for (piece, placement) in self.layout.pieces.iter().enumerate() {
+                let metres = distance(&placement.centre, place);
+                self.pairs[pair][side][piece].set(Tap::way(metres, CLOSE, rate));
+                if pair == 1 {
+                    let images = room::images(&placement.centre);
+                    for (tap, (image, share)) in self.images[side][piece].iter_mut().zip(images) {
+                        tap.set(Tap::way(distance(&image, place), CLOSE, rate).weakened(share as f32));
+                    }
+                }
+            }
+        }
+        if pair == 1 {
+            self.layout.room = places;
+        } else {
+            self.layout.overheads = places;
+        }
+    }
+
+    /// Where everything stands.
+    pub(super) fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    /// Moved microphones arrive at once.
+    pub(super) fn jump(&mut self) {
+        let pairs = self.pairs.iter_mut().flatten().flatten();
+        pairs.chain(self.images.iter_mut().flatten().flatten()).for_each(MovingTap::jump);
+    }
+
+    /// Lets a piece hear the others over its run, so much of them.
+    pub(super) fn arrive(&self, listener: usize, clock: u64, amount: &[f32; BLOCK], post: &mut Post) {
+        post.hears = false;
+        for (from, lines) in self.lines.iter().enumerate() {
+            // A cymbal sends the same everywhere: nobody's hearing comes back to it.
+            let line = &lines[if PieceId::KIT[from].is_drum() { 2 } else { 1 }];
+            if from == listener || line.is_silent() {
+                continue;
+            }
+            if !std::mem::replace(&mut post.hears, true) {
+                post.incident = SILENT_RUN;
+            }
+            line.hear(clock, &self.heard[listener][from], &mut post.incident[..post.run]);
+        }
+        if post.hears {
+            post.incident.iter_mut().zip(amount).for_each(|(pressure, amount)| *pressure *= amount);
+        }
+    }
+
+    /// Takes up what a piece sends out.
+    pub(super) fn send(&mut self, piece: usize, clock: u64, post: &Post) {
+        for (line, sound) in self.lines[piece].iter_mut().zip(&post.sound) {
+            line.send(clock, &sound[..post.run]);
+        }
+    }
+
+    /// Nothing came from a piece.
+    pub(super) fn send_silence(&mut self, piece: usize, clock: u64, samples: usize) {
+        self.lines[piece].iter_mut().for_each(|line| line.send(clock, &SILENT_RUN[..samples]));
+    }
+
+    /// A piece at its close microphone.
+    pub(super) fn close(&self, piece: usize, clock: u64, out: &mut [f32]) {
+        let line = &self.lines[piece][0];
+        if !line.is_silent() {
+            line.hear(clock, &self.close[piece], out);
+        }
+    }
+
+    /// All pieces at a pair of microphones, each at its level; nothing if nobody listens.
+    pub(super) fn pair(
+        &mut self,
+        pair: usize,
+        clock: u64,
+        samples: usize,
+        levels: &GainRuns,
+        desk: &Desk,
+    ) -> PairRun {
+        let mut heard = [SILENT_RUN; 2];
+        if desk.is_shut(pair) {
+            // What moves has arrived when somebody listens again.
+            self.pairs[pair].iter_mut().flatten().for_each(MovingTap::jump);
+            return heard;
+        }
+        for (piece, lines) in self.lines.iter().enumerate() {
+            if lines[1].is_silent() {
+                continue;
+            }
+            for (side, heard) in heard.iter_mut().enumerate() {
+                let mut sound = SILENT_RUN;
+                let sound = &mut sound[..samples];
+                self.pairs[pair][side][piece].hear(&lines[1], clock, sound);
+                if pair == 1 {
+                    self.images[side][piece].iter_mut().for_each(|tap| tap.hear(&lines[1], clock, sound));
+                }
+                for ((sum, sound), level) in heard.iter_mut().zip(sound).zip(&levels[piece]) {
+                    *sum += level * *sound;
+                }
+            }
+        }
+        heard
+    }
+
+    /// Adds the room's tail of what is sent out now, far away as at a metre.
+    pub(super) fn tail(&mut self, sent: &[f32], out: &mut PairRun) {
+        let [left, right] = out.each_mut().map(|side| &mut side[..sent.len()]);
+        self.tail.render(sent, [left, right]);
+    }
+
+    /// Makes silence exact; meant for now and then, on the kit's clock.
+    pub(super) fn settle(&mut self) {
+        self.tail.settle();
+    }
+
+    /// Whether nothing is under way anywhere.
+    pub(super) fn is_silent(&self) -> bool {
+        self.tail.is_silent() && self.lines.iter().flatten().all(Line::is_silent)
+    }
+
+    /// Still again; moved microphones have arrived.
+    pub(super) fn reset(&mut self) {
+        self.lines.iter_mut().flatten().for_each(Line::reset);
+        self.tail.reset();
+        self.jump();
+    }
+}

@@ -1,0 +1,247 @@
+//! The mixing desk: a strip for every microphone.
+//!
+//! ```text
+//! close of a piece --> level of the piece --> strip --> pan ----+--> output of the piece
+//! overheads, room: all pieces, each at its level --> strip --> balance --> output of the pair
+//!                                                               +--> master --> clip --> left, right
+//! ```
+
+use super::control::Microphone;
+use super::gain::{Gain, GainRun, Pan, gain};
+use super::{BLOCK, FULL_SCALE, Stereo};
+use crate::layout::Layout;
+use crate::piece::PieceId;
+
+/// Strips: close ones in the order of [`PieceId::KIT`], then the pairs.
+pub(super) const STRIPS: usize = PieceId::KIT.len() + PAIRS;
+
+/// Pairs of microphones: overheads, room.
+pub(super) const PAIRS: usize = 2;
+
+/// Full scale above which the safety clip bends. *By ear*: 1.4 dB are left to it.
+const KNEE: f32 = 0.85;
+
+/// One strip.
+struct Strip {
+    level: f32,
+    muted: bool,
+    solo: bool,
+    gain: Gain,
+    pan: Pan,
+    /// Largest sample since the last snapshot.
+    peak: f32,
+}
+
+/// The desk.
+pub(super) struct Desk {
+    strips: [Strip; STRIPS],
+    close: f32,
+    /// Of each piece in every microphone.
+    levels: [Gain; PieceId::KIT.len()],
+    master: Gain,
+    clips: bool,
+    clipped: u64,
+    peak: [f32; 2],
+}
+
+/// Place of a microphone's strip, if its piece belongs to the kit.
+fn strip(microphone: Microphone) -> Option<usize> {
+    match microphone {
+        Microphone::Close(id) => id.slot(),
+        Microphone::Overheads => Some(PieceId::KIT.len()),
+        Microphone::Room => Some(PieceId::KIT.len() + 1),
+    }
+}
+
+impl Desk {
+    pub(super) fn new(sample_rate: f64, layout: &Layout) -> Desk {
+        let strips = std::array::from_fn(|i| {
+            let side = layout.pieces.get(i).map_or(0.0, |place| place.side());
+            let mut pan = Pan::new(sample_rate, side);
+            if i >= PieceId::KIT.len() {
+                pan.set_balance(0.0);
+                pan.jump();
+            }
+            Strip { level: 1.0, muted: false, solo: false, gain: Gain::new(sample_rate), pan, peak: 0.0 }
+        });
+        Desk {
+            strips,
+            close: 1.0,
+            levels: [Gain::new(sample_rate); PieceId::KIT.len()],
+            master: Gain::new(sample_rate),
+            clips: false,
+            clipped: 0,
+            peak: [0.0; 2],
+        }
+    }
+
+    pub(super) fn set_master(&mut self, db: f64) {
+        self.master.set(gain(db));
+    }
+
+    pub(super) fn set_level(&mut self, id: PieceId, db: f64) {
+        if let Some(slot) = id.slot() {
+            self.levels[slot].set(gain(db));
+        }
+    }
+
+    pub(super) fn set_close(&mut self, db: f64) {
+        self.close = gain(db);
+        self.follow();
+    }
+
+    pub(super) fn set_clip(&mut self, on: bool) {
+        self.clips = on;
+    }
+
+    pub(super) fn set_balance(&mut self, microphone: Microphone, side: f64) {
+        let Some(at) = strip(microphone) else { return };
+        match microphone {
+            Microphone::Close(_) => self.strips[at].pan.set(side),
+            Microphone::Overheads | Microphone::Room => self.strips[at].pan.set_balance(side),
+        }
+    }
+
+    pub(super) fn set_strip_level(&mut self, microphone: Microphone, db: f64) {
+        self.change(microphone, |strip| strip.level = gain(db));
+    }
+
+    pub(super) fn mute(&mut self, microphone: Microphone, on: bool) {
+        self.change(microphone, |strip| strip.muted = on);
+    }
+
+    pub(super) fn solo(&mut self, microphone: Microphone, on: bool) {
+        self.change(microphone, |strip| strip.solo = on);
+    }
+
+    fn change(&mut self, microphone: Microphone, change: impl FnOnce(&mut Strip)) {
+        if let Some(at) = strip(microphone) {
+            change(&mut self.strips[at]);
+            self.follow();
+        }
+    }
+
+    /// Works out where every strip's gain goes.
+    fn follow(&mut self) {
+        let alone = self.strips.iter().any(|strip| strip.solo);
+        for (i, strip) in self.strips.iter_mut().enumerate() {
+            let open = !strip.muted && (strip.solo || !alone);
+            let group = if i < PieceId::KIT.len() { self.close } else { 1.0 };
+            strip.gain.set(if open { strip.level * group } else { 0.0 });
+        }
+    }
+
+    pub(super) fn jump(&mut self) {
+        self.strips.iter_mut().for_each(|strip| {
+            strip.gain.jump();
+            strip.pan.jump();
+        });
+        self.levels.iter_mut().for_each(Gain::jump);
+        self.master.jump();
+    }
+
+    /// Whether nothing of a pair is heard, whatever it hears.
+    pub(super) fn is_shut(&self, pair: usize) -> bool {
+        self.strips[PieceId::KIT.len() + pair].gain.is_shut()
+    }
+
+    /// Each piece's level over a run.
+    pub(super) fn levels(&mut self, samples: usize) -> [GainRun; PieceId::KIT.len()] {
+        self.levels.each_mut().map(|level| level.run(samples))
+    }
+
+    /// Adds a strip's sound (Pa, already at the pieces' levels) to the mix, and writes it to its own output.
+    pub(super) fn add(
+        &mut self,
+        at: usize,
+        sound: [&[f32]; 2],
+        mix: &mut Stereo<'_>,
+        own: Option<Stereo<'_>>,
+    ) {
+        let strip = &mut self.strips[at];
+        let samples = mix[0].len();
+        let gains = strip.gain.run(samples);
+        let pans = strip.pan.run(samples);
+        let mut own = own.map(|own| own.map(|side| (side.len() == samples).then_some(side)));
+        for side in 0..2 {
+            let mut share = [0.0; BLOCK];
+            let share = &mut share[..samples];
+            for (((share, sound), gain), pan) in
+                share.iter_mut().zip(sound[side]).zip(&gains).zip(&pans[side])
+            {
+                *share = pan * (sound * (gain / FULL_SCALE));
+            }
+            strip.peak = share.iter().fold(strip.peak, |peak, x| peak.max(x.abs()));
+            mix[side].iter_mut().zip(&*share).for_each(|(sum, share)| *sum += share);
+            if let Some(own) = own.as_mut().and_then(|own| own[side].as_mut()) {
+                own.copy_from_slice(share);
+            }
+        }
+    }
+
+    /// Whether every gain has arrived: then silence is mixed by leaving it as it is.
+    pub(super) fn rests(&self) -> bool {
+        self.master.rests()
+            && self.levels.iter().all(Gain::rests)
+            && self.strips.iter().all(|strip| strip.gain.rests() && strip.pan.rests())
+    }
+
+    /// Brings the mix to its level.
+    pub(super) fn finish(&mut self, mix: &mut Stereo<'_>) {
+        let gains = self.master.run(mix[0].len());
+        for (side, peak) in mix.iter_mut().zip(&mut self.peak) {
+            for (sample, gain) in side.iter_mut().zip(&gains) {
+                *sample *= gain;
+                if self.clips && sample.abs() > KNEE {
+                    *sample = clip(*sample);
+                    self.clipped = self.clipped.saturating_add(1);
+                }
+                *peak = peak.max(sample.abs());
+            }
+        }
+    }
+
+    /// Samples that the clip has bent since the start.
+    pub(super) fn clipped(&self) -> u64 {
+        self.clipped
+    }
+
+    /// Largest samples of the outputs since the last call, and of a strip.
+    pub(super) fn take_peak(&mut self) -> [f32; 2] {
+        std::mem::take(&mut self.peak)
+    }
+
+    pub(super) fn take_strip_peak(&mut self, at: usize) -> f32 {
+        std::mem::take(&mut self.strips[at].peak)
+    }
+
+    /// Silence.
+    pub(super) fn reset(&mut self) {
+        self.jump();
+        self.peak = [0.0; 2];
+        self.strips.iter_mut().for_each(|strip| strip.peak = 0.0);
+    }
+}
+
+/// Bends what is beyond the knee toward full scale: smooth there, never past it.
+fn clip(x: f32) -> f32 {
+    let beyond = (x.abs() - KNEE) / (1.0 - KNEE);
+    x.signum() * (KNEE + (1.0 - KNEE) * beyond / (1.0 + beyond))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_clip_is_smooth_monotone_and_never_passes_full_scale() {
+        let mut before = 0.0;
+        for i in 0..4_000 {
+            let x = 0.8 + 0.001 * i as f32;
+            let y = if x > KNEE { clip(x) } else { x };
+            assert!(y >= before && y < 1.0 && clip(-x.max(KNEE)) == -clip(x.max(KNEE)));
+            assert!(i == 0 || y - before < 1.01e-3);
+            before = y;
+        }
+    }
+}

@@ -1,0 +1,231 @@
+//! Workers change no sample, and nothing that happens to them stops the audio thread.
+
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::thread;
+use std::time::Duration;
+
+use assert_no_alloc::{AllocDisabler, assert_no_alloc, reset_violation_count, violation_count};
+use overhear_crew::{Patience, Workers};
+use overhear_engine::kit::{Control, Kit, Microphone, Post};
+use overhear_engine::piece::{Piece, PieceId};
+use overhear_engine::snapshot::KitSnapshot;
+use overhear_engine::strike::{Strike, Striker};
+use overhear_tests::{Chance, RATES, kit, stroke};
+
+#[global_allocator]
+static ALLOCATOR: AllocDisabler = AllocDisabler;
+
+/// A stroke on a piece, or a control moved.
+type Event = (PieceId, Result<Strike, (Control, f64)>);
+
+/// A groove on every piece with controls moving, many things a second, by sample.
+fn score(seconds: f64, rate: f64) -> Vec<(usize, Event)> {
+    let mut chance = Chance::new(rate as u64);
+    let frames = (seconds * rate) as usize;
+    let mut score: Vec<_> = (0..(25.0 * seconds) as usize)
+        .map(|_| {
+            let id = chance.of(&PieceId::KIT);
+            let (low, _, high) = Piece::tuning_range(id);
+            let what = match chance.below(8) {
+                0 => Err((Control::Tuning(id), chance.between(low, high))),
+                1 => Err((Control::Muffling(id), chance.unit())),
+                2 => Err((Control::Pan(id), chance.between(-1.0, 1.0))),
+                3 => Err((Control::Sympathy, chance.unit())),
+                4 => Err((Control::MicrophoneLevel(Microphone::Room), chance.between(-20.0, 0.0))),
+                _ => Ok(chance.stroke(6.0)),
+            };
+            (chance.below(frames), (id, what))
+        })
+        .collect();
+    score.sort_by_key(|&(at, _)| at);
+    score
+}
+
+/// Plays it in buffers of the lengths that `buffer` gives.
+fn play(rate: f64, seconds: f64, workers: usize, mut buffer: impl FnMut() -> usize) -> Vec<[u32; 2]> {
+    let mut kit = kit(rate);
+    if workers > 0 {
+        let crew = Workers::new(workers, Patience::Offline, Post::render).expect("threads");
+        assert!(kit.hire(Some(Box::new(crew))).is_none());
+    }
+    let frames = (seconds * rate) as usize;
+    let (mut left, mut right) = (vec![f32::NAN; frames], vec![f32::NAN; frames]);
+    let score = score(seconds, rate);
+    let (mut events, mut done, mut buffer_end) = (score.iter().peekable(), 0, 0);
+    while done < frames {
+        if done == buffer_end {
+            buffer_end = (done + buffer()).min(frames);
+        }
+        while let Some((_, (id, what))) = events.next_if(|&&(at, _)| at == done) {
+            match what {
+                Ok(strike) => kit.strike(*id, strike),
+                Err((control, value)) => kit.set(*control, *value),
+            }
+        }
+        let end = events.peek().map_or(buffer_end, |&&(at, _)| at.min(buffer_end));
+        kit.render(&mut left[done..end], &mut right[done..end]);
+        done = end;
+    }
+    let mut snapshot = KitSnapshot::default();
+    kit.snapshot(&mut snapshot);
+    assert_eq!(snapshot.missed_runs, 0);
+    left.iter().zip(&right).map(|(left, right)| [left.to_bits(), right.to_bits()]).collect()
+}
+
+fn same_bits(rate: f64, seconds: f64, workers: &[usize], buffers: &[usize]) {
+    let whole = play(rate, seconds, 0, || 512);
+    let loud = whole.iter().filter(|&&[left, _]| f32::from_bits(left).abs() > 1e-3).count();
+    assert!(loud > whole.len() / 2, "{loud} of {}", whole.len());
+    for &workers in workers {
+        for &length in buffers {
+            let mut chance = Chance::new(7);
+            // A length of 0 is one of all.
+            let buffer = || if length == 0 { 1 + chance.below(2_000) } else { length };
+            assert!(
+                whole == play(rate, seconds, workers, buffer),
+                "{workers} workers, {length} at {rate} Hz"
+            );
+        }
+    }
+}
+
+#[test]
+fn workers_and_buffers_change_no_sample() {
+    same_bits(RATES[0], 1.5, &[1, 3], &[0]);
+    same_bits(RATES[1], 0.7, &[1, 3], &[64, 8192]);
+}
+
+#[test]
+#[ignore = "a quarter of an hour: 0, 1, 3 workers, six kinds of buffers, three rates, ten seconds each"]
+fn workers_and_buffers_change_no_sample_of_ten_seconds() {
+    for rate in &RATES[..3] {
+        same_bits(*rate, 10.0, &[0, 1, 3], &[1, 17, 64, 512, 8192, 0]);
+    }
+}
+
+/// Strikes everything with such a crew and plays half a second.
+fn play_with(render: fn(&mut Post)) -> (KitSnapshot, f32) {
+    const RATE: f64 = RATES[0];
+    let mut kit = kit(RATE);
+    kit.hire(Some(Box::new(Workers::new(2, Patience::RealTime, render).expect("threads"))));
+    for id in PieceId::KIT {
+        kit.strike(id, &stroke(Striker::Stick, 4.0, 0.35, 0.0));
+    }
+    let (mut left, mut right) = (vec![0.0; 22_050], vec![0.0; 22_050]);
+    kit.render(&mut left, &mut right);
+    // Whoever was away is back.
+    thread::sleep(Duration::from_millis(400));
+    kit.render(&mut left[..64], &mut right[..64]);
+    let mut snapshot = KitSnapshot::default();
+    kit.snapshot(&mut snapshot);
+    assert!(left.iter().chain(&right).all(|x| x.is_finite()));
+    let last = left[64..].iter().fold(0.0_f32, |peak, x| peak.max(x.abs()));
+    (snapshot, last)
+}
+
+fn on_a_worker() -> bool {
+    thread::current().name().is_some_and(|name| name.starts_with("overhear worker"))
+}
+
+#[test]
+fn a_worker_that_stalls_holds_nobody_up_and_is_counted() {
+    static STALLED: AtomicU32 = AtomicU32::new(0);
+    let (snapshot, loudest) = play_with(|post| {
+        if on_a_worker() && STALLED.fetch_add(1, Ordering::Relaxed) == 20 {
+            thread::sleep(Duration::from_millis(300));
+        }
+        post.render();
+    });
+    assert!(STALLED.load(Ordering::Relaxed) > 20, "the workers had nothing to do");
+    assert!(snapshot.missed_runs > 0 && loudest > 0.01, "{} runs", snapshot.missed_runs);
+    // The one that stalled has come back.
+    assert!(snapshot.pieces.iter().all(|piece| piece.ready && piece.quarantines == 0));
+}
+
+#[test]
+fn a_worker_that_panics_gives_its_piece_back() {
+    static PANICKED: AtomicU32 = AtomicU32::new(0);
+    let (snapshot, loudest) = play_with(|post| {
+        if on_a_worker() && PANICKED.fetch_add(1, Ordering::Relaxed) == 20 {
+            panic!("as the test wants it");
+        }
+        post.render();
+    });
+    assert!(PANICKED.load(Ordering::Relaxed) > 20, "the workers had nothing to do");
+    assert!((1..100).contains(&snapshot.missed_runs) && loudest > 0.01, "{} runs", snapshot.missed_runs);
+    assert!(snapshot.pieces.iter().all(|piece| piece.ready));
+}
+
+/// A kit with workers under many strokes.
+struct Stage {
+    kit: Kit,
+    left: Vec<f32>,
+    right: Vec<f32>,
+    chance: Chance,
+}
+
+impl Stage {
+    fn new(seed: u64) -> Stage {
+        let mut kit = kit(RATES[0]);
+        kit.hire(Some(Box::new(Workers::new(2, Patience::RealTime, Post::render).expect("threads"))));
+        Stage { kit, left: vec![0.0; 512], right: vec![0.0; 512], chance: Chance::new(seed) }
+    }
+
+    fn act(&mut self) {
+        let id = self.chance.of(&PieceId::KIT);
+        let strike = self.chance.stroke(8.0);
+        self.kit.strike(id, &strike);
+        let frames = 1 + self.chance.below(200);
+        self.kit.render(&mut self.left[..frames], &mut self.right[..frames]);
+    }
+}
+
+#[test]
+fn nothing_allocates_on_the_audio_thread_while_workers_work() {
+    let mut stage = Stage::new(1);
+    reset_violation_count();
+    for _ in 0..300 {
+        assert_no_alloc(|| stage.act());
+    }
+    assert_eq!(violation_count(), 0);
+}
+
+/// In a child of this test, whose audio thread forbids itself all system calls.
+#[cfg(all(target_os = "linux", any(target_arch = "x86_64", target_arch = "aarch64")))]
+mod system_calls {
+    use std::process::Command;
+
+    use seccompiler::{BpfProgram, SeccompAction, SeccompFilter};
+
+    use super::Stage;
+
+    /// Exit code of a child that got to its end.
+    const DONE: i32 = 42;
+
+    #[test]
+    #[ignore = "run in a child process by the test below"]
+    fn child_that_renders() {
+        let mut stage = Stage::new(2);
+        let allowed = [libc::SYS_exit_group, libc::SYS_sigaltstack, libc::SYS_munmap];
+        let filter = SeccompFilter::new(
+            allowed.map(|call| (call, vec![])).into(),
+            SeccompAction::KillProcess,
+            SeccompAction::Allow,
+            std::env::consts::ARCH.try_into().expect("a known architecture"),
+        );
+        let program: BpfProgram = filter.expect("a filter").try_into().expect("a program");
+        seccompiler::apply_filter(&program).expect("a kernel that filters");
+        for _ in 0..300 {
+            stage.act();
+        }
+        std::process::exit(DONE);
+    }
+
+    #[test]
+    fn the_audio_thread_makes_no_system_call_while_workers_work() {
+        let mut command = Command::new(std::env::current_exe().expect("this test"));
+        command.args(["--exact", "system_calls::child_that_renders", "--ignored", "--nocapture"]);
+        let status = command.status().expect("a child");
+        assert_eq!(status.code(), Some(DONE), "{status}");
+    }
+}
