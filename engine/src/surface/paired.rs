@@ -157,8 +157,7 @@ impl Surface {
         let Surface { pair: Some(pair), body, beyond, .. } = self else {
             return true;
         };
-        let top_energy = if pair.is_touching() && !strikers { body.energy() } else { 0.0 };
-        match pair.settle(body, strikers, top_energy) {
+        match pair.settle(body, strikers, || body.energy()) {
             Settled::Moving => true,
             Settled::Parked => {
                 body.reset();
