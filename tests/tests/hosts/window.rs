@@ -11,6 +11,7 @@ use x11rb::{COPY_DEPTH_FROM_PARENT, COPY_FROM_PARENT};
 
 use crate::score::{assert_same, notes, through_engine, through_plugin};
 use crate::{alone, instance};
+use xtask::host::Instance;
 use xtask::player::Blocks;
 
 /// How long an editor may take to appear: a virtual display draws in software.
@@ -54,6 +55,17 @@ impl Parent {
         image.data.chunks_exact(4).map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect::<HashSet<_>>().len()
     }
 
+    /// Waits until something is drawn.
+    fn wait_for_text(&self, instance: &mut Instance, when: &str) {
+        let begun = Instant::now();
+        // Text alone gives dozens of shades.
+        while self.colours() < 20 {
+            assert!(begun.elapsed() < PATIENCE, "{when}: the editor stays blank");
+            instance.answer();
+            thread::sleep(Duration::from_millis(50));
+        }
+    }
+
     fn children(&self) -> usize {
         self.connection.query_tree(self.window).unwrap().reply().unwrap().children.len()
     }
@@ -74,13 +86,7 @@ fn the_editor_opens_draws_and_closes_while_it_plays() {
             .expect("the editor opens");
         let sound = through_plugin(&mut instance, &score, rate, Blocks::Fixed(512));
         assert_same(&sound, &through_engine(&score, rate), "with the editor open");
-        let begun = Instant::now();
-        // Text alone gives dozens of shades.
-        while parent.colours() < 20 {
-            assert!(begun.elapsed() < PATIENCE, "round {round}: the editor stays blank");
-            instance.answer();
-            thread::sleep(Duration::from_millis(50));
-        }
+        parent.wait_for_text(&mut instance, &format!("round {round}"));
         assert_eq!(parent.children(), 1);
         instance.close_editor().unwrap();
     }
@@ -94,4 +100,22 @@ fn the_editor_opens_draws_and_closes_while_it_plays() {
     thread::sleep(Duration::from_millis(300));
     drop(instance);
     drop(parent);
+}
+
+/// Hosts make their own window between creating the editor and showing it.
+#[test]
+fn the_editor_draws_however_late_it_is_shown() {
+    let _turn = alone();
+    for delay in [0, 10, 50, 200, 1000].map(Duration::from_millis) {
+        let mut instance = instance();
+        let parent = instance
+            .open_editor(|width, height| {
+                let parent = Parent::new(width, height);
+                thread::sleep(delay);
+                Ok((parent.window, parent))
+            })
+            .expect("the editor opens");
+        parent.wait_for_text(&mut instance, &format!("shown {delay:?} late"));
+        instance.close_editor().unwrap();
+    }
 }
