@@ -31,7 +31,7 @@ use crate::state;
 ///
 /// A project that is opened and bounced at once must not lose its first bar, hence the wait; a
 /// machine too slow for it gets a kit that fills up while it plays rather than a host that hangs.
-const BUILD_TIMEOUT: Duration = Duration::from_secs(if cfg!(test) { PATIENCE_OF_TESTS } else { 10 });
+const BUILD_TIMEOUT: Duration = Duration::from_secs(if cfg!(test) { PATIENCE_OF_TESTS } else { 20 });
 
 /// Tests run beside others and want a whole kit, s.
 const PATIENCE_OF_TESTS: u64 = 120;
