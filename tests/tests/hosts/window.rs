@@ -1,6 +1,7 @@
 //! The editor in a window of a host.
 
 use std::collections::HashSet;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -11,7 +12,7 @@ use x11rb::{COPY_DEPTH_FROM_PARENT, COPY_FROM_PARENT};
 
 use crate::score::{assert_same, notes, through_engine, through_plugin};
 use crate::{alone, instance};
-use xtask::host::Instance;
+use xtask::host::{Event, Instance, Processor, What};
 use xtask::player::Blocks;
 
 /// How long an editor may take to appear: a virtual display draws in software.
@@ -118,4 +119,57 @@ fn the_editor_draws_however_late_it_is_shown() {
         parent.wait_for_text(&mut instance, &format!("shown {delay:?} late"));
         instance.close_editor().unwrap();
     }
+}
+
+/// Tells the other thread to stop, whatever ends this one's work.
+struct Stop<'a>(&'a AtomicBool);
+
+impl Drop for Stop<'_> {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Release);
+    }
+}
+
+#[test]
+fn the_editor_opens_and_closes_twenty_times_while_it_plays() {
+    let _turn = alone();
+    let mut instance = instance();
+    let stop = AtomicBool::new(false);
+    let threads = || std::fs::read_dir("/proc/self/task").unwrap().count();
+    let play = |processor: &mut Processor| {
+        let mut sound = [[0.0; 256], [0.0; 256]];
+        let (mut blocks, mut peak) = (0_u32, 0.0_f32);
+        while !stop.load(Ordering::Acquire) {
+            let strike = Event {
+                offset: 100,
+                what: What::NoteOn { channel: 9, key: 36 + (blocks % 24) as u8, velocity: 0.7 },
+            };
+            let events = if blocks.is_multiple_of(40) { vec![strike] } else { Vec::new() };
+            let [left, right] = &mut sound;
+            processor.process(&events, left, right)?;
+            peak = left.iter().chain(&*right).fold(peak, |peak, sample| peak.max(sample.abs()));
+            blocks += 1;
+            // About real time, so that the windows get their turn.
+            thread::sleep(Duration::from_millis(3));
+        }
+        Ok((blocks, peak))
+    };
+    let mut between = Vec::new();
+    let open_and_close = |instance: &mut Instance| {
+        let _stop = Stop(&stop);
+        for round in 0..20 {
+            let parent = instance.open_editor(|width, height| {
+                let parent = Parent::new(width, height);
+                Ok((parent.window, parent))
+            })?;
+            parent.wait_for_text(instance, &format!("round {round}"));
+            instance.close_editor()?;
+            between.push(threads());
+        }
+        Ok(())
+    };
+    let (blocks, peak) = instance.run_beside(48_000.0, 1..=256, play, open_and_close).expect("it plays");
+    assert!(blocks > 100 && peak > 0.01 && peak.is_finite(), "{blocks} blocks, peak {peak}");
+    // The first window may leave threads of the graphics driver behind.
+    assert!(between[19] <= between[1], "threads between windows: {between:?}");
 }
