@@ -145,7 +145,7 @@ pub struct Pair {
     pub(super) touching: [bool; POINTS],
     pub(super) free: [f64; POINTS],
     /// Of the present sample: force of the clutch's damper, N, and where the upper cymbal was, m.
-    pub(super) kernels: Kernels,
+    pub(crate) kernels: Kernels,
     pub(super) damper: f64,
     pub(super) from: f64,
     pub(super) pedal_work: f64,

@@ -136,7 +136,10 @@ impl Surface {
             }
         }
         let mut meetings = meetings;
-        together::solve(&mut meetings[..n + POINTS], &yielding);
+        pair.kernels.vectorized(
+            #[inline(always)]
+            || together::solve(&mut meetings[..n + POINTS], &yielding),
+        );
         for (meeting, &i) in meetings.iter().zip(live) {
             self.points[i].force = meeting.force;
         }
