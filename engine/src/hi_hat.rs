@@ -91,7 +91,8 @@ impl Default for HiHatSpec {
     fn default() -> HiHatSpec {
         let half = |plate, seed| CymbalSpec {
             plate,
-            loss: LossLaw { constant: 1.55, per_khz: 0.06 },
+            // *Measured*: with it open ones decay within a quarter as recordings of them do, 3.3 to 2.5 s.
+            loss: LossLaw { constant: 1.2, per_khz: 0.06 },
             muffler: Muffler::Gel { sigma: 40.0, radius: 0.85, angle: 2.3 },
             splitting: Splitting { seed, ..Splitting::CYMBAL },
             ..CymbalSpec::crash()
@@ -105,6 +106,7 @@ impl Default for HiHatSpec {
             toward: 2.0,
             edge: 1e-3,
             restitution: 0.2,
+            // *Measured*: with it closed ones decay within a third as recordings of them do, 0.43 to 0.27 s.
             rubbing: LossLaw { constant: 21.0, per_khz: 0.6 },
             half_rubbing: 25.0,
             lasting: 0.02,
