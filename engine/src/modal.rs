@@ -29,10 +29,7 @@ use aligned_vec::{AVec, ConstAlign};
 use simd::driven::Drive;
 use simd::{Kernels, LANES};
 
-pub use simd::EARS;
-
-/// Forces that one call of [`ModalBody::ring_driven`] takes.
-pub const MAX_DRIVES: usize = 16;
+pub use simd::{EARS, MAX_DRIVES};
 
 /// A row of one `f32` per mode, aligned and padded with zeros to whole SIMD lanes.
 pub type Row = AVec<f32, ConstAlign<64>>;
