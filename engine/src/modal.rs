@@ -209,6 +209,11 @@ impl ModalBody {
         self.kernels = kernels;
     }
 
+    /// The kernels in use.
+    pub fn kernels(&self) -> Kernels {
+        self.kernels
+    }
+
     /// Number of modes.
     pub fn len(&self) -> usize {
         self.modes.len()
