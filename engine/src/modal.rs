@@ -411,6 +411,11 @@ impl ModalBody {
         (0..self.modes.len()).map(|k| self.mode_energy(k)).sum()
     }
 
+    /// Energy of its motion alone, J: nothing of a body that something holds bent.
+    pub fn motion(&self) -> f64 {
+        (0..self.modes.len()).map(|k| 0.5 * self.modes[k].mass * self.velocity(k).powi(2)).sum()
+    }
+
     fn mode_energy(&self, k: usize) -> f64 {
         let (mode, q) = (&self.modes[k], f64::from(self.state.im[k]));
         0.5 * mode.mass * (self.velocity(k).powi(2) + (mode.omega * q).powi(2))
