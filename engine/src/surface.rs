@@ -32,7 +32,6 @@ use crate::snapshot::StrikeSnapshot;
 
 use air::{Incident, Listener};
 use patch::Film;
-use sample::add;
 use together::Compliances;
 use touch::{TouchPoint, Toucher};
 use wires::SnareWires;
@@ -391,17 +390,7 @@ impl Surface {
             Some(force) if force.is_active() => {
                 let first = force.front().length();
                 body.ring_driven(first, drive.into_iter(), pickup, out.each_mut().map(|out| &mut **out));
-                for i in 0..samples {
-                    force.begin(body, pickup);
-                    body.step_front(force.front());
-                    if let Some((port, pressures)) = drive {
-                        body.push_front(force.front(), port, pressures[i]);
-                    }
-                    force.free(body);
-                    let mut heard = force.finish(body, 0.0);
-                    add(&mut heard, body.listen_front(force.front(), pickup));
-                    out.iter_mut().zip(heard).for_each(|(out, heard)| out[i] += heard);
-                }
+                force.ring(body, pickup, drive, &mut out);
             }
             _ => body.ring_driven(0, drive.into_iter(), pickup, out.each_mut().map(|out| &mut **out)),
         }

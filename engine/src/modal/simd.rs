@@ -7,6 +7,7 @@
 
 pub mod driven;
 pub mod folded;
+pub mod front;
 pub mod level;
 pub mod polar;
 
