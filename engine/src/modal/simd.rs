@@ -5,6 +5,7 @@
 //! Within one level results are bit-equal whatever way a stretch of samples is cut; across levels
 //! they differ by rounding.
 
+pub mod blocks;
 pub mod driven;
 pub mod folded;
 pub mod front;
@@ -132,14 +133,6 @@ impl Kernels {
         self.run(ring);
     }
 
-    /// `y <- A x` with `A` made of square blocks along its diagonal.
-    ///
-    /// Each block's rows and columns begin at a multiple of [`LANES`] in `x` and `y`, and its matrix is stored
-    /// column by column, each padded with zeros to whole lanes.
-    pub fn blocks(&self, product: BlockProduct<'_>) {
-        self.run(product);
-    }
-
     /// Zeroes the modes whose state has decayed to nothing.
     pub fn flush(&self, re: &mut [f32], im: &mut [f32]) {
         self.run(Flush { re, im });
@@ -220,48 +213,6 @@ impl Kernel for Rotate<'_> {
         let (t_re, t_im) = (S::as_simd_f32s(self.turn_re).0, S::as_simd_f32s(self.turn_im).0);
         for ((re, im), (&t_re, &t_im)) in re.iter_mut().zip(im).zip(t_re.iter().zip(t_im)) {
             (*re, *im) = turn(simd, fma, (*re, *im), (t_re, t_im));
-        }
-    }
-}
-
-/// One block of a [`BlockProduct`].
-#[derive(Debug, Clone, Copy)]
-pub struct Block {
-    /// Where its rows and columns begin.
-    pub start: usize,
-    /// Number of rows and columns.
-    pub size: usize,
-}
-
-/// What [`Kernels::blocks`] works on.
-pub struct BlockProduct<'a> {
-    /// The blocks, in the order of `matrix`.
-    pub blocks: &'a [Block],
-    /// Their columns, one after the other, padded.
-    pub matrix: &'a [f32],
-    /// `[row]`, padded between blocks.
-    pub x: &'a [f32],
-    /// `[row]`.
-    pub y: &'a mut [f32],
-}
-
-impl Kernel for BlockProduct<'_> {
-    type Output = ();
-    #[inline(always)]
-    fn with<S: Simd>(self, simd: S, fma: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s + Copy) {
-        let mut matrix = S::as_simd_f32s(self.matrix).0;
-        for block in self.blocks {
-            let padded = block.size.div_ceil(LANES) * LANES;
-            let y = S::as_mut_simd_f32s(&mut self.y[block.start..][..padded]).0;
-            y.fill(simd.splat_f32s(0.0));
-            for &x in &self.x[block.start..][..block.size] {
-                let (column, rest) = matrix.split_at(y.len());
-                let x = simd.splat_f32s(x);
-                for (y, &a) in y.iter_mut().zip(column) {
-                    *y = fma(a, x, *y);
-                }
-                matrix = rest;
-            }
         }
     }
 }

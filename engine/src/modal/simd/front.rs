@@ -54,14 +54,14 @@ impl Kernel for Along<'_> {
     fn with<S: Simd>(self, simd: S, fma: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s + Copy) -> f32 {
         let (re, im) = (S::as_mut_simd_f32s(self.re).0, S::as_mut_simd_f32s(self.im).0);
         let [t_re, t_im, shape] = [self.turn_re, self.turn_im, self.shape].map(|row| S::as_simd_f32s(row).0);
-        let mut sums = [simd.splat_f32s(0.0); 2];
-        let rows = re.iter_mut().zip(im).zip(t_re.iter().zip(t_im)).zip(shape).enumerate();
-        for (i, (((re, im), (&t_re, &t_im)), &shape)) in rows {
+        let mut sum = simd.splat_f32s(0.0);
+        let rows = re.iter_mut().zip(im).zip(t_re.iter().zip(t_im)).zip(shape);
+        for (((re, im), (&t_re, &t_im)), &shape) in rows {
             let (re_after, im_after) = turn(simd, fma, (*re, *im), (t_re, t_im));
-            sums[i % 2] = fma(shape, simd.sub_f32s(im_after, *im), sums[i % 2]);
+            sum = fma(shape, simd.sub_f32s(im_after, *im), sum);
             (*re, *im) = (re_after, im_after);
         }
-        simd.reduce_sum_f32s(simd.add_f32s(sums[0], sums[1]))
+        simd.reduce_sum_f32s(sum)
     }
 }
 
