@@ -250,10 +250,15 @@ impl Surface {
     /// Energy of the motion, J. Wires against a head that was tuned meanwhile may hold it bent for good, which nothing is
     /// heard of.
     pub fn motion(&self) -> f64 {
-        let wires: f64 = self.touchers[MAX_STRIKERS..].iter().filter(|group| group.present).map(Toucher::motion).sum();
+        let wires: f64 =
+            self.touchers[MAX_STRIKERS..].iter().filter(|group| group.present).map(Toucher::motion).sum();
         let rim = self.rim.as_ref().map_or(0.0, |rim| rim.body.motion());
         let pair = self.pair.as_ref().map_or(0.0, |pair| pair.energy());
-        self.body.motion() + self.beyond.as_ref().map_or(0.0, |force| force.energy().abs()) + wires + rim + pair
+        self.body.motion()
+            + self.beyond.as_ref().map_or(0.0, |force| force.energy().abs())
+            + wires
+            + rim
+            + pair
     }
 
     /// True energy of the body beyond its modes, J, and the relative error of the variable that

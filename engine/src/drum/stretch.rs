@@ -76,7 +76,7 @@ impl Stretch {
             let (first, heads) = blueprint.batter.order(mode.m);
             let wave = |i: usize| blueprint.batter.membrane.modes()[first + i].zero / spec.radius;
             let bent: Vec<f64> = (0..heads).map(|i| wave(i) * mode.share(i, &place)).collect();
-            let members = count..count + Splitting::ROUND.members(mode.m, 0).into_iter().count() as u32;
+            let members = count..count + Splitting::ROUND.members(mode.m, 0).count() as u32;
             count = members.end;
             sorted.entry(mode.m).or_default().push((members.collect(), bent));
         }

@@ -116,9 +116,10 @@ impl ModalBody {
             re: &mut self.state.re[..n],
             im: &mut self.state.im[..n],
             forces: forces.map(|(force, port)| (force, [&port.gain_re[..n], &port.gain_im[..n]])),
-            weights: pickup.ears.each_ref().map(|ear| {
-                [&ear.weight_re[..few(&ear.weight_re)], &ear.weight_im[..few(&ear.weight_im)]]
-            }),
+            weights: pickup
+                .ears
+                .each_ref()
+                .map(|ear| [&ear.weight_re[..few(&ear.weight_re)], &ear.weight_im[..few(&ear.weight_im)]]),
         })
     }
 

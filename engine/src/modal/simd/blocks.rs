@@ -128,7 +128,8 @@ mod tests {
                 let first = block.start + member * padded;
                 (0..block.size).for_each(|i| x[first + i] = value(first + 5 * i));
                 for row in 0..block.size {
-                    let terms = (0..block.size).map(|column| matrix[at + column * padded + row] * x[first + column]);
+                    let terms =
+                        (0..block.size).map(|column| matrix[at + column * padded + row] * x[first + column]);
                     expected[first + row] = terms.sum();
                 }
             }

@@ -98,7 +98,8 @@ impl Kernel for PushAndHear<'_> {
             }
             if i < reached {
                 let [w_re, w_im] = weights[EARS - 1];
-                sums[EARS - 1] = [fma(w_re[i], z_re, sums[EARS - 1][0]), fma(w_im[i], z_im, sums[EARS - 1][1])];
+                sums[EARS - 1] =
+                    [fma(w_re[i], z_re, sums[EARS - 1][0]), fma(w_im[i], z_im, sums[EARS - 1][1])];
             }
         }
         let mut heard = [0.0; EARS];
@@ -108,4 +109,3 @@ impl Kernel for PushAndHear<'_> {
         heard
     }
 }
-

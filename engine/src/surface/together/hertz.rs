@@ -179,8 +179,16 @@ mod tests {
                     ..Hertz::APART
                 };
                 let (forces, slopes) = hertz.gradient(&[before.max(0.0).sqrt(); 8], &[after; 8]);
-                assert!((forces[3] - force).abs() <= 1e-9 * force.abs(), "{before} {after}: {} {force}", forces[3]);
-                assert!((slopes[3] - slope).abs() <= 1e-6 * slope.abs(), "{before} {after}: {} {slope}", slopes[3]);
+                assert!(
+                    (forces[3] - force).abs() <= 1e-9 * force.abs(),
+                    "{before} {after}: {} {force}",
+                    forces[3]
+                );
+                assert!(
+                    (slopes[3] - slope).abs() <= 1e-6 * slope.abs(),
+                    "{before} {after}: {} {slope}",
+                    slopes[3]
+                );
             }
         }
     }
@@ -199,7 +207,7 @@ mod tests {
             let mut hertz = Hertz::<8>::APART;
             let mut meetings = Vec::new();
             let mut yielding = [[mutual; super::super::MOST]; super::super::MOST];
-            for i in 0..7 {
+            for (i, yielding) in yielding.iter_mut().enumerate().take(7) {
                 let before = 2e-6 * (chance() - 0.3);
                 let free = before + 4e-6 * (chance() - 0.5);
                 let step = ContactStep { before, free, compliance: 3e-6, lambda: 3.0, dt };
@@ -207,7 +215,7 @@ mod tests {
                 (hertz.stiffness[i], hertz.before[i], hertz.free[i], hertz.loss[i]) =
                     (law.stiffness, before, free, 3.0 / dt);
                 hertz.yielding[i][..7].fill(mutual);
-                (hertz.yielding[i][i], yielding[i][i]) = (3e-6, 3e-6);
+                (hertz.yielding[i][i], yielding[i]) = (3e-6, 3e-6);
             }
             assert!(hertz.solve(Kernels::detect()), "did not settle");
             super::super::solve(&mut meetings, &yielding);
