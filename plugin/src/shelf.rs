@@ -34,7 +34,7 @@ const HEADER: usize = 24;
 /// How files' names end.
 const EXTENSION: &str = "kept";
 
-/// Files kept; beyond, the oldest are removed. A kit needs some two dozen, each under two megabytes.
+/// Files kept; beyond, the oldest are removed. A kit needs 15 at a sample rate.
 const MOST_FILES: usize = 96;
 
 /// A folder of checked files.
