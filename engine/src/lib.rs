@@ -18,6 +18,7 @@ pub mod drum;
 pub mod error;
 pub mod glide;
 pub mod hi_hat;
+pub mod kept;
 pub mod kit;
 pub mod layout;
 pub mod listening;

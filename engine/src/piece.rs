@@ -223,7 +223,8 @@ pub struct ModeInfo {
 /// Sound below this is silence, Pa: 100 dB under full scale.
 const SILENT: f32 = 2e-4;
 
-/// A piece with less energy than this that has been silent for so long falls asleep, J and s.
+/// A piece with less energy of motion than this that has been silent for so long falls asleep, J and s. What is only held
+/// bent does not keep it awake.
 const STILL: f64 = 1e-10;
 const DOZE: f64 = 0.05;
 
@@ -557,7 +558,7 @@ impl Piece {
     fn doze(&mut self) {
         let silent = std::mem::take(&mut self.loudest) < SILENT;
         let surface = self.voice.surface();
-        if self.asleep || !silent || surface.is_struck() || surface.energy() > STILL {
+        if self.asleep || !silent || surface.is_struck() || surface.motion() > STILL {
             self.quiet = 0;
             return;
         }

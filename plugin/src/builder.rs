@@ -11,15 +11,17 @@
 //!
 //! Replaced pieces go back to be dropped here, as dropping frees memory. Every order has a
 //! number; pieces of an older one are returned unplayed. The thread starts with the first order,
-//! never when an instance is merely created, and looks between pieces whether it is still wanted,
-//! so that dropping the builder waits for one piece at most. From then on it looks a few times a second
+//! never when an instance is merely created. While it has pieces to build, others help it, as many as there are processors
+//! up to four, and end with the job: a pool that outlived it would still run when a host unloads the plugin. All look between
+//! pieces whether they are still wanted, so that dropping the builder waits for one piece each at most; pieces
+//! arrive in the order of the kit, whoever builds them. From then on it looks a few times a second
 //! whether the [plan](BuildPlan) has changed, and builds those pieces anew that it concerns: parameters
 //! are moved on threads that must not wake another. One thread per instance, because the
 //! framework's shared one does not survive instances that come and go while it works.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::atomic::{AtomicU32, Ordering};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::atomic::{AtomicBool, AtomicU32, AtomicUsize, Ordering};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError, mpsc};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
@@ -29,6 +31,7 @@ use overhear_engine::piece::{BuildOptions, Piece, PieceId};
 use overhear_engine::snapshot::FieldShapes;
 
 use crate::building::BuildPlan;
+use crate::shelf;
 
 /// Pieces of a kit.
 const PIECES: usize = PieceId::KIT.len();
@@ -41,6 +44,12 @@ const NO_ORDER: u32 = 0;
 
 /// Computes one piece.
 type Make = fn(PieceId, &BuildOptions) -> Result<Piece, SpecError>;
+
+/// A piece with what is drawn of it, or why there is none.
+type Made = Result<(Box<Piece>, Arc<FieldShapes>), String>;
+
+/// Threads that build at once, at most.
+const MOST_THREADS: usize = 4;
 
 /// Says what is wanted now; asked by any thread but the audio thread.
 pub type Wanted = Arc<dyn Fn() -> BuildPlan + Send + Sync>;
@@ -118,7 +127,13 @@ struct Built {
 impl Builder {
     /// A builder that follows a plan. Has no thread until something is ordered.
     pub fn new(wanted: Wanted) -> Builder {
-        Builder::with(Piece::new, wanted)
+        Builder::with(
+            |id, options| {
+                shelf::provide();
+                Piece::new(id, options)
+            },
+            wanted,
+        )
     }
 
     fn with(make: Make, wanted: Wanted) -> Builder {
@@ -270,26 +285,71 @@ impl Shared {
 
     /// Builds what a job asks for until done or until its order is no longer the latest.
     fn build(&self, job: &Job, make: Make) -> Result<(), String> {
-        for (slot, id) in PieceId::KIT.into_iter().enumerate() {
-            let options = job.plan.options(id, job.sample_rate);
-            if job.former.is_some_and(|former| former.options(id, job.sample_rate) == options) {
-                continue;
+        let differs = |id: PieceId, options: &BuildOptions| {
+            job.former.is_none_or(|former| former.options(id, job.sample_rate) != *options)
+        };
+        let wanted: Vec<(usize, PieceId, BuildOptions)> = PieceId::KIT
+            .into_iter()
+            .enumerate()
+            .map(|(slot, id)| (slot, id, job.plan.options(id, job.sample_rate)))
+            .filter(|(_, id, options)| differs(*id, options))
+            .collect();
+        let (taken, given_up) = (AtomicUsize::new(0), AtomicBool::new(false));
+        let next = || {
+            let dropped =
+                self.latest.load(Ordering::Acquire) != job.order || given_up.load(Ordering::Acquire);
+            let index = taken.fetch_add(1, Ordering::Relaxed);
+            wanted
+                .get(index)
+                .filter(|_| !dropped)
+                .map(|&(_, id, ref options)| (index, made(make, id, options)))
+        };
+        let (send, made) = mpsc::channel();
+        thread::scope(|scope| {
+            let processors = thread::available_parallelism().map_or(1, usize::from);
+            for _ in 1..processors.min(MOST_THREADS).min(wanted.len()) {
+                let (send, next) = (send.clone(), &next);
+                // One that cannot be had is done without.
+                let _ = thread::Builder::new().name("overhear-helper".to_owned()).spawn_scoped(
+                    scope,
+                    move || {
+                        while let Some(made) = next() {
+                            // Received to the end, or nobody wants it.
+                            let _ = send.send(made);
+                        }
+                    },
+                );
             }
-            let made = catch_unwind(AssertUnwindSafe(|| {
-                let piece = make(id, &options)?;
-                let shapes = Arc::new(piece.field_shapes());
-                Ok::<_, SpecError>((Box::new(piece), shapes))
-            }));
-            let (piece, shapes) = match made {
-                Ok(Ok(made)) => made,
-                Ok(Err(error)) => return Err(format!("{}: {error}", id.name())),
-                Err(_) => return Err(format!("{}: building it panicked", id.name())),
+            let mut waiting: Vec<Option<Made>> = wanted.iter().map(|_| None).collect();
+            let mut due = 0;
+            let mut arrive = |(index, made): (usize, Made)| {
+                waiting[index] = Some(made);
+                while let Some(made) = waiting.get_mut(due).and_then(Option::take) {
+                    self.hand_over(job.order, wanted[due].0, made)?;
+                    due += 1;
+                }
+                Ok(())
             };
-            if self.latest.load(Ordering::Acquire) != job.order {
-                return Ok(());
-            }
+            let all = || {
+                while let Some(made_here) = next() {
+                    arrive(made_here)?;
+                    made.try_iter().try_for_each(&mut arrive)?;
+                }
+                drop(send);
+                made.iter().try_for_each(&mut arrive)
+            };
+            let outcome = all();
+            given_up.store(true, Ordering::Release);
+            outcome
+        })
+    }
+
+    /// Passes a piece on, if it could be made and is still wanted.
+    fn hand_over(&self, order: u32, slot: usize, made: Made) -> Result<(), String> {
+        let (piece, shapes) = made?;
+        if self.latest.load(Ordering::Acquire) == order {
             lock(&self.shapes)[slot] = Some(shapes);
-            self.deliver(Built { order: job.order, piece });
+            self.deliver(Built { order, piece });
         }
         Ok(())
     }
@@ -323,6 +383,20 @@ impl Shared {
         }
         drop(desk);
         self.changed.notify_all();
+    }
+}
+
+/// Makes a piece and what is drawn of it, or says why not.
+fn made(make: Make, id: PieceId, options: &BuildOptions) -> Made {
+    let made = catch_unwind(AssertUnwindSafe(|| {
+        let piece = make(id, options)?;
+        let shapes = Arc::new(piece.field_shapes());
+        Ok::<_, SpecError>((Box::new(piece), shapes))
+    }));
+    match made {
+        Ok(Ok(made)) => Ok(made),
+        Ok(Err(error)) => Err(format!("{}: {error}", id.name())),
+        Err(_) => Err(format!("{}: building it panicked", id.name())),
     }
 }
 

@@ -15,6 +15,8 @@
 
 use std::f64::consts::TAU;
 
+use serde::{Deserialize, Serialize};
+
 use crate::air::SPEED_OF_SOUND;
 use crate::drum::build::Blueprint;
 use crate::drum::coupled::Outside;
@@ -31,6 +33,7 @@ const SINGLY: f64 = 12.0;
 const LEAST: f32 = 1e-3;
 
 /// Pressure over modal acceleration of the member of a pair that points at the listener, Pa s2/m.
+#[derive(Serialize, Deserialize)]
 enum PairHearing {
     /// `[pitch of the mode's grid]`.
     Singly(Vec<[f32; 2]>),
@@ -44,6 +47,7 @@ enum PairHearing {
 }
 
 /// Everything needed to hear a drum at any of its pitches.
+#[derive(Serialize, Deserialize)]
 pub struct Hearing {
     /// `[pair]`.
     pairs: Vec<PairHearing>,
