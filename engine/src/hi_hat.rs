@@ -91,7 +91,7 @@ impl Default for HiHatSpec {
     fn default() -> HiHatSpec {
         let half = |plate, seed| CymbalSpec {
             plate,
-            loss: LossLaw { constant: 1.0, per_khz: 0.06 },
+            loss: LossLaw { constant: 1.55, per_khz: 0.06 },
             muffler: Muffler::Gel { sigma: 40.0, radius: 0.85, angle: 2.3 },
             splitting: Splitting { seed, ..Splitting::CYMBAL },
             ..CymbalSpec::crash()
@@ -105,7 +105,7 @@ impl Default for HiHatSpec {
             toward: 2.0,
             edge: 1e-3,
             restitution: 0.2,
-            rubbing: LossLaw { constant: 17.0, per_khz: 1.1 },
+            rubbing: LossLaw { constant: 21.0, per_khz: 0.6 },
             half_rubbing: 25.0,
             lasting: 0.02,
         }

@@ -4,12 +4,13 @@ use crate::cymbal::{Cymbal, CymbalSpec};
 use crate::damping::Muffler;
 use crate::drum::{Drum, DrumSpec};
 use crate::error::SpecError;
+use crate::hi_hat::pair::Pair;
 use crate::hi_hat::{HiHat, HiHatSpec};
 use crate::kit::BLOCK;
 use crate::layout::Layout;
 use crate::listening::ListeningPoint;
 use crate::modal::EARS;
-use crate::snapshot::{FieldShapes, PieceSnapshot, StrikeSnapshot, WireSnapshot};
+use crate::snapshot::{FieldShapes, PieceSnapshot, RimSnapshot, StrikeSnapshot, WireSnapshot};
 use crate::strike::Strike;
 use crate::surface::Surface;
 use crate::surface::air::{AUDIBLE, Incident};
@@ -441,6 +442,11 @@ impl Piece {
         self.voice.surface().wires()
     }
 
+    /// What a hi-hat's rims have done since the latest stroke.
+    pub fn rims(&self) -> RimSnapshot {
+        self.voice.surface().pair().map_or_else(RimSnapshot::default, Pair::landings)
+    }
+
     /// Lets tuning and muffling arrive at once instead of gliding.
     ///
     /// # Real-time
@@ -693,6 +699,7 @@ impl Piece {
         into.energy = self.energy() as f32;
         into.strike = self.last_strike();
         into.wires = self.wires();
+        into.rims = self.rims();
         into.quarantines = self.quarantines;
         for (k, q) in into.displacement.iter_mut().enumerate() {
             *q = if k < body.len() { body.displacement(k) } else { 0.0 };

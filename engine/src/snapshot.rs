@@ -42,6 +42,19 @@ pub struct WireSnapshot {
     pub last_lift: f32,
 }
 
+/// What a hi-hat's rims have done since the latest stroke.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct RimSnapshot {
+    /// Landings of all places on each other.
+    pub landings: u32,
+    /// Places apart now.
+    pub apart: u32,
+    /// When a place last lifted off, s after the stroke; 0 if none has.
+    pub last_lift: f32,
+    /// Force that clamps them together at rest, N.
+    pub clamped: f32,
+}
+
 /// One piece, seen from outside.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PieceSnapshot {
@@ -57,6 +70,8 @@ pub struct PieceSnapshot {
     pub strike: StrikeSnapshot,
     /// Its snare wires.
     pub wires: WireSnapshot,
+    /// Its rims, of a hi-hat.
+    pub rims: RimSnapshot,
     /// Times the piece was put back to rest because a value was not finite.
     pub quarantines: u32,
 }
@@ -70,6 +85,7 @@ impl Default for PieceSnapshot {
             displacement: [0.0; FIELD_MODES],
             strike: StrikeSnapshot::default(),
             wires: WireSnapshot::default(),
+            rims: RimSnapshot::default(),
             quarantines: 0,
         }
     }

@@ -104,9 +104,10 @@ pub enum Foot {
 pub fn foot(note: u8) -> Option<Foot> {
     match (note, &row_of(note)?.meaning) {
         (_, Meaning::Steps(foot)) => Some(*foot),
-        // Where drummers have them: firmly closed; open, the rims clear of each other; resting on one side.
+        // Where drummers have them: firmly closed; open, so that a stroke makes the rims clash;
+        // resting on one side.
         (42, _) => Some(Foot::Brought(0.8)),
-        (46, _) => Some(Foot::Brought(0.25)),
+        (46, _) => Some(Foot::Brought(0.4)),
         (100, _) => Some(Foot::Brought(0.5)),
         _ => None,
     }

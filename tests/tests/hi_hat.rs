@@ -46,7 +46,7 @@ fn without_losses_the_whole_keeps_its_energy_within_a_thousandth_over_a_second()
                 render(&mut hat, 0.01, RATE);
                 worst = worst.max((total_energy(&hat) / brought - 1.0).abs());
             }
-            let landings = hat.wires().landings;
+            let landings = hat.rims().landings;
             println!("pedal {pedal}, {:?}: {worst:.1e}, {landings} landings", strike.striker);
             assert!(worst < 1e-3, "pedal {pedal}: {worst:e}");
             match pedal {
@@ -216,7 +216,7 @@ fn struck(hat: &mut Piece, pedal: f64, speed: f64) -> (Vec<f32>, u32) {
     hold(hat, pedal);
     hat.strike(&edge(speed));
     let mut out = render(hat, 1.0, RATE);
-    let landings = hat.wires().landings;
+    let landings = hat.rims().landings;
     out.extend(render(hat, 3.0, RATE));
     (out, landings)
 }

@@ -12,7 +12,7 @@ use anyhow::Result;
 use overhear::midi_map;
 use overhear_engine::kit::BLOCK;
 use overhear_engine::piece::{BuildOptions, Piece, PieceId};
-use overhear_engine::snapshot::{FIELD_MODES, PieceSnapshot, StrikeSnapshot, WireSnapshot};
+use overhear_engine::snapshot::{FIELD_MODES, PieceSnapshot, RimSnapshot, StrikeSnapshot, WireSnapshot};
 use overhear_engine::strike::{Strike, Striker};
 
 use crate::analysis::Motion;
@@ -95,6 +95,8 @@ pub struct Sound {
     pub contact: StrikeSnapshot,
     /// What the snare wires did.
     pub wires: WireSnapshot,
+    /// What a hi-hat's rims did.
+    pub rims: RimSnapshot,
 }
 
 /// Strikes and renders, block by block.
@@ -128,9 +130,17 @@ pub fn render(request: &Request) -> Result<Sound> {
     for sample in &mut samples {
         *sample /= FULL_SCALE_PA;
     }
-    let striker_energy_out = piece.departed_energy() + piece.striker_energy();
-    let (energy_end, contact, wires) = (piece.energy(), piece.last_strike(), piece.wires());
-    Ok(Sound { samples, motion, striker_energy, striker_energy_out, energy_peak, energy_end, contact, wires })
+    Ok(Sound {
+        samples,
+        motion,
+        striker_energy,
+        striker_energy_out: piece.departed_energy() + piece.striker_energy(),
+        energy_peak,
+        energy_end: piece.energy(),
+        contact: piece.last_strike(),
+        wires: piece.wires(),
+        rims: piece.rims(),
+    })
 }
 
 /// Lets the tuning and the muffling glide to where they were set, at rest.

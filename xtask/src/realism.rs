@@ -7,6 +7,7 @@
 pub mod features;
 pub mod reference;
 mod report;
+mod subject;
 mod table;
 
 use std::path::PathBuf;
@@ -17,6 +18,7 @@ use std::thread;
 use anyhow::Result;
 use overhear_engine::kit::Control;
 use overhear_engine::piece::{BuildOptions, PieceId, Quality};
+use overhear_engine::strike::Strike;
 
 use crate::bad_input;
 use crate::hear;
@@ -26,17 +28,7 @@ use crate::settings::{self, PieceSetting};
 use crate::wav::{Bits, WavFile};
 
 pub use report::{PieceReport, Report, Stroke};
-
-/// Pieces there are recordings of, in the order of the report.
-pub const PIECES: [PieceId; 7] = [
-    PieceId::Kick,
-    PieceId::Snare,
-    PieceId::RackTom,
-    PieceId::FloorTom,
-    PieceId::Crash,
-    PieceId::Ride,
-    PieceId::Splash,
-];
+pub use subject::{SUBJECTS, Subject, subjects};
 
 /// Speeds of the strokes unless told otherwise, m/s: soft, medium, hard.
 pub const SPEEDS: [f64; 3] = [1.5, 3.0, 5.0];
@@ -51,8 +43,8 @@ const CYMBAL_SECONDS: f64 = 8.0;
 /// What to measure.
 #[derive(Debug, Clone)]
 pub struct Request {
-    /// The pieces.
-    pub pieces: Vec<PieceId>,
+    /// The pieces, as they were recorded.
+    pub subjects: Vec<Subject>,
     /// Speeds of the strokes, m/s, ascending.
     pub speeds: Vec<f64>,
     /// Tuning and muffling, where it is not the kit's; each of one of the pieces.
@@ -61,32 +53,15 @@ pub struct Request {
     pub wav: Option<PathBuf>,
 }
 
-/// The pieces of those names; all there are recordings of for none.
-///
-/// # Errors
-/// [`BadInput`](crate::error::BadInput) naming the pieces.
-pub fn pieces(names: &[String]) -> Result<Vec<PieceId>> {
-    if names.is_empty() {
-        return Ok(PIECES.to_vec());
-    }
-    let known = |name: &String| {
-        PIECES.into_iter().find(|piece| piece.name() == name).ok_or_else(|| {
-            let accepted = PIECES.map(PieceId::name).join(", ");
-            bad_input!("there are no recordings of `{name}`, accepted: {accepted}")
-        })
-    };
-    names.iter().map(known).collect()
-}
-
 /// Reads the values of `--set`, each for the piece it acts on.
 ///
 /// # Errors
 /// [`BadInput`](crate::error::BadInput) with the value and what is accepted.
-pub fn settings(pieces: &[PieceId], assignments: &[String]) -> Result<Vec<(PieceId, PieceSetting)>> {
+pub fn settings(subjects: &[Subject], assignments: &[String]) -> Result<Vec<(PieceId, PieceSetting)>> {
     let read = |text: &String| {
-        let acts = |piece: &&PieceId| text.trim().starts_with(&piece.name().replace('-', "_"));
-        let &piece = pieces.iter().find(acts).ok_or_else(|| {
-            let names = pieces.iter().map(|piece| piece.name()).collect::<Vec<_>>().join(", ");
+        let acts = |subject: &&Subject| text.trim().starts_with(&subject.piece.name().replace('-', "_"));
+        let &Subject { piece, .. } = subjects.iter().find(acts).ok_or_else(|| {
+            let names = subjects.iter().map(|subject| subject.name).collect::<Vec<_>>().join(", ");
             bad_input!("`{text}` acts on no piece that is measured: {names}")
         })?;
         let settings = settings::parse_for_piece(piece, std::slice::from_ref(text))?;
@@ -101,10 +76,10 @@ pub fn settings(pieces: &[PieceId], assignments: &[String]) -> Result<Vec<(Piece
 /// [`BadInput`](crate::error::BadInput) if a sound cannot be written.
 pub fn run(request: &Request) -> Result<Report> {
     let _folder = request.wav.as_deref().map(Folder::new).transpose()?;
-    let jobs: Vec<(PieceId, f64)> = request
-        .pieces
+    let jobs: Vec<(Subject, f64)> = request
+        .subjects
         .iter()
-        .flat_map(|&piece| request.speeds.iter().map(move |&speed| (piece, speed)))
+        .flat_map(|&subject| request.speeds.iter().map(move |&speed| (subject, speed)))
         .collect();
     let next = AtomicUsize::new(0);
     let done: Mutex<Vec<Option<Result<Stroke>>>> = Mutex::new(jobs.iter().map(|_| None).collect());
@@ -112,10 +87,10 @@ pub fn run(request: &Request) -> Result<Report> {
     let work = || {
         loop {
             let index = next.fetch_add(1, Ordering::Relaxed);
-            let Some(&(piece, speed)) = jobs.get(index) else {
+            let Some(&(subject, speed)) = jobs.get(index) else {
                 return;
             };
-            let result = stroke(piece, speed, request);
+            let result = stroke(&subject, speed, request);
             progress.lock().unwrap_or_else(PoisonError::into_inner).advance(1);
             done.lock().unwrap_or_else(PoisonError::into_inner)[index] = Some(result);
         }
@@ -124,17 +99,18 @@ pub fn run(request: &Request) -> Result<Report> {
     thread::scope(|scope| (0..cores.min(jobs.len())).for_each(|_| drop(scope.spawn(work))));
     let done = done.into_inner().unwrap_or_else(PoisonError::into_inner);
     let strokes = done.into_iter().flatten().collect::<Result<Vec<Stroke>>>()?;
-    let per_piece = request.pieces.iter().zip(strokes.chunks(request.speeds.len().max(1)));
-    let pieces = per_piece.map(|(&piece, strokes)| PieceReport::new(piece, strokes)).collect();
+    let per_piece = request.subjects.iter().zip(strokes.chunks(request.speeds.len().max(1)));
+    let pieces = per_piece.map(|(subject, strokes)| PieceReport::new(subject, strokes)).collect();
     Ok(Report::new(RATE, request.speeds.clone(), pieces))
 }
 
 /// Renders one stroke, keeps it if asked to, and measures it.
-fn stroke(piece: PieceId, speed: f64, asked: &Request) -> Result<Stroke> {
-    let mut strike = hear::default_strike(piece);
-    strike.speed = speed;
+fn stroke(subject: &Subject, speed: f64, asked: &Request) -> Result<Stroke> {
+    let piece = subject.piece;
+    let strike = Strike { speed, ..subject.strike() };
     let muffling = Control::Muffling(piece);
     let mut settings = vec![PieceSetting { control: muffling, value: settings::default_muffling(piece) }];
+    settings.extend(subject.pedal());
     settings.extend(asked.settings.iter().filter(|(of, _)| *of == piece).map(|(_, setting)| *setting));
     // Nothing that rests where it is needs time to get there.
     settings.retain(|setting| setting.control != muffling || setting.value > 0.0);
@@ -144,7 +120,7 @@ fn stroke(piece: PieceId, speed: f64, asked: &Request) -> Result<Stroke> {
     let request = hear::Request { piece, strike, settings, options, seconds, wav: None };
     let sound = hear::render(&request)?;
     if let Some(folder) = &asked.wav {
-        let path = folder.join(format!("{}-{speed}.wav", piece.name()));
+        let path = folder.join(format!("{}-{speed}.wav", subject.name));
         let mut file = WavFile::create(&path, Bits::Float32, RATE as u32, 1, sound.samples.len() as u64)?;
         file.write(&[&sound.samples])?;
         file.finish()?;
@@ -158,25 +134,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_piece_of_the_report_has_a_reference() {
-        for piece in PIECES {
-            assert!(reference::figures(piece).len() > 10, "{piece:?}");
-        }
-        assert_eq!(pieces(&[]).unwrap(), PIECES);
-        assert!(pieces(&["timpani".to_owned()]).unwrap_err().to_string().contains("accepted: kick, snare"));
-    }
-
-    #[test]
     fn a_stroke_has_every_figure_that_is_compared_or_says_it_has_not() {
         let report = run(&Request {
-            pieces: vec![PieceId::RackTom],
+            subjects: subjects(&["rack-tom".to_owned()]).unwrap(),
             speeds: vec![2.0, 4.0],
             settings: Vec::new(),
             wav: None,
         });
         let report = report.unwrap();
         let piece = &report.pieces[0];
-        assert_eq!(piece.features.len(), reference::figures(PieceId::RackTom).len());
+        assert_eq!(piece.features.len(), reference::figures("rack-tom").len());
         assert!(piece.features.iter().all(|row| row.values.len() == 2));
         assert!(piece.features.iter().filter(|row| row.values[0].is_some()).count() > 12);
         assert!(report.to_string().contains("rack-tom"));

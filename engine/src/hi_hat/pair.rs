@@ -28,7 +28,7 @@ use crate::contact::ContactLaw;
 use crate::modal::simd::Kernels;
 use crate::modal::simd::folded::{Amplitudes, Folded};
 use crate::modal::{EARS, ModalBody, Mode, Pickup};
-use crate::snapshot::WireSnapshot;
+use crate::snapshot::RimSnapshot;
 use crate::surface::STRIKER_PLACES;
 use crate::surface::together::Compliances;
 
@@ -145,7 +145,7 @@ pub struct Pair {
     pub(super) touching: [bool; POINTS],
     pub(super) free: [f64; POINTS],
     /// Of the present sample: force of the clutch's damper, N, and where the upper cymbal was, m.
-    pub(super) kernels: Kernels,
+    pub(crate) kernels: Kernels,
     pub(super) damper: f64,
     pub(super) from: f64,
     pub(super) pedal_work: f64,
@@ -252,9 +252,13 @@ impl Pair {
     }
 
     /// Landings at the rims since the latest stroke, places apart now, and when one last lifted off.
-    pub fn landings(&self) -> WireSnapshot {
-        let aloft = self.touching.iter().filter(|&&touching| !touching).count() as u32;
-        WireSnapshot { landings: self.landings, aloft, last_lift: (self.last_lift as f64 * self.dt) as f32 }
+    pub fn landings(&self) -> RimSnapshot {
+        RimSnapshot {
+            landings: self.landings,
+            apart: self.touching.iter().filter(|&&touching| !touching).count() as u32,
+            last_lift: (self.last_lift as f64 * self.dt) as f32,
+            clamped: self.clamped() as f32,
+        }
     }
 
     /// Counts anew from a stroke on.
@@ -429,11 +433,11 @@ impl Pair {
     }
 
     /// Once a block: follows the rod, zeroes what has decayed, looks whether rims may meet. `strikers` are about the
-    /// upper cymbal, whose shell has `top_energy` (J).
+    /// upper cymbal, whose shell has `top_energy` (J), asked for only where it decides.
     ///
     /// # Real-time
     /// Linear in the number of modes, and some microseconds while the pedal moves.
-    pub fn settle(&mut self, top: &ModalBody, strikers: bool, top_energy: f64) -> Settled {
+    pub fn settle(&mut self, top: &ModalBody, strikers: bool, top_energy: impl FnOnce() -> f64) -> Settled {
         self.bottom.flush_quiet();
         let finite = self.bottom.is_finite()
             && self.rigid.iter().all(Rigid::is_finite)
@@ -450,7 +454,7 @@ impl Pair {
             return Settled::Moving;
         }
         let touching = self.is_touching();
-        if !strikers && touching && self.energy() + top_energy < STILL {
+        if !strikers && touching && self.held() < STILL && self.energy() + top_energy() < STILL {
             self.bottom.reset();
             self.come_to_rest();
             return Settled::Parked;

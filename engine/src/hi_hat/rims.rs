@@ -67,9 +67,10 @@ impl Rims<'_> {
             let (found, slopes) = self.press(&held, &d);
             let moved = self.times(&found);
             let left: Places = std::array::from_fn(|i| self.free[i] - d[i] - moved[i]);
-            let scale = d.iter().chain(self.free).fold(0.0_f64, |most, x| most.max(x.abs()));
-            // Written so that what is not a number is not found.
-            if left.iter().all(|x| x.abs() <= FOUND * scale) {
+            let larger = |most: f64, x: &f64| if x.abs() > most { x.abs() } else { most };
+            let limit = FOUND * d.iter().chain(self.free).fold(0.0, larger);
+            // Looked at all at once, and so that what is not a number is not found.
+            if left.iter().fold(true, |found, x| found & (x.abs() <= limit)) {
                 *forces = found;
                 return true;
             }

@@ -136,7 +136,10 @@ impl Surface {
             }
         }
         let mut meetings = meetings;
-        together::solve(&mut meetings[..n + POINTS], &yielding);
+        pair.kernels.vectorized(
+            #[inline(always)]
+            || together::solve(&mut meetings[..n + POINTS], &yielding),
+        );
         for (meeting, &i) in meetings.iter().zip(live) {
             self.points[i].force = meeting.force;
         }
@@ -157,8 +160,7 @@ impl Surface {
         let Surface { pair: Some(pair), body, beyond, .. } = self else {
             return true;
         };
-        let top_energy = if pair.is_touching() && !strikers { body.energy() } else { 0.0 };
-        match pair.settle(body, strikers, top_energy) {
+        match pair.settle(body, strikers, || body.energy()) {
             Settled::Moving => true,
             Settled::Parked => {
                 body.reset();

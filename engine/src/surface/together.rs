@@ -44,6 +44,7 @@ pub type Compliances<const N: usize = MOST> = [[f64; N]; N];
 ///
 /// # Real-time
 /// At most 12 steps of the order of the cube of the contacts, then at most 40 sweeps; usually 3 steps.
+#[inline(always)] // So that a caller may run it in all lanes.
 pub fn solve<const N: usize>(meetings: &mut [Meeting], yielding: &Compliances<N>) {
     match meetings {
         [] => {}
@@ -56,6 +57,7 @@ pub fn solve<const N: usize>(meetings: &mut [Meeting], yielding: &Compliances<N>
     }
 }
 
+#[inline(always)]
 fn newton<const N: usize>(meetings: &mut [Meeting], yielding: &Compliances<N>) -> bool {
     let n = meetings.len();
     let compliance = |meetings: &[Meeting], i: usize, j: usize| {
@@ -113,6 +115,7 @@ fn newton<const N: usize>(meetings: &mut [Meeting], yielding: &Compliances<N>) -
 }
 
 /// Solves a system of `n` equations. Without pivots: `1 + Y F'` is, but for a scaling, symmetric and positive.
+#[inline(always)]
 pub(crate) fn eliminate<const N: usize>(
     matrix: &mut [[f64; N]; N],
     right: &mut [f64; N],

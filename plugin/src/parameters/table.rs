@@ -220,7 +220,7 @@ pub static PARAMETERS: [Parameter; 78] = {
         switch("clip", "safety_clip", "Safety clip", 0.0, Control::SafetyClip),
         cymbal_tune(HiHat, "Hi-hat", "hhtune", "hi_hat_tune"),
         muffle(HiHat, "Hi-hat", "hhmuff", "hi_hat_muffle", 0.0),
-        level(HiHat, "Hi-hat", "hhlevl", "hi_hat_level", 0.0),
+        level(HiHat, "Hi-hat", "hhlevl", "hi_hat_level", -6.0),
         pan(HiHat, "Hi-hat", "hhpan", "hi_hat_pan", -63.0),
         place(HiHat, "Hi-hat", "hhplac", "hi_hat_place"),
         striker(HiHat, "Hi-hat", "hhstik", "hi_hat_striker"),

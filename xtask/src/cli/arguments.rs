@@ -341,7 +341,7 @@ impl ModesArguments {
 /// Arguments of `realism`.
 #[derive(Debug, Args)]
 pub struct RealismArguments {
-    /// kick, snare, rack-tom, floor-tom, crash, ride or splash; all if not given
+    /// kick, snare, rack-tom, floor-tom, crash, ride, splash, hi-hat-closed, hi-hat-open; all if not given
     #[arg(value_name = "PIECE")]
     pieces: Vec<String>,
     /// Speeds of the strokes, m/s, up to 25
@@ -368,9 +368,9 @@ impl RealismArguments {
         let mut speeds = self.speeds;
         speeds.sort_by(f64::total_cmp);
         speeds.dedup();
-        let pieces = realism::pieces(&self.pieces)?;
-        let settings = realism::settings(&pieces, &self.set)?;
-        Ok(realism::Request { pieces, speeds, settings, wav: self.wav })
+        let subjects = realism::subjects(&self.pieces)?;
+        let settings = realism::settings(&subjects, &self.set)?;
+        Ok(realism::Request { subjects, speeds, settings, wav: self.wav })
     }
 }
 

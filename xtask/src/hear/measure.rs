@@ -53,6 +53,10 @@ pub struct Measurement {
     pub wire_landings: u32,
     /// When a group last left the head, s after the stroke.
     pub wire_last_lift_s: Option<f64>,
+    /// Landings of a hi-hat's rims on each other in the rendered time.
+    pub rim_landings: u32,
+    /// When a place of the rims last lifted off the other, s after the stroke.
+    pub rim_last_lift_s: Option<f64>,
     /// Kinetic energy of the arriving striker, J.
     pub striker_energy_in_j: f64,
     /// What the striker took away: its flight, its bending, the head right under it, J.
@@ -96,6 +100,8 @@ impl Measurement {
             t60_s: Decays(analysis::octave_decays(samples, rate)),
             wire_landings: sound.wires.landings,
             wire_last_lift_s: (sound.wires.last_lift > 0.0).then(|| exact(sound.wires.last_lift)),
+            rim_landings: sound.rims.landings,
+            rim_last_lift_s: (sound.rims.last_lift > 0.0).then(|| exact(sound.rims.last_lift)),
             striker_energy_in_j: sound.striker_energy,
             striker_energy_out_j: sound.striker_energy_out,
             energy_peak_j: sound.energy_peak,

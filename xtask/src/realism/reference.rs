@@ -5,8 +5,6 @@
 //! the rooms. Of many figures only the median is known. Their definitions are not published; those
 //! of [`features`](super::features) are ours.
 
-use overhear_engine::piece::PieceId;
-
 use super::features::Feature;
 
 /// A figure of real kits.
@@ -75,29 +73,31 @@ const fn bare(feature: Feature, median: f64) -> Figure {
     Figure { feature, median, range: None }
 }
 
-/// The figures of a piece; none for one that was not recorded.
-pub fn figures(piece: PieceId) -> &'static [Figure] {
-    match piece {
-        PieceId::Kick => &KICK,
-        PieceId::Snare => &SNARE,
-        PieceId::RackTom => &RACK_TOM,
-        PieceId::FloorTom => &FLOOR_TOM,
-        PieceId::Crash => &CRASH,
-        PieceId::Ride => &RIDE,
-        PieceId::Splash => &SPLASH,
-        PieceId::Timpani | PieceId::HiHat => &[],
+/// The figures of a [subject](super::Subject), by its name; none for one that was not recorded.
+pub fn figures(subject: &str) -> &'static [Figure] {
+    match subject {
+        "kick" => &KICK,
+        "snare" => &SNARE,
+        "rack-tom" => &RACK_TOM,
+        "floor-tom" => &FLOOR_TOM,
+        "crash" => &CRASH,
+        "ride" => &RIDE,
+        "splash" => &SPLASH,
+        "hi-hat-closed" => &HAT_CLOSED,
+        "hi-hat-open" => &HAT_OPEN,
+        _ => &[],
     }
 }
 
 /// How a piece brightens with the stroke, where it is known.
-pub fn slope(piece: PieceId) -> Option<Slope> {
-    let (feature, octaves) = match piece {
-        PieceId::Kick => (Feature::CentroidFirst, 0.9),
-        PieceId::Snare => (Feature::CentroidFirst, 0.0),
+pub fn slope(subject: &str) -> Option<Slope> {
+    let (feature, octaves) = match subject {
+        "kick" => (Feature::CentroidFirst, 0.9),
+        "snare" => (Feature::CentroidFirst, 0.0),
         // 1.2 to 1.5.
-        PieceId::RackTom | PieceId::FloorTom => (Feature::CentroidFirst, 1.35),
-        PieceId::Crash => (Feature::CentroidSecond, 1.5),
-        PieceId::Ride | PieceId::Splash | PieceId::Timpani | PieceId::HiHat => return None,
+        "rack-tom" | "floor-tom" => (Feature::CentroidFirst, 1.35),
+        "crash" => (Feature::CentroidSecond, 1.5),
+        _ => return None,
     };
     Some(Slope { feature, octaves })
 }
@@ -255,19 +255,61 @@ const SPLASH: [Figure; 18] = [
     bare(PeaksHigh, 1.8),
 ];
 
+const HAT_CLOSED: [Figure; 17] = [
+    ranged(Attack, 1.8, 0.8, 15.0),
+    bare(Crest, 19.2),
+    ranged(TemporalCentroid, 28.0, 17.0, 51.0),
+    bare(CentroidFirst, 8400.0),
+    bare(CentroidSecond, 6800.0),
+    ranged(Bloom, 6.0, 4.0, 24.0),
+    bare(Decay500, 0.43),
+    bare(Decay1k, 0.35),
+    bare(Decay2k, 0.32),
+    bare(Decay4k, 0.30),
+    bare(Decay8k, 0.27),
+    bare(Energy300, -13.0),
+    bare(Energy1k, -14.0),
+    bare(Energy3k, -7.0),
+    bare(Energy8k, -2.0),
+    bare(PeaksLow, 0.86),
+    bare(PeaksHigh, 0.74),
+];
+
+const HAT_OPEN: [Figure; 18] = [
+    ranged(Attack, 13.0, 1.0, 56.0),
+    bare(Crest, 14.3),
+    ranged(TemporalCentroid, 159.0, 96.0, 250.0),
+    bare(CentroidFirst, 7400.0),
+    bare(CentroidSecond, 5800.0),
+    bare(CentroidRest, 5000.0),
+    ranged(Bloom, 22.0, 4.0, 73.0),
+    bare(Decay500, 3.3),
+    bare(Decay1k, 2.9),
+    bare(Decay2k, 3.0),
+    bare(Decay4k, 2.9),
+    bare(Decay8k, 2.5),
+    bare(Energy300, -10.0),
+    bare(Energy1k, -11.0),
+    bare(Energy3k, -5.0),
+    bare(Energy8k, -4.0),
+    bare(PeaksLow, 2.0),
+    bare(PeaksHigh, 1.85),
+];
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::realism::SUBJECTS;
 
     #[test]
     fn medians_lie_in_their_ranges_and_tables_in_the_order_of_the_report() {
-        for piece in PieceId::ALL {
-            let figures = figures(piece);
+        for subject in SUBJECTS {
+            let figures = figures(subject.name);
             for figure in figures {
                 let (low, high) = figure.bounds();
-                assert!(low <= figure.median && figure.median <= high, "{piece:?} {figure:?}");
+                assert!(low <= figure.median && figure.median <= high, "{subject:?} {figure:?}");
             }
-            assert!(figures.windows(2).all(|pair| pair[0].feature < pair[1].feature), "{piece:?}");
+            assert!(figures.windows(2).all(|pair| pair[0].feature < pair[1].feature), "{subject:?}");
         }
     }
 }

@@ -1,11 +1,10 @@
 //! The report: figures beside those of real kits, under the names of the JSON.
 
-use overhear_engine::piece::PieceId;
 use serde::Serialize;
 
+use super::Subject;
 use super::features::{Feature, Features};
 use super::reference::{self, Figure};
-use crate::hear;
 
 /// All pieces. The fields are the keys of the JSON and stay.
 #[derive(Debug, Clone, Serialize)]
@@ -115,9 +114,9 @@ impl Row {
 
 impl PieceReport {
     /// Sets a piece's strokes beside the recordings.
-    pub fn new(piece: PieceId, strokes: &[Stroke]) -> PieceReport {
+    pub fn new(subject: &Subject, strokes: &[Stroke]) -> PieceReport {
         let features: Vec<Row> =
-            reference::figures(piece).iter().map(|figure| Row::new(figure, strokes)).collect();
+            reference::figures(subject.name).iter().map(|figure| Row::new(figure, strokes)).collect();
         let count = |ranged: bool| {
             features
                 .iter()
@@ -126,14 +125,14 @@ impl PieceReport {
                 .fold(Count::default(), Count::add)
         };
         let (ranges, medians) = (count(true), count(false));
-        let strike = hear::default_strike(piece);
-        let slope = reference::slope(piece).map(|slope| {
+        let strike = subject.strike();
+        let slope = reference::slope(subject.name).map(|slope| {
             let value = growth(slope.feature, strokes);
             let inside = value.is_some_and(|value| (value - slope.octaves).abs() <= reference::SLOPE_WITHIN);
             SlopeRow { feature: slope.feature.key(), median: slope.octaves, value, inside }
         });
         PieceReport {
-            piece: piece.name(),
+            piece: subject.name,
             striker: strike.striker.name(),
             at: strike.radius,
             features,
@@ -171,6 +170,7 @@ fn growth(feature: Feature, strokes: &[Stroke]) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::realism::SUBJECTS;
 
     fn stroke(level: f64, centroid: f64) -> Stroke {
         let features = Features::from([(Feature::CentroidFirst, centroid), (Feature::Attack, 4.0)]);
@@ -186,7 +186,7 @@ mod tests {
 
     #[test]
     fn what_is_missing_is_outside_and_what_is_in_range_inside() {
-        let report = PieceReport::new(PieceId::RackTom, &[stroke(-20.0, 355.0), stroke(-10.0, 3550.0)]);
+        let report = PieceReport::new(&SUBJECTS[2], &[stroke(-20.0, 355.0), stroke(-10.0, 3550.0)]);
         let row = |key: &str| report.features.iter().find(|row| row.feature == key).unwrap();
         assert_eq!(row("attack_ms").inside, [true, true]);
         assert_eq!(row("centroid_0_50_ms_hz").inside, [true, false]);

@@ -15,11 +15,11 @@ impl fmt::Display for Report {
             "[a .. b]  10-90 % of real kits        (a .. b)  near the real median, whose range is unknown"
         )?;
         writeln!(f, "< > outside        - cannot be measured: outside")?;
-        writeln!(f, "\n{:<12}{:>22}{:>22}", "", "in the real range", "near the median")?;
+        writeln!(f, "\n{:<14}{:>22}{:>22}", "", "in the real range", "near the median")?;
         for piece in &self.pieces {
-            writeln!(f, "{:<12}{:>22}{:>22}", piece.piece, share(piece.ranges), share(piece.medians))?;
+            writeln!(f, "{:<14}{:>22}{:>22}", piece.piece, share(piece.ranges), share(piece.medians))?;
         }
-        writeln!(f, "{:<12}{:>22}{:>22}", "all", share(self.ranges), share(self.medians))
+        writeln!(f, "{:<14}{:>22}{:>22}", "all", share(self.ranges), share(self.medians))
     }
 }
 

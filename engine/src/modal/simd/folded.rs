@@ -126,20 +126,20 @@ impl Kernel for Gather<'_> {
         let rows = cos.chunks_exact(per).zip(sin.chunks_exact(per));
         let zero = simd.splat_f32s(0.0);
         let (mut class, mut sums) = (0, [zero; 2]);
-        let sum = |sums: [S::f32s; 2]| sums.map(|sum| simd.reduce_sum_f32s(sum));
         for (group, (cos, sin)) in self.folded.groups.iter().zip(rows) {
             if (group.lanes + 1) * per > x.len() {
                 continue;
             }
             if group.class != class {
-                out[class] = sum(sums);
+                // Written out: within a closure the sum would be a call without the machine's instructions.
+                out[class] = [simd.reduce_sum_f32s(sums[0]), simd.reduce_sum_f32s(sums[1])];
                 (class, sums) = (group.class, [zero; 2]);
             }
             for ((&x, &c), &s) in x[group.lanes * per..][..per].iter().zip(cos).zip(sin) {
                 sums = [fma(c, x, sums[0]), fma(s, x, sums[1])];
             }
         }
-        out[class] = sum(sums);
+        out[class] = [simd.reduce_sum_f32s(sums[0]), simd.reduce_sum_f32s(sums[1])];
         out
     }
 }

@@ -1,0 +1,100 @@
+//! What recordings tell apart: pieces, and of the hi-hat what its pedal does.
+
+use anyhow::Result;
+use overhear::midi_map::{self, Foot};
+use overhear_engine::kit::Control;
+use overhear_engine::piece::PieceId;
+use overhear_engine::strike::Strike;
+
+use crate::bad_input;
+use crate::hear;
+use crate::settings::PieceSetting;
+
+/// A piece as it was recorded.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Subject {
+    /// The piece's own name, or with what its pedal does.
+    pub name: &'static str,
+    /// The piece.
+    pub piece: PieceId,
+    /// The note whose stroke and pedal it has, if not the piece's ordinary one.
+    pub note: Option<u8>,
+}
+
+/// All there are recordings of, in the order of the report.
+pub const SUBJECTS: [Subject; 9] = [
+    Subject { name: "kick", piece: PieceId::Kick, note: None },
+    Subject { name: "snare", piece: PieceId::Snare, note: None },
+    Subject { name: "rack-tom", piece: PieceId::RackTom, note: None },
+    Subject { name: "floor-tom", piece: PieceId::FloorTom, note: None },
+    Subject { name: "crash", piece: PieceId::Crash, note: None },
+    Subject { name: "ride", piece: PieceId::Ride, note: None },
+    Subject { name: "splash", piece: PieceId::Splash, note: None },
+    Subject { name: "hi-hat-closed", piece: PieceId::HiHat, note: Some(42) },
+    Subject { name: "hi-hat-open", piece: PieceId::HiHat, note: Some(46) },
+];
+
+impl Subject {
+    /// How it is struck.
+    pub fn strike(&self) -> Strike {
+        let ordinary = hear::default_strike(self.piece);
+        let mapped = self.note.and_then(midi_map::stroke);
+        mapped.map_or(ordinary, |stroke| Strike {
+            radius: stroke.radius,
+            angle: stroke.angle,
+            striker: stroke.striker,
+            ..ordinary
+        })
+    }
+
+    /// Where its pedal is.
+    pub fn pedal(&self) -> Option<PieceSetting> {
+        match self.note.and_then(midi_map::foot) {
+            Some(Foot::Brought(value)) => Some(PieceSetting { control: Control::Pedal, value }),
+            _ => None,
+        }
+    }
+}
+
+/// The subjects of those names, or of pieces of those names; all for none.
+///
+/// # Errors
+/// [`BadInput`](crate::error::BadInput) naming the subjects.
+pub fn subjects(names: &[String]) -> Result<Vec<Subject>> {
+    if names.is_empty() {
+        return Ok(SUBJECTS.to_vec());
+    }
+    let mut found = Vec::new();
+    for name in names {
+        let before = found.len();
+        found.extend(SUBJECTS.into_iter().filter(|it| it.name == name || it.piece.name() == name));
+        if found.len() == before {
+            let accepted = SUBJECTS.map(|subject| subject.name).join(", ");
+            return Err(bad_input!("there are no recordings of `{name}`, accepted: {accepted}"));
+        }
+    }
+    Ok(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::realism::reference;
+
+    #[test]
+    fn every_subject_has_a_reference_and_a_name_of_its_own() {
+        for subject in SUBJECTS {
+            assert!(reference::figures(subject.name).len() > 10, "{subject:?}");
+            assert_eq!(subjects(&[subject.name.to_owned()]).unwrap(), [subject]);
+        }
+        assert_eq!(subjects(&[]).unwrap(), SUBJECTS);
+        assert!(subjects(&["timpani".to_owned()]).unwrap_err().to_string().contains("accepted: kick, snare"));
+    }
+
+    #[test]
+    fn a_hi_hat_is_measured_closed_and_open() {
+        let hats = subjects(&["hi-hat".to_owned()]).unwrap();
+        let pedals: Vec<_> = hats.iter().map(|hat| hat.pedal().expect("a pedal").value).collect();
+        assert!(pedals.len() == 2 && pedals[0] > 0.6 && pedals[1] < 0.6, "{pedals:?}");
+    }
+}
