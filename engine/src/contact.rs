@@ -135,6 +135,12 @@ impl ContactLaw {
         if d > 0.0 { self.stiffness * self.power(d) } else { 0.0 }
     }
 
+    /// Static force at compression `d`, N, and its slope, N/m.
+    pub fn elastic(&self, d: f64) -> (f64, f64) {
+        let force = self.elastic_force(d);
+        if d > 0.0 { (force, self.exponent * force / d) } else { (0.0, 0.0) }
+    }
+
     /// `d^alpha`; the Hertz exponent without the general power.
     fn power(&self, d: f64) -> f64 {
         if self.exponent == 1.5 { d * d.sqrt() } else { d.powf(self.exponent) }

@@ -55,7 +55,7 @@ pub struct Stand {
 }
 
 /// A hand that grips the edge on the player's side, thumb above and fingers below.
-struct Hand;
+pub(crate) struct Hand;
 
 impl Hand {
     /// Decay rate of a mode of unit mean square in the palm, 1/s. *By ear*: a choked crash is gone in
@@ -65,7 +65,13 @@ impl Hand {
     const RADII: [f64; 3] = [0.8, 0.9, 0.98];
     const ANGLES: [f64; 5] = [-0.24, -0.12, 0.0, 0.12, 0.24];
     /// A hand closes so many times more slowly than a control glides: in some 25 ms.
-    const SLOWER: f64 = 5.0;
+    pub(crate) const SLOWER: f64 = 5.0;
+
+    /// Dashpots all over the palm: decay rate of a mode of unit square shape there (1/s), radius and angle.
+    pub(crate) fn places() -> impl Iterator<Item = (f64, f64, f64)> {
+        let share = Hand::SIGMA / (Hand::RADII.len() * Hand::ANGLES.len()) as f64;
+        Hand::RADII.into_iter().flat_map(move |radius| Hand::ANGLES.map(|angle| (share, radius, angle)))
+    }
 }
 
 /// Rate at which the stretching is evaluated, Hz, over the highest coupled mode, and at most, as long as it is
@@ -74,15 +80,21 @@ impl Hand {
 const COUPLING_RATE_PER_HZ: f64 = 7.0;
 const MOST_COUPLING_RATE: f64 = 20_000.0;
 
+/// Samples between evaluations of the stretching of modes up to `highest_hz`.
+pub(crate) fn coupling_stride(highest_hz: f64, sample_rate: f64) -> u32 {
+    let rate = (COUPLING_RATE_PER_HZ * highest_hz).min(MOST_COUPLING_RATE).max(5.0 * highest_hz);
+    (sample_rate / rate) as u32
+}
+
 /// Share of the sample rate that coupled modes may reach.
-const COUPLED_SHARE_OF_RATE: f64 = 0.3;
+pub(crate) const COUPLED_SHARE_OF_RATE: f64 = 0.3;
 
 /// Highest mode, Hz: the edge of hearing. The same at every rate that can carry it, so that a
 /// stroke meets the same body.
-const LIMIT_HZ: f64 = 21_000.0;
+pub(crate) const LIMIT_HZ: f64 = 21_000.0;
 
 /// Share of the sample rate that modes may reach.
-const LIMIT_OF_RATE: f64 = 0.48;
+pub(crate) const LIMIT_OF_RATE: f64 = 0.48;
 
 impl CymbalSpec {
     /// Lowest, default and highest ratio a cymbal's frequencies can be scaled by.
@@ -182,8 +194,7 @@ impl Cymbal {
         let ([near, far], away) = (ears, spec.far_point.distance);
         surface.set_transfers(near, far.map(|transfer| transfer.map(|h| h * away)));
         if let Some(Coupled { potential, modes, highest_hz }) = coupled {
-            let rate = (COUPLING_RATE_PER_HZ * highest_hz).min(MOST_COUPLING_RATE).max(5.0 * highest_hz);
-            let stride = (options.sample_rate / rate) as u32;
+            let stride = coupling_stride(highest_hz, options.sample_rate);
             surface.set_potential(Box::new(potential), modes, stride);
         }
         let (low, tuning, high) = CymbalSpec::TUNING;
@@ -224,8 +235,7 @@ impl Cymbal {
     /// Works out how much a hand takes from each mode: dashpots all over the palm.
     fn lay_hand(&mut self) {
         let mut shape = vec![0.0_f32; self.modes.len()];
-        let share = Hand::SIGMA / (Hand::RADII.len() * Hand::ANGLES.len()) as f64;
-        for (radius, angle) in Hand::RADII.into_iter().flat_map(|r| Hand::ANGLES.map(|angle| (r, angle))) {
+        for (share, radius, angle) in Hand::places() {
             self.surface.shapes().fill(radius, angle, &mut shape);
             for (mode, &shape) in self.modes.iter_mut().zip(&shape) {
                 mode.choking += share * f64::from(shape).powi(2);
@@ -412,7 +422,7 @@ fn radial_rows(plate: &PlateModes, tables: &PlateTables, radii: &[f64]) -> Vec<f
 }
 
 /// What each of the plate's shell modes does to the air around, `[shell]`.
-fn radiate(spec: &CymbalSpec, plate: &PlateModes, tables: &PlateTables) -> Vec<Radiated> {
+pub(crate) fn radiate(spec: &CymbalSpec, plate: &PlateModes, tables: &PlateTables) -> Vec<Radiated> {
     let highest = plate.shells.last().map_or(0.0, |shell| shell.omega);
     let finest = plate.flat.iter().flatten().map(|flat| flat.root).fold(0.0, f64::max);
     let trace = highest * spec.plate.radius() / air::SPEED_OF_SOUND;

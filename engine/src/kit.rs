@@ -24,6 +24,8 @@ pub use control::{Control, Microphone};
 pub use gain::{LOUDEST_DB, SILENT_DB};
 pub use post::{Crew, Post};
 
+use crate::hi_hat::SPLASHING;
+use crate::hi_hat::foot::SPEED;
 use crate::layout::{Layout, Pair};
 use crate::piece::{Piece, PieceId};
 use crate::snapshot::KitSnapshot;
@@ -55,6 +57,7 @@ struct Seat {
     muffling: f64,
     preload: f64,
     wires: bool,
+    pedal: f64,
 }
 
 /// Two outputs of one length: left, right.
@@ -93,6 +96,7 @@ impl Kit {
                 muffling: 0.0,
                 preload: PRELOAD.1,
                 wires: true,
+                pedal: 0.0,
             }),
             crew: None,
             air: Air::new(sample_rate, layout),
@@ -164,6 +168,7 @@ impl Kit {
         piece.set_muffling(seat.muffling);
         piece.set_preload(seat.preload);
         piece.throw_wires(seat.wires);
+        piece.press_pedal(seat.pedal, SPEED.1);
         piece.finish_controls();
         piece.align((self.clock % BLOCK as u64) as usize);
         self.air.place_close(slot, piece.close().distance);
@@ -232,6 +237,7 @@ impl Kit {
             Control::SafetyClip => self.desk.set_clip(on),
             Control::Hearing => self.listen(on, self.sympathy),
             Control::Sympathy => self.listen(self.hearing, value.clamp(0.0, 1.0) as f32),
+            Control::Pedal => self.press_pedal(value, SPEED.1),
             Control::SnarePreload => self.adjust(PieceId::Snare, control, value),
             Control::SnareWires => self.adjust(PieceId::Snare, control, value),
             Control::Tuning(id) | Control::Muffling(id) => self.adjust(id, control, value),
@@ -266,6 +272,43 @@ impl Kit {
     fn listen(&mut self, hearing: bool, sympathy: f32) {
         (self.hearing, self.sympathy) = (hearing, sympathy);
         self.ears.set(if hearing { sympathy } else { 0.0 });
+    }
+
+    /// Lets somebody step on the hi-hat's pedal, which is then left at a place, 0 to 1, given where it was; on a
+    /// piece that comes later it is there at once.
+    fn step_on(&mut self, left: impl FnOnce(f64) -> f64, step: impl FnOnce(&mut Piece)) {
+        let Some(slot) = PieceId::HiHat.slot() else { return };
+        self.seats[slot].pedal = left(self.seats[slot].pedal);
+        if let Some(piece) = self.mut_piece(PieceId::HiHat) {
+            step(piece);
+        }
+    }
+
+    /// Brings the hi-hat's pedal to a place, 0 (up) to 1 (down), at up to a speed (m/s); see
+    /// [`Piece::press_pedal`]. A NaN is ignored.
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn press_pedal(&mut self, pedal: f64, speed: f64) {
+        if !pedal.is_nan() {
+            self.step_on(|_| pedal, |hat| hat.press_pedal(pedal, speed));
+        }
+    }
+
+    /// Stamps on the hi-hat's pedal, at up to a speed (m/s); see [`Piece::stamp_pedal`].
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn stamp_pedal(&mut self, speed: f64) {
+        self.step_on(|_| 1.0, |hat| hat.stamp_pedal(speed));
+    }
+
+    /// Splashes with the hi-hat's pedal, at up to a speed (m/s); see [`Piece::splash_pedal`].
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn splash_pedal(&mut self, speed: f64) {
+        self.step_on(|pedal| pedal.min(SPLASHING), |hat| hat.splash_pedal(speed));
     }
 
     /// Lets every control arrive at once: for setting the kit up before it sounds.

@@ -54,6 +54,7 @@ impl Placement {
             PieceId::Crash => ([-0.64, 1.20, 0.0], [0.22, 0.95, -0.25], 0.0),
             PieceId::Ride => ([0.68, 1.06, -0.04], [-0.16, 0.96, -0.22], 0.0),
             PieceId::Splash => ([0.16, 1.22, 0.08], [0.0, 0.97, -0.25], 0.0),
+            PieceId::HiHat => ([-0.72, 0.86, -0.30], [0.0, 1.0, 0.0], 0.0),
             // Beyond the floor tom, a turn of the stool away. A kettle is closed.
             PieceId::Timpani => ([0.86, 0.78, -0.86], [-0.1, 0.99, -0.05], 0.0),
         };

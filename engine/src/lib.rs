@@ -17,6 +17,7 @@ pub mod damping;
 pub mod drum;
 pub mod error;
 pub mod glide;
+pub mod hi_hat;
 pub mod kit;
 pub mod layout;
 pub mod listening;

@@ -20,6 +20,7 @@
 //!
 //! Modes at or above half the sample rate are silent: they neither move nor yield.
 
+pub mod folded;
 pub mod front;
 pub mod simd;
 

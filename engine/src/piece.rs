@@ -4,6 +4,7 @@ use crate::cymbal::{Cymbal, CymbalSpec};
 use crate::damping::Muffler;
 use crate::drum::{Drum, DrumSpec};
 use crate::error::SpecError;
+use crate::hi_hat::{HiHat, HiHatSpec};
 use crate::kit::BLOCK;
 use crate::layout::Layout;
 use crate::listening::ListeningPoint;
@@ -32,11 +33,13 @@ pub enum PieceId {
     Splash,
     /// 26 in timpani.
     Timpani,
+    /// 14 in hi-hat.
+    HiHat,
 }
 
 impl PieceId {
     /// The pieces of the kit, in the order of every per-piece table.
-    pub const KIT: [PieceId; 8] = [
+    pub const KIT: [PieceId; 9] = [
         PieceId::Kick,
         PieceId::Snare,
         PieceId::RackTom,
@@ -45,10 +48,11 @@ impl PieceId {
         PieceId::Ride,
         PieceId::Splash,
         PieceId::Timpani,
+        PieceId::HiHat,
     ];
 
     /// Every piece that can be built.
-    pub const ALL: [PieceId; 8] = PieceId::KIT;
+    pub const ALL: [PieceId; 9] = PieceId::KIT;
 
     /// Place in [`PieceId::KIT`], if the piece belongs to the kit.
     pub fn slot(self) -> Option<usize> {
@@ -66,6 +70,7 @@ impl PieceId {
             PieceId::Ride => "ride",
             PieceId::Splash => "splash",
             PieceId::Timpani => "timpani",
+            PieceId::HiHat => "hi-hat",
         }
     }
 
@@ -76,7 +81,7 @@ impl PieceId {
 
     /// Whether the piece is a drum (it has a pitch to tune); the others are cymbals.
     pub fn is_drum(self) -> bool {
-        !matches!(self, PieceId::Crash | PieceId::Ride | PieceId::Splash)
+        !matches!(self, PieceId::Crash | PieceId::Ride | PieceId::Splash | PieceId::HiHat)
     }
 }
 
@@ -243,6 +248,7 @@ pub struct Piece {
 enum Voice {
     Drum(Box<Drum>),
     Cymbal(Box<Cymbal>),
+    HiHat(Box<HiHat>),
 }
 
 impl Voice {
@@ -250,6 +256,7 @@ impl Voice {
         match self {
             Voice::Drum(drum) => drum.surface(),
             Voice::Cymbal(cymbal) => cymbal.surface(),
+            Voice::HiHat(hat) => hat.surface(),
         }
     }
 
@@ -257,6 +264,7 @@ impl Voice {
         match self {
             Voice::Drum(drum) => drum.surface_mut(),
             Voice::Cymbal(cymbal) => cymbal.surface_mut(),
+            Voice::HiHat(hat) => hat.surface_mut(),
         }
     }
 }
@@ -288,6 +296,12 @@ impl Piece {
             PieceId::Crash => cymbal(CymbalSpec::crash())?,
             PieceId::Ride => cymbal(CymbalSpec::ride())?,
             PieceId::Splash => cymbal(CymbalSpec::splash())?,
+            PieceId::HiHat => {
+                let spec = HiHatSpec::default();
+                let listening_point = options.close.unwrap_or(spec.top.listening_point);
+                let spec = spec.heard_at(listening_point, far_point);
+                (listening_point, Voice::HiHat(Box::new(HiHat::new(&spec, options)?)))
+            }
         };
         Ok(Piece {
             id,
@@ -317,7 +331,7 @@ impl Piece {
             PieceId::RackTom => DrumSpec::rack_tom().pitch_hz,
             PieceId::FloorTom => DrumSpec::floor_tom().pitch_hz,
             PieceId::Timpani => DrumSpec::timpani().pitch_hz,
-            PieceId::Crash | PieceId::Ride | PieceId::Splash => CymbalSpec::TUNING,
+            PieceId::Crash | PieceId::Ride | PieceId::Splash | PieceId::HiHat => CymbalSpec::TUNING,
         }
     }
 
@@ -332,6 +346,7 @@ impl Piece {
         match &mut self.voice {
             Voice::Drum(drum) => drum.set_tuning(tuning),
             Voice::Cymbal(cymbal) => cymbal.set_tuning(tuning),
+            Voice::HiHat(hat) => hat.set_tuning(tuning),
         }
     }
 
@@ -344,6 +359,7 @@ impl Piece {
         match &mut self.voice {
             Voice::Drum(drum) => drum.set_muffling(amount),
             Voice::Cymbal(cymbal) => cymbal.set_muffling(amount),
+            Voice::HiHat(hat) => hat.set_muffling(amount),
         }
     }
 
@@ -354,8 +370,44 @@ impl Piece {
     /// No allocation, no lock.
     pub fn choke(&mut self, strength: f64) {
         self.glide();
-        if let Voice::Cymbal(cymbal) = &mut self.voice {
-            cymbal.choke(strength);
+        match &mut self.voice {
+            Voice::Drum(_) => {}
+            Voice::Cymbal(cymbal) => cymbal.choke(strength),
+            Voice::HiHat(hat) => hat.choke(strength),
+        }
+    }
+
+    /// Brings a hi-hat's pedal to a place, 0 (up, open) to 1 (down, clamped), from the next sample on, at up to a
+    /// speed (m/s, see [`SPEED`](crate::hi_hat::foot::SPEED)). Other pieces have no such pedal.
+    ///
+    /// # Real-time
+    /// No allocation, no lock; linear in the number of modes.
+    pub fn press_pedal(&mut self, pedal: f64, speed: f64) {
+        if let Voice::HiHat(hat) = &mut self.voice {
+            hat.press(pedal, speed);
+            self.asleep = false;
+        }
+    }
+
+    /// Stamps on a hi-hat's pedal: brings it down at up to a speed (m/s); one that is down already is lifted first.
+    ///
+    /// # Real-time
+    /// No allocation, no lock; linear in the number of modes.
+    pub fn stamp_pedal(&mut self, speed: f64) {
+        if let Voice::HiHat(hat) = &mut self.voice {
+            hat.stamp(speed);
+            self.asleep = false;
+        }
+    }
+
+    /// Splashes with a hi-hat's pedal: brings the rims together at up to a speed (m/s) and lets them go at once.
+    ///
+    /// # Real-time
+    /// No allocation, no lock; linear in the number of modes.
+    pub fn splash_pedal(&mut self, speed: f64) {
+        if let Voice::HiHat(hat) = &mut self.voice {
+            hat.splash(speed);
+            self.asleep = false;
         }
     }
 
@@ -396,6 +448,7 @@ impl Piece {
         match &mut self.voice {
             Voice::Drum(drum) => drum.finish_controls(),
             Voice::Cymbal(cymbal) => cymbal.finish_controls(),
+            Voice::HiHat(hat) => hat.finish_controls(),
         }
     }
 
@@ -405,6 +458,7 @@ impl Piece {
         match &mut self.voice {
             Voice::Drum(drum) => drum.advance_controls(seconds),
             Voice::Cymbal(cymbal) => cymbal.advance_controls(seconds),
+            Voice::HiHat(hat) => hat.advance_controls(seconds),
         }
     }
 
@@ -421,6 +475,7 @@ impl Piece {
         match &mut self.voice {
             Voice::Drum(drum) => drum.strike(strike),
             Voice::Cymbal(cymbal) => cymbal.surface_mut().strike(strike),
+            Voice::HiHat(hat) => hat.surface_mut().strike(strike),
         }
     }
 
@@ -525,6 +580,7 @@ impl Piece {
         match &mut self.voice {
             Voice::Drum(drum) => drum.follow_controls(),
             Voice::Cymbal(cymbal) => cymbal.follow_controls(),
+            Voice::HiHat(hat) => hat.follow_controls(),
         }
         if self.asleep {
             return;
@@ -590,6 +646,7 @@ impl Piece {
         match &self.voice {
             Voice::Drum(drum) => drum.modes(),
             Voice::Cymbal(cymbal) => cymbal.modes(),
+            Voice::HiHat(hat) => hat.modes(),
         }
     }
 
@@ -597,7 +654,7 @@ impl Piece {
     pub fn tensions(&self) -> Vec<(&'static str, f64)> {
         match &self.voice {
             Voice::Drum(drum) => drum.tensions(),
-            Voice::Cymbal(_) => Vec::new(),
+            Voice::Cymbal(_) | Voice::HiHat(_) => Vec::new(),
         }
     }
 

@@ -46,6 +46,7 @@
 //! systems, J. Comput. Phys. 472, 2023. The exact hold, the contacts and the exchange are ours.
 
 use crate::modal::front::Front;
+use crate::modal::simd::folded::{Amplitudes, Folded};
 use crate::modal::{EARS, Heard, ModalBody, Pickup, Port, Row, zero_row};
 
 /// A potential's energy at one place.
@@ -350,6 +351,11 @@ impl NonlinearForce {
     /// `p` of a port: how far `psi` is moved by a unit force there, and a point there by `psi`.
     pub fn coupling(&self, body: &ModalBody, port: &Port) -> f64 {
         body.compliance(&self.port, port)
+    }
+
+    /// [`coupling`](Self::coupling) of all places around the rim.
+    pub fn folded_coupling(&self, body: &ModalBody, folded: &Folded) -> Amplitudes {
+        body.folded_compliance(folded, &self.port)
     }
 
     /// `2 + G`.

@@ -12,15 +12,17 @@
 
 pub mod air;
 pub mod oscillator;
+mod paired;
 pub mod patch;
 mod sample;
 mod striking;
-mod together;
+pub mod together;
 pub mod touch;
 pub mod wires;
 
 use crate::contact::Material;
 use crate::drum::high_band::HighBand;
+use crate::hi_hat::pair::Pair;
 use crate::modal::simd::MAX_RUN;
 use crate::modal::{EARS, ModalBody, Mode, Pickup};
 use crate::potential::{NonlinearForce, Potential};
@@ -91,6 +93,8 @@ pub struct Surface {
     /// What it and the far head do above their modes; a place for each striker's point and each wire's.
     high: Option<HighBand>,
     far_high: Option<HighBand>,
+    /// Another surface underneath.
+    pair: Option<Box<Pair>>,
     /// Between present points: one-sample compliance of the modes and of what touches, m/N.
     compliance: Compliances,
     /// Each present point's coupling with the force beyond the modes.
@@ -160,6 +164,7 @@ impl Surface {
             beyond: None,
             high: None,
             far_high: None,
+            pair: None,
             compliance: [[0.0; MAX_POINTS]; MAX_POINTS],
             coupling: [0.0; MAX_POINTS],
             yielding: [[0.0; MAX_POINTS]; MAX_POINTS],
@@ -239,6 +244,7 @@ impl Surface {
     pub fn energy(&self) -> f64 {
         let wires: f64 = self.present(MAX_STRIKERS..self.touchers.len());
         let rim = self.rim.as_ref().map_or(0.0, |rim| rim.body.energy());
+        let rim = rim + self.pair.as_ref().map_or(0.0, |pair| pair.energy());
         self.body.energy() + self.beyond.as_ref().map_or(0.0, NonlinearForce::energy) + wires + rim
     }
 
@@ -307,6 +313,9 @@ impl Surface {
         if let Some(force) = &mut self.beyond {
             force.follow(&self.body, &self.pickup);
         }
+        if let Some(pair) = &mut self.pair {
+            pair.follow(&self.body, &self.pickup);
+        }
         if let Some(listener) = &mut self.listener {
             listener.connect(&self.body, &self.pickup);
         }
@@ -349,12 +358,16 @@ impl Surface {
     /// of the potential while that acts.
     pub fn render_in_air(&mut self, mut out: [&mut [f32]; EARS], incident: Option<Incident<'_>>) {
         let mut done = 0;
-        while self.live_count > 0 && done < out[0].len() {
+        let together = self.pair.as_ref().is_some_and(|pair| pair.is_engaged());
+        while (self.live_count > 0 || together) && done < out[0].len() {
             let heard = self.step(done, incident);
             out.iter_mut().zip(heard).for_each(|(out, heard)| out[done] = heard);
             done += 1;
         }
         self.ring(out.each_mut().map(|out| &mut out[done..]), incident, done);
+        if let Some(pair) = self.pair.as_mut().filter(|_| !together) {
+            pair.ring(&mut out, done);
+        }
         let [near, far, _] = out;
         self.high.iter_mut().chain(&mut self.far_high).for_each(|high| high.render(near, far));
     }
@@ -430,10 +443,11 @@ impl Surface {
             && self.body.is_finite()
             && self.rim.as_ref().is_none_or(|rim| rim.body.is_finite())
             && self.live[..self.live_count].iter().all(|&i| self.points[i].compression.is_finite());
+        let strikers = self.is_struck();
+        let finite = finite && self.settle_pair(strikers);
         if !finite {
             self.reset();
         }
-        let strikers = self.is_struck();
         let moving = self.wires.as_ref().is_some_and(|wires| wires.on && !wires.parked);
         if moving && !strikers && self.energy() < wires::STILL {
             self.park_wires();
@@ -445,7 +459,8 @@ impl Surface {
     pub fn is_still(&self) -> bool {
         let high = self.high.iter().chain(&self.far_high).all(HighBand::is_still);
         let rim = self.rim.as_ref().is_none_or(|rim| rim.body.is_still());
-        high && rim && self.live_count == 0 && self.body.is_still()
+        let pair = self.pair.as_ref().is_none_or(|pair| pair.is_still());
+        high && rim && pair && self.live_count == 0 && self.body.is_still()
     }
 
     /// Whether strikers are about.
@@ -475,6 +490,7 @@ impl Surface {
         }
         self.list();
         self.park_wires();
+        self.pair.iter_mut().for_each(|pair| pair.reset());
         (self.brought_energy, self.departed_energy) = (0.0, 0.0);
     }
 }

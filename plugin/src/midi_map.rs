@@ -14,7 +14,8 @@
 //! | 60 to 63 | bongos, high congas | rack tom, soft mallet for a hand |
 //! | 64 | low conga | floor tom, soft mallet for a hand |
 //! | 65, 66 | timbales | rack tom, floor tom, stick |
-//! | 42, 44, 46 | hi-hats | silent: the kit has no hi-hat |
+//! | 42, 46 | closed, open hi-hat | hi-hat, stick on the edge; brings the pedal down, or up |
+//! | 44 | pedal hi-hat | the hi-hat's pedal, down, as fast as the note is loud |
 //! | 39, 54, 56, 58, 67 to 81 | hand percussion | silent: nothing in the kit sounds like it |
 //!
 //! Beyond General MIDI's notes:
@@ -28,6 +29,9 @@
 //! | 93 | ride, stick shoulder on the edge |
 //! | 94 | snare, stick near the rim |
 //! | 95, 96 | rack tom, floor tom, rimshots |
+//! | 97 | the hi-hat's pedal, down and up at once: a foot splash |
+//! | 98, 99 | hi-hat, stick on the bow and on the bell, the pedal where it is |
+//! | 100 | hi-hat, half open: stick shoulder on the edge; brings the pedal to where the rims just meet |
 //!
 //! All others outside 35 to 81 are silent. Places are where drummers play: a third of the way out on a
 //! drum rather than dead centre, where only the round modes answer.
@@ -76,8 +80,36 @@ impl Stroke {
 pub enum Meaning {
     /// It strikes a piece.
     Strikes(Stroke),
+    /// It is the hi-hat's pedal.
+    Steps(Foot),
     /// It makes no sound, for the reason given.
     Silent(&'static str),
+}
+
+/// What a note does with the hi-hat's pedal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Foot {
+    /// Before a stroke it is brought there, 0 (up) to 1 (down), unless a controller plays the pedal.
+    Brought(f64),
+    /// It is brought down as fast as the note is loud.
+    Chick,
+    /// It is brought down as fast as the note is loud, and up at once.
+    Splash,
+}
+
+/// What a note does with the hi-hat's pedal, if it does.
+///
+/// # Real-time
+/// A table look-up.
+pub fn foot(note: u8) -> Option<Foot> {
+    match (note, &row_of(note)?.meaning) {
+        (_, Meaning::Steps(foot)) => Some(*foot),
+        // Where drummers have them: firmly closed; open, the rims clear of each other; resting on one side.
+        (42, _) => Some(Foot::Brought(0.8)),
+        (46, _) => Some(Foot::Brought(0.25)),
+        (100, _) => Some(Foot::Brought(0.5)),
+        _ => None,
+    }
 }
 
 /// One row of the map.
@@ -107,11 +139,10 @@ pub fn row_of(note: u8) -> Option<&'static Row> {
 pub fn stroke(note: u8) -> Option<&'static Stroke> {
     match &row_of(note)?.meaning {
         Meaning::Strikes(stroke) => Some(stroke),
-        Meaning::Silent(_) => None,
+        Meaning::Steps(_) | Meaning::Silent(_) => None,
     }
 }
 
-const NO_HI_HAT: Meaning = Meaning::Silent("the kit has no hi-hat");
 const NOTHING_LIKE_IT: Meaning = Meaning::Silent("nothing in the kit sounds like it");
 
 const fn strikes(piece: PieceId, radius: f64, angle: f64, striker: Striker) -> Meaning {
@@ -134,11 +165,11 @@ pub static MAP: [Row; (LAST_NOTE - FIRST_NOTE + 1) as usize] = {
         row(39, "Hand Clap", NOTHING_LIKE_IT),
         row(40, "Electric Snare", strikes(Snare, 0.40, 0.3, RimShot)),
         row(41, "Low Floor Tom", strikes(FloorTom, 0.25, -0.4, Stick)),
-        row(42, "Closed Hi-Hat", NO_HI_HAT),
+        row(42, "Closed Hi-Hat", strikes(HiHat, 0.97, 0.0, Stick)),
         row(43, "High Floor Tom", strikes(FloorTom, 0.35, -0.4, Stick)),
-        row(44, "Pedal Hi-Hat", NO_HI_HAT),
+        row(44, "Pedal Hi-Hat", Meaning::Steps(Foot::Chick)),
         row(45, "Low Tom", strikes(FloorTom, 0.45, -0.4, Stick)),
-        row(46, "Open Hi-Hat", NO_HI_HAT),
+        row(46, "Open Hi-Hat", strikes(HiHat, 0.97, 0.0, Shoulder)),
         row(47, "Low-Mid Tom", strikes(RackTom, 0.25, 0.2, Stick)),
         row(48, "Hi-Mid Tom", strikes(RackTom, 0.30, 0.2, Stick)),
         row(49, "Crash Cymbal 1", strikes(Crash, 0.97, 0.0, Shoulder)),
@@ -178,7 +209,7 @@ pub static MAP: [Row; (LAST_NOTE - FIRST_NOTE + 1) as usize] = {
 };
 
 /// Notes of our own, beyond the General MIDI drum map. Places are by ear.
-pub static BEYOND: [Row; 9] = {
+pub static BEYOND: [Row; 13] = {
     use PieceId::*;
     use Striker::*;
     [
@@ -191,6 +222,10 @@ pub static BEYOND: [Row; 9] = {
         row(94, "Snare Edge", strikes(Snare, 0.85, 0.3, Stick)),
         row(95, "Rack Tom Rim Shot", strikes(RackTom, 0.40, 0.2, RimShot)),
         row(96, "Floor Tom Rim Shot", strikes(FloorTom, 0.40, -0.4, RimShot)),
+        row(97, "Hi-Hat Foot Splash", Meaning::Steps(Foot::Splash)),
+        row(98, "Hi-Hat Bow", strikes(HiHat, 0.65, 0.0, Stick)),
+        row(99, "Hi-Hat Bell", strikes(HiHat, 0.12, 0.0, Stick)),
+        row(100, "Hi-Hat Half Open", strikes(HiHat, 0.97, 0.0, Shoulder)),
     ]
 };
 
@@ -214,6 +249,7 @@ mod tests {
                     assert!(stroke.piece.slot().is_some(), "{}", row.name);
                     assert!((0.1..=1.0).contains(&stroke.radius), "{}", row.name);
                 }
+                Meaning::Steps(_) => assert!(foot(row.note).is_some()),
                 Meaning::Silent(reason) => assert!(!reason.is_empty(), "{}", row.name),
             }
         }
@@ -229,7 +265,7 @@ mod tests {
     #[test]
     fn notes_outside_the_map_are_silent() {
         for note in (0..FIRST_NOTE).chain(LAST_NOTE + 1..=u8::MAX) {
-            assert_eq!(stroke(note).is_some(), (88..=96).contains(&note));
+            assert_eq!(stroke(note).is_some() || foot(note).is_some(), (88..=100).contains(&note));
         }
     }
 
@@ -251,7 +287,8 @@ mod tests {
             (&[94], Some(PieceId::Snare)),
             (&[95], Some(PieceId::RackTom)),
             (&[96], Some(PieceId::FloorTom)),
-            (&[42, 44, 46, 39, 54, 56, 58, 67, 81], None),
+            (&[42, 46, 98, 99, 100], Some(PieceId::HiHat)),
+            (&[44, 97, 39, 54, 56, 58, 67, 81], None),
         ] {
             assert!(notes.iter().all(|&note| piece(note) == expected), "{notes:?}");
         }

@@ -73,6 +73,7 @@ pub const fn title(piece: PieceId) -> &'static str {
         PieceId::Ride => "Ride",
         PieceId::Splash => "Splash",
         PieceId::Timpani => "Timpani",
+        PieceId::HiHat => "Hi-hat",
     }
 }
 

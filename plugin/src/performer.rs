@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use no_denormals::no_denormals;
 use overhear_engine::error::SpecError;
+use overhear_engine::hi_hat::foot::SPEED;
 use overhear_engine::kit::{Control, Kit, Stereo};
 use overhear_engine::piece::{Piece, PieceId};
 use overhear_engine::snapshot::KitSnapshot;
@@ -17,6 +18,7 @@ use crate::building::{BuildPlan, Pace};
 use crate::midi::assignments::Assignments;
 use crate::midi::maps::NoteMap;
 use crate::midi::playing::{ChokeRule, Grip, Playing};
+use crate::midi_map::Foot;
 use crate::parameters::{Drives, Manner, PARAMETERS};
 
 pub use crate::midi::playing::velocity_from_midi;
@@ -87,8 +89,12 @@ impl Performer {
     /// # Real-time
     /// No allocation, no lock.
     pub fn note_on(&mut self, note: u8, velocity: f32, channel: u8) -> bool {
+        let foot = self.playing.foot(note, velocity, channel);
+        if let Some((foot, speed)) = foot {
+            self.step(foot, speed);
+        }
         let Some(played) = self.playing.note_on(note, velocity, channel) else {
-            return false;
+            return foot.is_some();
         };
         self.start();
         flushed(|| {
@@ -98,6 +104,19 @@ impl Performer {
             self.kit.strike(played.piece, &played.strike);
         });
         true
+    }
+
+    /// Moves the hi-hat's pedal for a note.
+    fn step(&mut self, foot: Foot, speed: f64) {
+        if foot == Foot::Chick || foot == Foot::Splash {
+            self.start();
+        }
+        flushed(|| match foot {
+            // As fast as can be: a drummer's foot would have been there before the stroke.
+            Foot::Brought(pedal) => self.kit.press_pedal(pedal, SPEED.2),
+            Foot::Chick => self.kit.stamp_pedal(speed),
+            Foot::Splash => self.kit.splash_pedal(speed),
+        });
     }
 
     /// Ends a note: chokes its cymbal if the rule says so.
@@ -133,6 +152,9 @@ impl Performer {
     /// No allocation, no lock.
     pub fn control_change(&mut self, controller: u8, value: f32, channel: u8) {
         self.playing.control_change(controller, value, channel);
+        if let Some(pedal) = self.playing.pedal(controller, value, channel) {
+            flushed(|| self.kit.set(Control::Pedal, pedal));
+        }
     }
 
     fn grip(&mut self, grip: Option<Grip>) {
@@ -240,6 +262,12 @@ impl Performer {
     /// # Real-time
     /// No allocation, no lock.
     pub fn reset(&mut self) {
+        if !self.playing.plays_pedal() {
+            // Where notes have left it is forgotten, where a foot is is not.
+            let pedal = PARAMETERS.iter().position(|it| it.drives == Drives::Control(Control::Pedal));
+            let value = pedal.map_or(0.0, |index| f64::from(self.values[index]));
+            flushed(|| self.kit.set(Control::Pedal, value));
+        }
         flushed(|| {
             // Whatever hand was on a cymbal is gone with the note it belonged to.
             PieceId::KIT.into_iter().for_each(|piece| self.kit.choke(piece, 0.0));

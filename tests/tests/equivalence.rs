@@ -25,13 +25,14 @@ fn score(seed: u64) -> Score {
         .map(|_| {
             let id = chance.of(&PieceId::KIT);
             let (low, _, high) = Piece::tuning_range(id);
-            let action = match chance.below(8) {
+            let action = match chance.below(9) {
                 0 => Action::Set(Control::Tuning(id), chance.between(low, high)),
                 1 => Action::Set(Control::Muffling(id), chance.unit()),
                 2 => Action::Set(Control::Level(id), chance.between(-70.0, 6.0)),
                 3 => Action::Set(Control::Master, chance.between(-20.0, 6.0)),
                 4 => Action::Set(Control::SnarePreload, chance.between(0.03, 1.5)),
                 5 => Action::Set(Control::SnareWires, chance.unit().round()),
+                6 => Action::Set(Control::Pedal, chance.unit()),
                 _ => Action::Strike(id, chance.stroke(8.0)),
             };
             (chance.below(LENGTH / 2) * 2 + 1, action)
@@ -79,6 +80,7 @@ fn start_over(kit: &mut Kit, spare: &mut Option<Box<Piece>>) {
     kit.set(Control::Master, 0.0);
     kit.set(Control::SnarePreload, 0.15);
     kit.set(Control::SnareWires, 1.0);
+    kit.set(Control::Pedal, 0.0);
     for id in PieceId::KIT {
         kit.set(Control::Tuning(id), Piece::tuning_range(id).1);
         kit.set(Control::Muffling(id), 0.0);

@@ -68,12 +68,13 @@ impl Stage {
             }
             530..980 => {
                 let (low, _, high) = Piece::tuning_range(id);
-                let (control, from, to) = match chance.below(6) {
+                let (control, from, to) = match chance.below(7) {
                     0 => (Control::Tuning(id), 0.8 * low, 1.2 * high),
                     1 => (Control::Muffling(id), -0.2, 1.2),
                     2 => (Control::Level(id), -80.0, 30.0),
                     3 => (Control::SnarePreload, -0.1, 3.0),
                     4 => (Control::SnareWires, -1.0, 2.0),
+                    5 => (Control::Pedal, -0.2, 1.2),
                     _ => (Control::Master, -80.0, 30.0),
                 };
                 let value = if chance.below(8) == 0 { chance.of(&ODD) } else { chance.between(from, to) };

@@ -57,6 +57,7 @@ pub fn default_strike(piece: PieceId) -> Strike {
         PieceId::Ride => 51,
         PieceId::Splash => 55,
         PieceId::Timpani => 88,
+        PieceId::HiHat => 42,
     };
     let mapped = midi_map::stroke(note).filter(|stroke| stroke.piece == piece);
     let (radius, angle, striker) =

@@ -7,6 +7,7 @@ use overhear::midi::maps::NoteMap;
 use overhear::midi_map::Stroke;
 use overhear::parameters::{Drives, Manner, PARAMETERS, Parameter, parse_assignment};
 use overhear::presets::{self, Library, Preset};
+use overhear_engine::hi_hat::foot::SPEED;
 use overhear_engine::kit::Control;
 use overhear_engine::piece::{BuildOptions, Piece, PieceId};
 
@@ -97,6 +98,7 @@ impl PieceSetting {
             Control::Muffling(_) => piece.set_muffling(self.value),
             Control::SnarePreload => piece.set_preload(self.value),
             Control::SnareWires => piece.throw_wires(self.value >= 0.5),
+            Control::Pedal => piece.press_pedal(self.value, SPEED.1),
             // A piece by itself has no mix.
             _ => {}
         }
@@ -150,6 +152,7 @@ fn piece_parameters(id: PieceId) -> Vec<Parameter> {
             piece == id
         }
         Drives::Control(Control::SnarePreload | Control::SnareWires) => id == PieceId::Snare,
+        Drives::Control(Control::Pedal) => id == PieceId::HiHat,
         _ => false,
     };
     PARAMETERS.iter().filter(acts).copied().collect()

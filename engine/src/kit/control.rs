@@ -24,6 +24,8 @@ pub enum Control {
     SnarePreload,
     /// Whether the snare wires lie against the head: below one half they are off.
     SnareWires,
+    /// The hi-hat's pedal, 0 (up) to 1 (down); see [`Piece::press_pedal`](crate::piece::Piece::press_pedal).
+    Pedal,
     /// Level of a piece in every microphone, dB; at or below [`SILENT_DB`](crate::kit::SILENT_DB) the piece is silent.
     /// What other pieces hear of it stays.
     Level(PieceId),

@@ -6,6 +6,7 @@
 //! they differ by rounding.
 
 pub mod driven;
+pub mod folded;
 pub mod level;
 pub mod polar;
 
@@ -63,6 +64,15 @@ impl Kernels {
         match self.level {
             Level::Baseline => Scalar128b.vectorize(Unfused(op)),
             Level::Detected(arch) => arch.dispatch(Fused(op)),
+        }
+    }
+
+    /// Runs plain loops compiled for this instruction set; `op` must be inlined.
+    #[inline(always)]
+    pub fn vectorized<R>(&self, op: impl FnOnce() -> R) -> R {
+        match self.level {
+            Level::Baseline => op(),
+            Level::Detected(arch) => arch.dispatch(op),
         }
     }
 

@@ -29,10 +29,16 @@ impl Surface {
             let (high, place) = above(i, &mut self.high, &mut self.far_high);
             high.iter_mut().for_each(|high| high.complete(place, self.points[i].direct[0]));
         }
+        if let Some(pair) = &mut self.pair {
+            pair.connect_striker(i, &self.body, &self.points[i].port);
+        }
         for &j in &self.live[..self.live_count] {
             let mut mutual = 0.0;
             if self.points[j].side == side {
                 mutual = body.compliance(&self.points[j].port, &self.points[i].port);
+            }
+            if let Some(pair) = self.pair.as_ref().filter(|_| i < FIRST_WIRE && j < FIRST_WIRE) {
+                mutual += pair.between_strikers(i, j);
             }
             if owner(i) == owner(j) {
                 mutual +=
@@ -46,6 +52,8 @@ impl Surface {
     /// One sample with something about; which of the run, and what arrives over it.
     pub(super) fn step(&mut self, sample: usize, incident: Option<Incident<'_>>) -> Heard {
         let (mean, mut direct) = self.step_free(sample, incident);
+        let divisor = self.divisor();
+        self.step_pair(mean);
         let dt = self.dt;
         for toucher in self.touchers.iter_mut().filter(|toucher| toucher.present) {
             toucher.step();
@@ -59,10 +67,16 @@ impl Surface {
                 (Some(rim), Side::Rim) => rim.body.displacement_at(&point.port),
                 _ => self.body.displacement_at(&point.port) - self.coupling[i] * mean,
             };
-            let position = self.touchers[owner(i)].position(&point.weights);
+            let mut position = self.touchers[owner(i)].position(&point.weights);
+            if let Some(pair) = &self.pair {
+                position += pair.eases_striker(i, self.coupling[i], divisor) - pair.under_striker(i);
+            }
             point.free_flight(position - surface - point.origin, self.yielding[i][i], dt);
         }
-        self.solve();
+        match self.pair {
+            Some(_) => self.solve_paired(),
+            None => self.solve(),
+        }
         let mut pressed = 0.0;
         for &i in &self.live[..self.live_count] {
             let point = &self.points[i];
@@ -73,6 +87,9 @@ impl Surface {
                     _ => self.body.push(&point.port, force as f32),
                 }
                 self.touchers[owner(i)].push(&point.weights, force);
+                if let Some(pair) = &mut self.pair {
+                    pair.push_striker(i, force);
+                }
                 add(&mut direct, point.direct.map(|direct| force as f32 * direct));
                 pressed += force * self.coupling[i];
                 if point.side == Side::Surface {
@@ -81,11 +98,19 @@ impl Surface {
                 }
             }
         }
+        if let Some(pair) = &mut self.pair {
+            let (of_rims, at_once) = pair.press(&mut self.body);
+            pressed += of_rims;
+            add(&mut direct, at_once);
+        }
         if let Some(beyond) = self.beyond.as_mut().filter(|beyond| beyond.is_active()) {
             add(&mut direct, beyond.finish(&mut self.body, pressed));
         }
         for &i in &self.live[..self.live_count] {
-            let others = self.moved_by_others(i);
+            let mut others = self.moved_by_others(i);
+            if let Some(pair) = &self.pair {
+                others += pair.moves_striker(i, self.coupling[i], divisor);
+            }
             let before = self.points[i].touching;
             self.points[i].finish(others);
             if let Some(wires) = self.wires.as_mut().filter(|_| i >= FIRST_WIRE) {
@@ -95,11 +120,13 @@ impl Surface {
         if let Some(wires) = &mut self.wires {
             wires.age += 1;
         }
+        let below = self.finish_pair(divisor);
         self.watch_strikers();
         let rim = self.rim.as_ref().map_or(Heard::default(), |rim| rim.body.listen(&rim.pickup));
         let mut heard = self.body.listen(&self.pickup);
         add(&mut heard, rim);
         add(&mut heard, direct);
+        add(&mut heard, below);
         heard
     }
 
@@ -113,13 +140,17 @@ impl Surface {
     /// coupling to give how far the force beyond the modes has moved the surface by itself, and what is heard at
     /// once.
     pub(super) fn step_free(&mut self, sample: usize, incident: Option<Incident<'_>>) -> (f64, Heard) {
-        self.yielding = self.compliance;
+        if self.live_count > 0 {
+            self.yielding = self.compliance;
+        }
         let Some(force) = self.beyond.as_mut().filter(|force| force.is_active()) else {
+            self.pair.iter_mut().for_each(|pair| pair.couple(&self.body, None));
             self.body.step();
             return (0.0, self.press(incident, sample));
         };
         let live = &self.live[..self.live_count];
         if force.begin(&mut self.body, &self.pickup) {
+            self.pair.iter_mut().for_each(|pair| pair.couple(&self.body, Some(force)));
             for &i in live {
                 if self.points[i].side == Side::Surface {
                     self.coupling[i] = force.coupling(&self.body, &self.points[i].port);

@@ -66,6 +66,12 @@ impl Surface {
             (point.bands, point.band_count) = film.bands(radius, spec.patch, !self.lossless, self.dt);
         }
         point.origin = -self.body.displacement_at(&point.port);
+        if let Some(pair) = &mut self.pair {
+            pair.put_striker(tip, radius, strike.angle);
+            pair.engage(&self.body);
+            pair.begin_count();
+            self.points[tip].origin -= pair.under_striker(tip);
+        }
         self.list();
         self.connect(tip);
         if let Some(force) = &mut self.beyond {

@@ -8,7 +8,7 @@
 
 use crate::contact::{ContactLaw, ContactStep};
 
-/// Contacts that can be solved together.
+/// Contacts of one surface that can be solved together.
 pub const MOST: usize = 16;
 
 /// Newton steps before the sweeps are asked; it needs 2 or 3.
@@ -36,13 +36,13 @@ pub struct Meeting {
 }
 
 /// Compliance between contacts, m/N; the diagonal is each step's own.
-pub type Compliances = [[f64; MOST]; MOST];
+pub type Compliances<const N: usize = MOST> = [[f64; N]; N];
 
 /// Finds all forces.
 ///
 /// # Real-time
 /// At most 12 steps of the order of the cube of the contacts, then at most 40 sweeps; usually 3 steps.
-pub fn solve(meetings: &mut [Meeting], yielding: &Compliances) {
+pub fn solve<const N: usize>(meetings: &mut [Meeting], yielding: &Compliances<N>) {
     match meetings {
         [] => {}
         [one] => one.force = one.law.force(&one.step),
@@ -54,12 +54,12 @@ pub fn solve(meetings: &mut [Meeting], yielding: &Compliances) {
     }
 }
 
-fn newton(meetings: &mut [Meeting], yielding: &Compliances) -> bool {
+fn newton<const N: usize>(meetings: &mut [Meeting], yielding: &Compliances<N>) -> bool {
     let n = meetings.len();
     let compliance = |meetings: &[Meeting], i: usize, j: usize| {
         if i == j { meetings[i].step.compliance } else { yielding[i][j] }
     };
-    let (mut d, mut held, mut forces, mut slopes) = ([0.0; MOST], [0.0; MOST], [0.0; MOST], [0.0; MOST]);
+    let (mut d, mut held, mut forces, mut slopes) = ([0.0; N], [0.0; N], [0.0; N], [0.0; N]);
     for i in 0..n {
         held[i] = meetings[i].law.potential(meetings[i].step.before);
         let moved: f64 = (0..n).map(|j| compliance(meetings, i, j) * meetings[j].force).sum();
@@ -67,7 +67,7 @@ fn newton(meetings: &mut [Meeting], yielding: &Compliances) -> bool {
     }
     for _ in 0..MAX_STEPS {
         // Contacts that are open neither push nor are in the way: they follow from the closed ones.
-        let (mut closed, mut count) = ([0; MOST], 0);
+        let (mut closed, mut count) = ([0; N], 0);
         for i in 0..n {
             (forces[i], slopes[i]) = meetings[i].law.gradient(&meetings[i].step, held[i], d[i]);
             if forces[i] != 0.0 || slopes[i] != 0.0 {
@@ -77,20 +77,20 @@ fn newton(meetings: &mut [Meeting], yielding: &Compliances) -> bool {
         }
         let closed = &closed[..count];
         // (1 + Y F') change = free - d - Y F
-        let mut matrix = [[0.0; MOST + 1]; MOST];
-        for (row, &i) in matrix.iter_mut().zip(closed) {
+        let (mut matrix, mut right) = ([[0.0; N]; N], [0.0; N]);
+        for ((row, right), &i) in matrix.iter_mut().zip(&mut right).zip(closed) {
             let mut left = meetings[i].step.free - d[i];
             for (entry, &j) in row.iter_mut().zip(closed) {
                 let c = compliance(meetings, i, j);
                 left -= c * forces[j];
                 *entry = c * slopes[j];
             }
-            row[count] = left;
+            *right = left;
         }
         for (k, row) in matrix[..count].iter_mut().enumerate() {
             row[k] += 1.0;
         }
-        let change = eliminate(&mut matrix, count);
+        let change = eliminate(&mut matrix, &mut right, count);
         for (&i, change) in closed.iter().zip(change) {
             forces[i] += slopes[i] * change;
         }
@@ -110,27 +110,31 @@ fn newton(meetings: &mut [Meeting], yielding: &Compliances) -> bool {
     false
 }
 
-/// Solves a system of `n` equations, the right side in column `n`. Without pivots: `1 + Y F'` is, but for a
-/// scaling, symmetric and positive.
-fn eliminate(matrix: &mut [[f64; MOST + 1]; MOST], n: usize) -> [f64; MOST] {
+/// Solves a system of `n` equations. Without pivots: `1 + Y F'` is, but for a scaling, symmetric and positive.
+pub(crate) fn eliminate<const N: usize>(
+    matrix: &mut [[f64; N]; N],
+    right: &mut [f64; N],
+    n: usize,
+) -> [f64; N] {
     for k in 0..n {
-        let pivot = matrix[k];
-        for row in &mut matrix[k + 1..n] {
+        let (pivot, known) = (matrix[k], right[k]);
+        for (row, right) in matrix[k + 1..n].iter_mut().zip(&mut right[k + 1..n]) {
             let factor = row[k] / pivot[k];
             if factor != 0.0 {
-                row[k + 1..=n].iter_mut().zip(&pivot[k + 1..=n]).for_each(|(x, p)| *x -= factor * p);
+                row[k + 1..n].iter_mut().zip(&pivot[k + 1..n]).for_each(|(x, p)| *x -= factor * p);
+                *right -= factor * known;
             }
         }
     }
-    let mut solution = [0.0; MOST];
+    let mut solution = [0.0; N];
     for k in (0..n).rev() {
         let known: f64 = (k + 1..n).map(|j| matrix[k][j] * solution[j]).sum();
-        solution[k] = (matrix[k][n] - known) / matrix[k][k];
+        solution[k] = (right[k] - known) / matrix[k][k];
     }
     solution
 }
 
-fn sweep(meetings: &mut [Meeting], yielding: &Compliances) {
+fn sweep<const N: usize>(meetings: &mut [Meeting], yielding: &Compliances<N>) {
     for _ in 0..MAX_SWEEPS {
         let mut changed = false;
         for i in 0..meetings.len() {

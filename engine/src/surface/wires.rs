@@ -195,8 +195,11 @@ impl Surface {
         }
     }
 
-    /// What the wires have done since the latest stroke.
+    /// What the wires have done since the latest stroke; of a hi-hat, its rims.
     pub fn wires(&self) -> WireSnapshot {
+        if let Some(pair) = &self.pair {
+            return pair.landings();
+        }
         let aloft = self.points.iter().skip(FIRST_WIRE).filter(|point| point.present && !point.touching);
         self.wires.as_ref().map_or_else(WireSnapshot::default, |wires| wires.snapshot(aloft.count() as u32))
     }

@@ -149,7 +149,7 @@ impl Look {
             PieceId::RackTom => (0.75, Color32::from_rgb(106, 44, 38)),
             PieceId::FloorTom => (1.05, Color32::from_rgb(106, 44, 38)),
             PieceId::Timpani => (0.9, Color32::from_rgb(150, 92, 52)),
-            PieceId::Crash | PieceId::Ride | PieceId::Splash => (0.0, Color32::BLACK),
+            PieceId::Crash | PieceId::Ride | PieceId::Splash | PieceId::HiHat => (0.0, Color32::BLACK),
         };
         if piece.is_drum() {
             let head = Color32::from_rgb(222, 216, 204);

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::maps::NoteMap;
-use super::playing::{FINE_VELOCITY_CONTROLLER, position_controller};
+use super::playing::{FINE_VELOCITY_CONTROLLER, PEDAL_CONTROLLER, position_controller};
 use crate::midi_map::{BEYOND, MAP, Meaning, Row};
 use overhear_engine::piece::PieceId;
 
@@ -41,12 +41,17 @@ fn reference_row(row: &Row) -> String {
             let (piece, with) = (stroke.piece.name(), stroke.striker.name());
             format!("| {note} | {name} | {piece} | {:.2} of the radius | {with} |\n", stroke.radius)
         }
+        Meaning::Steps(_) => format!("| {note} | {name} | hi-hat | the pedal | a foot |\n"),
         Meaning::Silent(reason) => format!("| {note} | {name} | silent: {reason} | | |\n"),
     }
 }
 
 fn controllers() -> String {
     let mut text = String::from("\n## Controllers and pressure\n\n| message | what it does |\n|---|---|\n");
+    let _ = writeln!(
+        text,
+        "| CC {PEDAL_CONTROLLER} | the hi-hat's pedal: 0 up, 127 down; from the first one on notes leave it where it is |"
+    );
     for controller in 16..=19 {
         let pieces = PieceId::KIT.into_iter().filter(|&piece| position_controller(piece) == Some(controller));
         let pieces: Vec<&str> = pieces.map(PieceId::name).collect();

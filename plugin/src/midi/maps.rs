@@ -79,7 +79,7 @@ impl NoteMap {
         let row = midi_map::row_of(self.plays(note)?)?;
         match row.meaning {
             Meaning::Silent(_) => None,
-            Meaning::Strikes(_) => Some(match self.pads() {
+            Meaning::Strikes(_) | Meaning::Steps(_) => Some(match self.pads() {
                 None => row.name,
                 Some(pads) => pads.iter().find(|pad| pad.note == note)?.name,
             }),
@@ -140,7 +140,7 @@ static YAMAHA: [Pad; 28] = [
     pad(59, "Crash Bow", 91),
     pad(78, "Hi-Hat Open Edge", 46),
     pad(79, "Hi-Hat Closed Edge", 42),
-    pad(83, "Hi-Hat Foot Splash", 44),
+    pad(83, "Hi-Hat Foot Splash", 97),
     pad(85, "Hi-Hat Open Cup", 46),
     pad(86, "Hi-Hat Closed Cup", 42),
     pad(50, "Tom 1 Rim", 95),
@@ -148,8 +148,8 @@ static YAMAHA: [Pad; 28] = [
 ];
 
 static ALESIS: [Pad; 23] = [
-    pad(21, "Hi-Hat Splash", 44),
-    pad(23, "Hi-Hat Half Open", 46),
+    pad(21, "Hi-Hat Splash", 97),
+    pad(23, "Hi-Hat Half Open", 100),
     pad(36, "Kick", 36),
     pad(38, "Snare Head", 38),
     pad(39, "Tom 4 Rim", 96),

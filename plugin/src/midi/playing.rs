@@ -12,7 +12,7 @@ use overhear_engine::strike::{Strike, Striker};
 
 use super::assignments::{Assignment, Assignments};
 use super::maps::NoteMap;
-use crate::midi_map;
+use crate::midi_map::{self, Foot};
 
 /// Stick speed of the softest note, m/s. *By ear*: the faintest tap a pad reports.
 pub const SOFTEST: f64 = 0.4;
@@ -25,6 +25,12 @@ const CHANNELS: usize = 16;
 
 /// Pieces of the kit.
 const PIECES: usize = PieceId::KIT.len();
+
+/// Controller of the hi-hat's pedal.
+pub const PEDAL_CONTROLLER: u8 = 4;
+
+/// Slowest and fastest foot on the hi-hat's pedal, m/s. *By ear*: what the softest and the loudest note sound like.
+const FOOT: (f64, f64) = (0.15, 2.0);
 
 /// First of the four position controllers; see [`position_controller`].
 pub const FIRST_POSITION_CONTROLLER: u8 = 16;
@@ -52,7 +58,7 @@ pub fn position_controller(piece: PieceId) -> Option<u8> {
         PieceId::Snare => Some(16),
         PieceId::Ride => Some(17),
         PieceId::RackTom | PieceId::FloorTom => Some(18),
-        PieceId::Crash | PieceId::Splash => Some(19),
+        PieceId::Crash | PieceId::Splash | PieceId::HiHat => Some(19),
         _ => None,
     }
 }
@@ -151,13 +157,20 @@ struct PlayingState {
     fine: [f32; CHANNELS],
     /// Gripped by the end of a note, until the next stroke, `[piece]`.
     gripped: [bool; PIECES],
+    /// Whether a controller plays the hi-hat's pedal.
+    pedal: bool,
     /// Strokes so far: the unevenness of each is drawn from its number.
     strokes: u64,
 }
 
 impl PlayingState {
-    const REST: PlayingState =
-        PlayingState { positions: [None; 4], fine: [0.0; CHANNELS], gripped: [false; PIECES], strokes: 0 };
+    const REST: PlayingState = PlayingState {
+        positions: [None; 4],
+        fine: [0.0; CHANNELS],
+        gripped: [false; PIECES],
+        pedal: false,
+        strokes: 0,
+    };
 }
 
 /// A player: the style, the user's assignments, and what the controllers say.
@@ -179,7 +192,8 @@ impl Playing {
     /// # Real-time
     /// No allocation.
     pub fn reset(&mut self) {
-        self.state = PlayingState::REST;
+        // A foot stays where it is when the transport stops.
+        self.state = PlayingState { pedal: self.state.pedal, ..PlayingState::REST };
     }
 
     /// What a note of a velocity (0 to 1) comes to, if it sounds. Takes part in learning.
@@ -210,6 +224,38 @@ impl Playing {
         };
         let releases = std::mem::take(&mut self.state.gripped[slot]);
         Some(Played { piece: stroke.piece, strike, releases })
+    }
+
+    /// What a note of a velocity (0 to 1) does with the hi-hat's pedal, if it does, and the speed of the foot, m/s.
+    ///
+    /// # Real-time
+    /// Table look-ups; no allocation, no lock.
+    pub fn foot(&self, note: u8, velocity: f32, channel: u8) -> Option<(Foot, f64)> {
+        let heard = velocity > 0.0 && self.hears(channel);
+        let reference = match self.assignments.of(note) {
+            Assignment::Mapped => self.style.map.plays(note),
+            Assignment::Silent => None,
+            Assignment::Plays(reference) => Some(reference),
+        };
+        let foot = midi_map::foot(reference.filter(|_| heard)?)?;
+        let speed = FOOT.0 * libm::pow(FOOT.1 / FOOT.0, f64::from(velocity.min(1.0)));
+        Some((foot, speed)).filter(|_| !(self.state.pedal && matches!(foot, Foot::Brought(_))))
+    }
+
+    /// Where a controller brings the hi-hat's pedal, 0 (up) to 1 (down), if it is the one for that; from then on
+    /// strokes leave the pedal where it is.
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn pedal(&mut self, controller: u8, value: f32, channel: u8) -> Option<f64> {
+        let heard = controller == PEDAL_CONTROLLER && self.hears(channel) && !value.is_nan();
+        self.state.pedal |= heard;
+        heard.then_some(f64::from(value.clamp(0.0, 1.0)))
+    }
+
+    /// Whether a controller plays the hi-hat's pedal.
+    pub fn plays_pedal(&self) -> bool {
+        self.state.pedal
     }
 
     /// What the end of a note comes to.

@@ -63,6 +63,9 @@ pub fn about(parameter: &Parameter) -> &'static str {
         Drives::Control(Master) => "Level of the mix.",
         Drives::Control(SnarePreload) => "Force that presses the snare wires on.",
         Drives::Control(SnareWires) => "The strainer's lever.",
+        Drives::Control(Pedal) => {
+            "The hi-hat's pedal, 0 up and open, 1 down and clamped; a foot takes it there."
+        }
         Drives::Playing(manner) => playing(manner),
         Drives::Building(Quality) => "*Built.* How far up cymbals' modes are coupled while the host plays.",
         Drives::Building(OfflineQuality) => "*Built.* The same while the host renders to a file.",

@@ -8,7 +8,7 @@ use crate::midi::maps::NoteMap;
 use crate::midi::playing::ChokeRule;
 
 /// Every parameter, in the order hosts see. Frozen: append only.
-pub static PARAMETERS: [Parameter; 71] = {
+pub static PARAMETERS: [Parameter; 78] = {
     use PieceId::*;
     [
         drum_tune(Kick, "Kick", "kktune", "kick_tune", [35.0, 55.0, 90.0]),
@@ -218,6 +218,27 @@ pub static PARAMETERS: [Parameter; 71] = {
             choices: &[],
         },
         switch("clip", "safety_clip", "Safety clip", 0.0, Control::SafetyClip),
+        cymbal_tune(HiHat, "Hi-hat", "hhtune", "hi_hat_tune"),
+        muffle(HiHat, "Hi-hat", "hhmuff", "hi_hat_muffle", 0.0),
+        level(HiHat, "Hi-hat", "hhlevl", "hi_hat_level", 0.0),
+        pan(HiHat, "Hi-hat", "hhpan", "hi_hat_pan", -63.0),
+        place(HiHat, "Hi-hat", "hhplac", "hi_hat_place"),
+        striker(HiHat, "Hi-hat", "hhstik", "hi_hat_striker"),
+        Parameter {
+            id: "hhpedl",
+            name: "hihat_pedal",
+            label: "Pedal",
+            group: "Hi-hat",
+            unit: "",
+            min: 0.0,
+            max: 1.0,
+            default: 0.0,
+            centre: 0.5,
+            step: 0.001,
+            decimals: 3,
+            drives: Drives::Control(Control::Pedal),
+            choices: &[],
+        },
     ]
 };
 

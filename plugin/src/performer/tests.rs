@@ -6,7 +6,7 @@ const RATE: f64 = 48_000.0;
 fn only_notes_of_the_map_with_a_velocity_strike() {
     let mut performer = Performer::new(RATE);
     assert!(performer.note_on(38, 0.5, 9));
-    for (note, velocity) in [(38, 0.0), (38, -1.0), (38, f32::NAN), (42, 1.0), (200, 1.0)] {
+    for (note, velocity) in [(38, 0.0), (38, -1.0), (38, f32::NAN), (39, 1.0), (200, 1.0)] {
         assert!(!performer.note_on(note, velocity, 0), "{note} at {velocity}");
     }
     let mut snapshot = KitSnapshot::default();

@@ -14,6 +14,9 @@ const CRASH: u8 = 49;
 const RIDE: u8 = 51;
 const RIDE_BELL: u8 = 53;
 const SPLASH: u8 = 55;
+const HAT: u8 = 42;
+const OPEN_HAT: u8 = 46;
+const PEDAL: u8 = 44;
 
 /// One bar: lines with what they strike.
 type Bar = &'static [(u8, &'static str)];
@@ -26,15 +29,20 @@ const PICKUP: Bar = &[
     (SIDE_STICK, "o...o..........."),
 ];
 
-/// Time on the ride's bow.
-const A: Bar = &[(RIDE, "x.-.o.--x.-.o.-."), (SNARE, ".g.gX..g.g.gX.g."), (KICK, "x.....x.x.o.....")];
+/// Time on the closed hi-hat.
+const A: Bar = &[(HAT, "x.-.o.--x.-.o.-."), (SNARE, ".g.gX..g.g.gX.g."), (KICK, "x.....x.x.o.....")];
 
-/// The same with the kick displaced.
-const A_ANSWER: Bar = &[(RIDE, "x.-.o.-.x.--o.-."), (SNARE, ".g..X.gg.g..X..g"), (KICK, "x..o....x.x..o..")];
+/// The same with the kick displaced; the hi-hat opens at the end.
+const A_ANSWER: Bar = &[
+    (HAT, "x.-.o.-.x.--o..."),
+    (OPEN_HAT, "..............o."),
+    (SNARE, ".g..X.gg.g..X..g"),
+    (KICK, "x..o....x.x..o.."),
+];
 
 /// Ends four bars: the last beat goes down the toms.
 const A_TURN: Bar = &[
-    (RIDE, "x.-.o.-.x......."),
+    (HAT, "x.-.o.-.x......."),
     (SNARE, ".g.gX..g..xoX..."),
     (RACK_TOM, "............xo.."),
     (FLOOR_TOM, "..............ox"),
@@ -50,8 +58,13 @@ const A_FILL: Bar = &[
     (SPLASH, "..X............."),
 ];
 
-/// Time on the bell, a busier foot.
-const B: Bar = &[(RIDE_BELL, "X.-.x.-.X.-.x.-."), (SNARE, "..ggX.g..g.gX.gg"), (KICK, "x..x..x..xx...x.")];
+/// Time on the bell, busier feet: the left one closes the hi-hat on two and four.
+const B: Bar = &[
+    (RIDE_BELL, "X.-.x.-.X.-.x.-."),
+    (SNARE, "..ggX.g..g.gX.gg"),
+    (KICK, "x..x..x..xx...x."),
+    (PEDAL, "....o.......o..."),
+];
 
 /// The same with bow between the bells and a splash.
 const B_ANSWER: Bar = &[
@@ -60,6 +73,7 @@ const B_ANSWER: Bar = &[
     (SNARE, ".g..X.g.gg..X.g."),
     (SPLASH, "..............X."),
     (KICK, "x.x...x..xx....x"),
+    (PEDAL, "....o.......o..."),
 ];
 
 /// Ends four bars of B: flams and toms in sixes over the beat.
@@ -77,7 +91,7 @@ const B_FILL: Bar =
 
 /// Trading: time for half a bar, toms for the other.
 const TRADE: Bar = &[
-    (RIDE, "x.-.o.-........."),
+    (HAT, "x.-.o.-........."),
     (SNARE, ".g.gX..g.......f"),
     (RACK_TOM, "........X.xoX.x."),
     (FLOOR_TOM, "..........X..x.X"),
@@ -137,7 +151,7 @@ const FORM: [(Bar, bool); 21] = [
 
 /// What the feet and the hands play, by tick.
 pub struct Score {
-    /// The kick.
+    /// The kick and the hi-hat's pedal.
     pub feet: Vec<Stroke>,
     /// Everything else.
     pub hands: Vec<Stroke>,
@@ -152,10 +166,10 @@ impl Score {
             let start = number as u32 * BAR;
             for &(key, line) in bar {
                 for (place, mark) in line.chars().enumerate() {
-                    let crashed = crash && place == 0 && (key == RIDE || key == RIDE_BELL);
+                    let crashed = crash && place == 0 && matches!(key, RIDE | RIDE_BELL | HAT);
                     let key = if crashed { CRASH } else { key };
                     let mark = if crashed { 'X' } else { mark };
-                    let track = if key == KICK { &mut feet } else { &mut hands };
+                    let track = if key == KICK || key == PEDAL { &mut feet } else { &mut hands };
                     player.play(track, start + place as u32 * SIXTEENTH, key, mark);
                 }
             }

@@ -85,7 +85,7 @@ pub fn figures(piece: PieceId) -> &'static [Figure] {
         PieceId::Crash => &CRASH,
         PieceId::Ride => &RIDE,
         PieceId::Splash => &SPLASH,
-        PieceId::Timpani => &[],
+        PieceId::Timpani | PieceId::HiHat => &[],
     }
 }
 
@@ -97,7 +97,7 @@ pub fn slope(piece: PieceId) -> Option<Slope> {
         // 1.2 to 1.5.
         PieceId::RackTom | PieceId::FloorTom => (Feature::CentroidFirst, 1.35),
         PieceId::Crash => (Feature::CentroidSecond, 1.5),
-        PieceId::Ride | PieceId::Splash | PieceId::Timpani => return None,
+        PieceId::Ride | PieceId::Splash | PieceId::Timpani | PieceId::HiHat => return None,
     };
     Some(Slope { feature, octaves })
 }

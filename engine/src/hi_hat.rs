@@ -1,0 +1,404 @@
+//! A hi-hat: two cymbals face to face, a rod, and a foot.
+//!
+//! ```text
+//! foot --> rod --> clutch --> upper cymbal (shell, heave, tilt) <-- strikers
+//!                                   | 16 contacts around the rim
+//!                 floor --> seat --> lower cymbal (shell, heave, tilt)
+//! ```
+//!
+//! Model: two shallow [cymbals](crate::cymbal), the lower one upside down and a little tilted, as stands hold it, so
+//! that closed by a foot they do not trap the air. The upper one hangs in a clutch on the rod, the lower one
+//! lies on a seat, both on felts: springs and dampers on which they move as a whole ([`rigid`]). Where the rims meet
+//! they press on each other by the law of every contact ([`pair`]). The upper cymbal's modes are coupled by its
+//! stretching as those of any other; the lower one's are not.
+//!
+//! The pedal is one control: from 0, the rims [`GAP`] apart, to [`TOUCHING`], where they would meet were they not
+//! tilted, to 1, pressed together by [`CLAMPING`]. Open, loose, half, tight are places of it. What it does is the
+//! [foot's](foot) to decide: it moves with a speed, and how the rims meet is how that sounds.
+//!
+//! Nobody has published one in real time; the parts are as elsewhere in this crate. Energy: all contacts are
+//! discrete gradients of one potential, solved together with the strikers through both bodies.
+
+pub mod balance;
+pub mod edge;
+pub mod foot;
+pub mod half;
+pub mod pair;
+pub mod rigid;
+pub mod rims;
+mod step;
+
+use std::f64::consts::TAU;
+
+use crate::contact::{ContactLaw, Material, Tip};
+use crate::cymbal::{self, CymbalSpec};
+use crate::damping::{LossLaw, Muffler, SIGMA_T60};
+use crate::error::SpecError;
+use crate::glide::Glide;
+use crate::listening::ListeningPoint;
+use crate::modal::Mode;
+use crate::piece::{BuildOptions, ModeInfo, ModeKind};
+use crate::plate::PlateSpec;
+use crate::split::Splitting;
+use crate::surface::{Surface, SurfaceParts};
+
+use foot::SPEED;
+use half::{Damping, Half, Struck};
+use pair::{Pair, PairParts};
+use rigid::{Mount, Rigid};
+
+/// Places around the rims where they may touch.
+pub const POINTS: usize = 16;
+
+/// Mean distance of the rims while the pedal is up, m. *Literature*: players set 2 to 4 cm.
+pub const GAP: f64 = 0.030;
+
+/// Where on the pedal's way rims that are not tilted would touch. *By ear*: most of what a foot does happens
+/// about there.
+pub const TOUCHING: f64 = 0.6;
+
+/// Force at the pedal's end, N. *Derived*: a seventh of a drummer's weight.
+pub const CLAMPING: f64 = 100.0;
+
+/// A hi-hat's description.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HiHatSpec {
+    /// The upper cymbal; what it is held by is the clutch.
+    pub top: CymbalSpec,
+    /// The lower cymbal; what it is held by is the seat.
+    pub bottom: CymbalSpec,
+    /// What holds the upper cymbal on the rod.
+    pub clutch: Mount,
+    /// What holds the lower cymbal.
+    pub seat: Mount,
+    /// How far the lower cymbal leans, rad.
+    pub tilt: f64,
+    /// Toward where, rad.
+    pub toward: f64,
+    /// Radius of the rims where they meet, m.
+    pub edge: f64,
+    /// Restitution of a landing.
+    pub restitution: f64,
+    /// Decay rate that rims which are clamped together add to every mode of both.
+    pub rubbing: LossLaw,
+    /// Clamping force at which they rub half as much, N.
+    pub half_rubbing: f64,
+    /// Speed of a landing that a touch that lasts is as lossy as, m/s.
+    pub lasting: f64,
+}
+
+impl Default for HiHatSpec {
+    fn default() -> HiHatSpec {
+        let half = |plate, seed| CymbalSpec {
+            plate,
+            loss: LossLaw { constant: 1.0, per_khz: 0.06 },
+            muffler: Muffler::Gel { sigma: 40.0, radius: 0.85, angle: 2.3 },
+            splitting: Splitting { seed, ..Splitting::CYMBAL },
+            ..CymbalSpec::crash()
+        };
+        HiHatSpec {
+            top: half(PlateSpec::HI_HAT_TOP, 5),
+            bottom: half(PlateSpec::HI_HAT_BOTTOM, 6),
+            clutch: Mount { bounce_hz: 60.0, rock_hz: 6.0, q: 2.0, damping: 0.5, reach: 0.08 },
+            seat: Mount { bounce_hz: 50.0, rock_hz: 12.0, q: 2.0, damping: 0.5, reach: 0.12 },
+            tilt: 0.009,
+            toward: 2.0,
+            edge: 1e-3,
+            restitution: 0.2,
+            rubbing: LossLaw { constant: 17.0, per_khz: 1.1 },
+            half_rubbing: 25.0,
+            lasting: 0.02,
+        }
+    }
+}
+
+impl HiHatSpec {
+    /// The same heard from two points: near, and in which direction from far.
+    pub fn heard_at(self, listening_point: ListeningPoint, far_point: ListeningPoint) -> HiHatSpec {
+        let heard = |cymbal: CymbalSpec| CymbalSpec { listening_point, far_point, ..cymbal };
+        HiHatSpec { top: heard(self.top), bottom: heard(self.bottom), ..self }
+    }
+}
+
+/// A hi-hat that can be struck and stepped on.
+pub struct HiHat {
+    surface: Surface,
+    halves: [Half; 2],
+    lossless: bool,
+    tuning: Glide,
+    muffling: Glide,
+    hand: Glide,
+    /// How much the rims rub, 0 to 1, and the clamping force at which they do half as much, N.
+    rubbing: f64,
+    half_rubbing: f64,
+    stale: bool,
+    /// Place of the rod at the pedal's end, m.
+    closed: f64,
+    pedal: f64,
+}
+
+impl HiHat {
+    /// Builds a hi-hat, pedal up. Allocates; takes some tenths of a second.
+    ///
+    /// # Errors
+    /// [`SpecError`] if a number is out of range.
+    pub fn new(spec: &HiHatSpec, options: &BuildOptions) -> Result<HiHat, SpecError> {
+        SpecError::check("hi-hat tilt (rad)", spec.tilt, 0.0, 0.05)?;
+        SpecError::check("rim's radius (m)", spec.edge, 1e-4, 1e-2)?;
+        let highest = options.quality.coupled_hz().min(cymbal::COUPLED_SHARE_OF_RATE * options.sample_rate);
+        let coupled_hz = (!options.linear).then_some(highest);
+        let (top, struck) = Half::new(&spec.top, (&spec.clutch, spec.rubbing), coupled_hz, options)?;
+        let (bottom, _) = Half::new(&spec.bottom, (&spec.seat, spec.rubbing), None, options)?;
+        let (surface, halves) = assemble(spec, options, [top, bottom], struck);
+        let (low, tuning, high) = CymbalSpec::TUNING;
+        let mut hat = HiHat {
+            surface,
+            halves,
+            lossless: options.lossless,
+            tuning: Glide::new(tuning, low, high),
+            muffling: Glide::new(0.0, 0.0, 1.0),
+            hand: Glide::new(0.0, 0.0, 1.0),
+            rubbing: 0.0,
+            half_rubbing: spec.half_rubbing,
+            stale: true,
+            closed: GAP,
+            pedal: 0.0,
+        };
+        hat.follow_controls();
+        hat.closed = hat.find_closed();
+        Ok(hat)
+    }
+
+    /// Where the rod is when the rims press on each other with [`CLAMPING`], m.
+    fn find_closed(&self) -> f64 {
+        let clamping = |y: f64| self.surface.pair().map_or(CLAMPING, |pair| pair.clamping(y));
+        let (mut low, mut high) = (GAP, GAP + 0.05);
+        for _ in 0..40 {
+            let middle = 0.5 * (low + high);
+            if clamping(middle) < CLAMPING {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        0.5 * (low + high)
+    }
+
+    /// Where the rod is with the pedal at a place, 0 to 1; m.
+    ///
+    /// Finer where the rims are about to touch: there a millimetre is what a centimetre is when they are far apart.
+    fn rod(&self, pedal: f64) -> f64 {
+        if pedal < TOUCHING {
+            GAP * (1.0 - (1.0 - pedal / TOUCHING).powi(2))
+        } else {
+            GAP + (self.closed - GAP) * ((pedal - TOUCHING) / (1.0 - TOUCHING)).powi(2)
+        }
+    }
+
+    /// The upper cymbal and what is about it.
+    pub fn surface(&self) -> &Surface {
+        &self.surface
+    }
+
+    /// The upper cymbal and what is about it.
+    pub fn surface_mut(&mut self) -> &mut Surface {
+        &mut self.surface
+    }
+
+    /// Where the pedal has been asked to be, 0 (up) to 1 (down).
+    pub fn pedal(&self) -> f64 {
+        self.pedal
+    }
+
+    /// Brings the pedal to a place, 0 (up) to 1 (down), at up to a speed (m/s, see [`SPEED`]).
+    ///
+    /// # Real-time
+    /// No allocation; linear in the number of modes.
+    pub fn press(&mut self, pedal: f64, speed: f64) {
+        if pedal.is_nan() || speed.is_nan() {
+            return;
+        }
+        let pedal = pedal.clamp(0.0, 1.0);
+        if pedal == self.pedal && speed == SPEED.1 {
+            return;
+        }
+        self.pedal = pedal;
+        let rod = self.rod(pedal);
+        self.surface.move_pedal(|foot| foot.go(rod, speed));
+    }
+
+    /// Brings the pedal down at up to a speed (m/s); a foot that is down already lifts first, as fast as it can.
+    ///
+    /// # Real-time
+    /// No allocation; linear in the number of modes.
+    pub fn stamp(&mut self, speed: f64) {
+        if speed.is_nan() {
+            return;
+        }
+        self.pedal = 1.0;
+        let closed = self.closed;
+        self.surface.move_pedal(|foot| foot.stamp(GAP - LIFT, closed, speed));
+    }
+
+    /// Brings the rims together at up to a speed (m/s) and the pedal up again at once, to where it was.
+    ///
+    /// # Real-time
+    /// No allocation; linear in the number of modes.
+    pub fn splash(&mut self, speed: f64) {
+        if speed.is_nan() {
+            return;
+        }
+        // Rims that are pressed together have to come apart to ring.
+        self.pedal = self.pedal.min(SPLASHING);
+        let rod = self.rod(self.pedal);
+        self.surface.move_pedal(|foot| foot.turn(GAP + SPLASH_DEPTH, rod, speed));
+    }
+
+    /// Asks for a ratio of all frequencies to the cymbals' own.
+    pub fn set_tuning(&mut self, ratio: f64) {
+        self.tuning.set(ratio);
+    }
+
+    /// Asks for muffling, 0 to 1.
+    pub fn set_muffling(&mut self, amount: f64) {
+        self.muffling.set(amount);
+    }
+
+    /// Lets a hand take hold of both edges (firmly at 1) or let go (0).
+    pub fn choke(&mut self, strength: f64) {
+        self.hand.set(strength);
+    }
+
+    /// Lets the controls glide for `seconds`.
+    pub fn advance_controls(&mut self, seconds: f64) {
+        let moved = [&mut self.tuning, &mut self.muffling].map(|glide| glide.advance(seconds));
+        self.stale |= moved.contains(&true) | self.hand.advance(seconds / cymbal::Hand::SLOWER);
+    }
+
+    /// Lets the controls arrive at once, and the pedal.
+    pub fn finish_controls(&mut self) {
+        let moved = [&mut self.tuning, &mut self.muffling, &mut self.hand].map(Glide::jump);
+        self.stale |= moved.contains(&true);
+        self.surface.rest_pedal();
+        let rubbing = self.rubbing_now();
+        self.stale |= rubbing != self.rubbing;
+        self.rubbing = rubbing;
+        self.follow_controls();
+    }
+
+    /// How much the rims rub where they are, 0 to 1.
+    fn rubbing_now(&self) -> f64 {
+        let clamped = self.surface.pair().map_or(0.0, Pair::clamped);
+        clamped / (clamped + self.half_rubbing)
+    }
+
+    /// Brings the modes to where the controls are.
+    ///
+    /// # Real-time
+    /// Nothing while they rest; linear in the number of modes while they move.
+    pub fn follow_controls(&mut self) {
+        let rubbing = self.rubbing_now();
+        if (rubbing - self.rubbing).abs() > RUBBING_STEP {
+            (self.rubbing, self.stale) = (rubbing, true);
+        }
+        if !std::mem::take(&mut self.stale) {
+            return;
+        }
+        let tuning = self.tuning.value();
+        let damping = Damping {
+            muffling: self.muffling.value(),
+            hand: self.hand.value(),
+            rubbing: self.rubbing,
+            lossless: self.lossless,
+        };
+        let [top, bottom] = &self.halves;
+        self.surface.retune_pair(|k, _: &Mode| top.mode(k, tuning, &damping), &|k, _: &Mode| {
+            bottom.mode(k, tuning, &damping)
+        });
+        // A stiffer metal resists stretching as it resists bending.
+        if let Some(force) = self.surface.beyond_mut() {
+            force.set_stiffness(tuning * tuning);
+        }
+    }
+
+    /// Every mode as it is now.
+    pub fn modes(&self) -> Vec<ModeInfo> {
+        let bodies = [
+            ("top", Some(self.surface.body()), &self.halves[0]),
+            ("bottom", self.surface.pair().map(Pair::bottom), &self.halves[1]),
+        ];
+        let rows = bodies.into_iter().filter_map(|(name, body, half)| Some((name, body?, half)));
+        rows.flat_map(|(name, body, half)| {
+            body.modes().iter().zip(&half.modes).map(move |(mode, built)| ModeInfo {
+                body: name,
+                m: built.m,
+                n: built.n,
+                member: built.member,
+                frequency_hz: mode.omega_d() / TAU,
+                t60: SIGMA_T60 / mode.sigma,
+                modal_mass: half.mass,
+                radiation: built.monopole_area,
+                kind: ModeKind::Complete,
+            })
+        })
+        .collect()
+    }
+}
+
+/// A splash leaves the pedal no farther down than this: the rims well apart.
+pub const SPLASHING: f64 = 0.2;
+
+/// Change of the rubbing that the modes follow: to follow every one would cost a block's time while the pedal moves.
+const RUBBING_STEP: f64 = 0.01;
+
+/// How far apart a foot that is down lifts the rims before it stamps, m. *By ear*: enough to be heard to close.
+const LIFT: f64 = 3e-3;
+
+/// How far beyond the first touch a splash brings the rod, m. *By ear*: all around the tilted rims touch.
+const SPLASH_DEPTH: f64 = 0.0;
+
+/// The upper cymbal as what is struck, with all else hung on it.
+fn assemble(
+    spec: &HiHatSpec,
+    options: &BuildOptions,
+    [mut top, mut bottom]: [Half; 2],
+    struck: Struck,
+) -> (Surface, [Half; 2]) {
+    let lossless = options.lossless;
+    let undamped = Damping { muffling: 0.0, hand: 0.0, rubbing: 0.0, lossless: true };
+    let bare = |half: &Half| (0..half.modes.len()).map(|k| half.mode(k, 1.0, &undamped)).collect();
+    let mut surface = Surface::new(SurfaceParts {
+        modes: bare(&top),
+        shapes: struck.shapes,
+        transfer: vec![[0.0; 2]; top.modes.len()],
+        material: spec.top.material,
+        lossless,
+        sample_rate: options.sample_rate,
+    });
+    let [near, far] = std::mem::take(&mut top.transfers);
+    surface.set_transfers(near.into_iter(), far.into_iter());
+    if let Some((potential, modes, highest_hz)) = struck.coupled {
+        surface.set_potential(
+            Box::new(potential),
+            modes,
+            cymbal::coupling_stride(highest_hz, options.sample_rate),
+        );
+    }
+    let tip = Tip::Solid { material: Material::BRONZE, radius: spec.edge };
+    let law = ContactLaw::new(&tip, &spec.bottom.material, if lossless { 1.0 } else { spec.restitution });
+    let leaning = spec.top.plate.radius() * spec.tilt;
+    let dt = 1.0 / options.sample_rate;
+    let rigid = [(&top, &spec.clutch), (&bottom, &spec.seat)]
+        .map(|(half, mount)| Rigid::new(half.mass, mount, lossless, dt));
+    surface.set_pair(Pair::new(PairParts {
+        bottom: bare(&bottom),
+        transfers: std::mem::take(&mut bottom.transfers),
+        folded: [std::mem::take(&mut top.folded), std::mem::take(&mut bottom.folded)],
+        rigid,
+        law,
+        lasting_loss: law.lambda(spec.lasting),
+        depth: std::array::from_fn(|j| GAP + leaning * (edge::angle(j) - spec.toward).cos()),
+        sample_rate: options.sample_rate,
+    }));
+    (surface, [top, bottom])
+}

@@ -1,0 +1,100 @@
+//! Places around a rim, and the classes of waves that they can tell apart.
+
+use std::f64::consts::TAU;
+
+use crate::modal::folded::ClassCompliances;
+use crate::modal::simd::folded::{Amplitudes, MAX_CLASSES};
+
+use super::POINTS;
+
+const _: () = assert!(POINTS / 2 < MAX_CLASSES);
+
+/// Direction of a place, rad.
+pub fn angle(place: usize) -> f64 {
+    TAU * place as f64 / POINTS as f64
+}
+
+/// Classes of waves.
+const CLASSES: usize = POINTS / 2 + 1;
+
+/// Cosine and sine of every class's wave, `[class][cosine, sine][place]`.
+static WAVES: [[[f64; POINTS]; 2]; CLASSES] = {
+    // Of pi / 8 and its multiples; all others by symmetry.
+    const A: f64 = 0.923_879_532_511_286_8;
+    const B: f64 = std::f64::consts::FRAC_1_SQRT_2;
+    const C: f64 = 0.382_683_432_365_089_8;
+    const COSINES: [f64; POINTS] = [1.0, A, B, C, 0.0, -C, -B, -A, -1.0, -A, -B, -C, 0.0, C, B, A];
+    let mut waves = [[[0.0; POINTS]; 2]; CLASSES];
+    let mut class = 0;
+    while class < CLASSES {
+        let mut place = 0;
+        while place < POINTS {
+            let turn = class * place % POINTS;
+            waves[class][0][place] = COSINES[turn];
+            // A sine is the cosine a quarter of a turn before.
+            waves[class][1][place] = COSINES[(turn + 3 * POINTS / 4) % POINTS];
+            place += 1;
+        }
+        class += 1;
+    }
+    waves
+};
+
+/// What amplitudes amount to at each place.
+#[inline(always)]
+pub fn at_points(amplitudes: &Amplitudes) -> [f64; POINTS] {
+    let mut out = [0.0; POINTS];
+    for (amplitude, waves) in amplitudes.iter().flatten().zip(WAVES.as_flattened()) {
+        let amplitude = f64::from(*amplitude);
+        for (out, wave) in out.iter_mut().zip(waves) {
+            *out += amplitude * wave;
+        }
+    }
+    out
+}
+
+/// What forces at the places (N) amount to on each amplitude.
+#[inline(always)]
+pub fn amplitudes(forces: &[f64; POINTS]) -> Amplitudes {
+    let mut out = Amplitudes::default();
+    for (out, waves) in out.as_flattened_mut().iter_mut().zip(WAVES.as_flattened()) {
+        // Sums side by side, so that the compiler may use all lanes.
+        let mut sums = [0.0; 4];
+        for (force, wave) in forces.as_chunks::<4>().0.iter().zip(waves.as_chunks::<4>().0) {
+            for i in 0..4 {
+                sums[i] += force[i] * wave[i];
+            }
+        }
+        *out = (sums[0] + sums[1] + sums[2] + sums[3]) as f32;
+    }
+    out
+}
+
+/// Compliance between each two places, m/N.
+pub fn between_points(classes: &ClassCompliances) -> [[f64; POINTS]; POINTS] {
+    let mut out = [[0.0; POINTS]; POINTS];
+    for (yields, waves) in classes.iter().zip(&WAVES) {
+        for (i, row) in out.iter_mut().enumerate() {
+            for (j, out) in row.iter_mut().enumerate() {
+                let to = |k: usize| yields[k][0] * waves[0][j] + yields[k][1] * waves[1][j];
+                *out += waves[0][i] * to(0) + waves[1][i] * to(1);
+            }
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn waves_are_cosines_and_sines() {
+        for (class, [cosines, sines]) in WAVES.iter().enumerate() {
+            for (place, (cos, sin)) in cosines.iter().zip(sines).enumerate() {
+                let (want_sin, want_cos) = (class as f64 * angle(place)).sin_cos();
+                assert!((cos - want_cos).abs() < 1e-14 && (sin - want_sin).abs() < 1e-14);
+            }
+        }
+    }
+}

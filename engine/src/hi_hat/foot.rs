@@ -1,0 +1,184 @@
+//! The foot on the pedal: how the rod gets from where it is to where it is asked to be.
+//!
+//! Model: foot and pedal are a mass on a critically damped spring, the leg, that no force from above stops;
+//! and a foot has a fastest speed. A pedal that is sent in steps, as controllers do, thus moves smoothly and as
+//! fast as the steps come, and how hard two cymbals meet follows from how fast they are brought together.
+//!
+//! Coordinates: `y` is how far the rod is down from where the pedal is up, m.
+
+/// Stiffness of the leg over the mass it moves, as a rate, 1/s. *By ear*: half a movement takes 8 ms, short
+/// enough to be played, long enough that no step of a controller is heard.
+const LEG: f64 = 200.0;
+
+/// Slowest, default and fastest speed of a foot, m/s. *Derived*: from lowering it to a stamp; a foot falls the
+/// 3 cm between open and closed at 0.8 m/s by itself.
+pub const SPEED: (f64, f64, f64) = (0.02, 1.0, 2.5);
+
+/// So close (m) and so slow (m/s) is there.
+const THERE: (f64, f64) = (1e-7, 1e-5);
+
+/// A foot and the rod it moves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Foot {
+    /// Place of the rod, m.
+    y: f64,
+    /// Its speed, m/s.
+    v: f64,
+    target: f64,
+    fastest: f64,
+    turn: Option<Turn>,
+    /// Where a stamp ends, m.
+    end: Option<f64>,
+}
+
+/// Where to turn, and where to go then, m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Turn {
+    at: f64,
+    then: f64,
+    /// Whether the way to the turn is down.
+    down: bool,
+    /// Whether the way from there is a stamp.
+    stamps: bool,
+}
+
+impl Foot {
+    /// At rest.
+    pub fn new(y: f64) -> Foot {
+        Foot { y, v: 0.0, target: y, fastest: SPEED.1, turn: None, end: None }
+    }
+
+    /// How far down the rod is, m.
+    pub fn place(&self) -> f64 {
+        self.y
+    }
+
+    /// How fast it goes down, m/s.
+    pub fn speed(&self) -> f64 {
+        self.v
+    }
+
+    /// Whether it moves or is about to.
+    pub fn moves(&self) -> bool {
+        self.y != self.target || self.v != 0.0
+    }
+
+    /// Sets out for a place (m) at up to a speed (m/s).
+    pub fn go(&mut self, target: f64, fastest: f64) {
+        (self.target, self.fastest) = (target, fastest.clamp(SPEED.0, SPEED.2));
+        (self.turn, self.end) = (None, None);
+    }
+
+    /// Goes down to a place (m) at up to a speed (m/s) and does not slow down before: what is there stops it. One
+    /// that is lower than `from` (m) goes up there first.
+    pub fn stamp(&mut self, from: f64, target: f64, fastest: f64) {
+        if self.y > from {
+            self.turn(from, target, fastest);
+            self.turn.iter_mut().for_each(|turn| turn.stamps = true);
+        } else {
+            self.go(target + 2.0 * fastest / LEG, fastest);
+            self.end = Some(target);
+        }
+    }
+
+    /// Goes past `at` (m) at up to a speed (m/s), and from there at once to `then` (m).
+    pub fn turn(&mut self, at: f64, then: f64, fastest: f64) {
+        let down = at > self.y;
+        // Aimed beyond, so as not to slow down before the turn.
+        let beyond = 2.0 * fastest / LEG;
+        self.go(if down { at + beyond } else { at - beyond }, fastest);
+        self.turn = Some(Turn { at, then, down, stamps: false });
+    }
+
+    /// Is there at once.
+    pub fn jump(&mut self) {
+        self.target = self.turn.take().map(|turn| turn.then).or(self.end.take()).unwrap_or(self.target);
+        (self.y, self.v) = (self.target, 0.0);
+    }
+
+    /// Lets a sample pass.
+    pub fn step(&mut self, dt: f64) {
+        if !self.moves() {
+            return;
+        }
+        let pull = LEG * (LEG * (self.target - self.y) - 2.0 * self.v);
+        self.v = (self.v + pull * dt).clamp(-self.fastest, self.fastest);
+        self.y += self.v * dt;
+        if let Some(turn) = self.turn.filter(|turn| (self.y >= turn.at) == turn.down) {
+            // On the way down the cymbals stop it.
+            (self.target, self.turn, self.v) = (turn.then, None, 0.0);
+            if turn.stamps {
+                self.stamp(self.y, turn.then, self.fastest);
+            }
+        }
+        if let Some(end) = self.end.filter(|&end| self.y >= end) {
+            (self.y, self.v, self.target, self.end) = (end, 0.0, end, None);
+        }
+        if (self.y - self.target).abs() < THERE.0 && self.v.abs() < THERE.1 {
+            (self.y, self.v) = (self.target, 0.0);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DT: f64 = 1.0 / 44_100.0;
+
+    #[test]
+    fn a_foot_arrives_and_never_goes_faster_than_it_may() {
+        for fastest in [0.1, 0.5, 2.0] {
+            let mut foot = Foot::new(0.0);
+            foot.go(0.03, fastest);
+            let (mut most, mut samples) = (0.0_f64, 0);
+            while foot.moves() {
+                foot.step(DT);
+                most = most.max(foot.speed().abs());
+                samples += 1;
+                assert!(samples < 44_100, "never there");
+                assert!(foot.place() < 0.03 + 1e-6, "beyond");
+            }
+            assert!(most <= fastest && most > 0.9 * fastest, "{fastest}: {most}");
+            assert_eq!(foot.place(), 0.03);
+        }
+    }
+
+    #[test]
+    fn a_foot_that_turns_comes_back() {
+        let mut foot = Foot::new(0.0);
+        foot.turn(0.03, 0.005, 1.0);
+        let mut deepest = 0.0_f64;
+        while foot.moves() {
+            foot.step(DT);
+            deepest = deepest.max(foot.place());
+        }
+        assert!(deepest > 0.03 && deepest < 0.036, "{deepest}");
+        assert_eq!(foot.place(), 0.005);
+        foot.turn(0.001, 0.01, 1.0);
+        let mut highest = 1.0_f64;
+        while foot.moves() {
+            foot.step(DT);
+            highest = highest.min(foot.place());
+        }
+        assert!(highest < 0.001 && highest > -0.006, "{highest}");
+        assert_eq!(foot.place(), 0.01);
+    }
+
+    #[test]
+    fn a_stamp_arrives_at_speed_and_one_that_is_down_lifts_first() {
+        let mut foot = Foot::new(0.0);
+        for _ in 0..2 {
+            foot.stamp(0.027, 0.031, 1.5);
+            let (mut highest, mut arriving) = (foot.place(), 0.0);
+            while foot.moves() {
+                arriving = foot.speed();
+                foot.step(DT);
+                highest = highest.min(foot.place());
+            }
+            assert!(arriving > 0.7, "{arriving} m/s");
+            assert!(highest <= 0.027, "{highest}");
+            assert_eq!(foot.place(), 0.031);
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! A cymbal moving as a whole on its rod or seat: up and down, and tilting either way.
+//!
+//! Model: three masses on springs. In units of the tilt's displacement `q`, of unit mean square over the disc,
+//! the disc moves by `2 r q cos(theta)` at the share `r` of its radius, and `q` has the mass of the cymbal. In
+//! `f64`, for the way down to the other cymbal is ten thousand times what their contacts give.
+
+use std::f64::consts::TAU;
+
+use crate::surface::oscillator::Oscillator;
+
+/// How much a place feels of heave and of both tilts.
+pub type Weights = [f64; 3];
+
+/// What holds a cymbal at its centre: felts, as springs and dampers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mount {
+    /// Frequency at which the cymbal bounces on it, Hz.
+    pub bounce_hz: f64,
+    /// Frequency at which it rocks, Hz.
+    pub rock_hz: f64,
+    /// Quality factor of both.
+    pub q: f64,
+    /// Decay rate that the felts add to a mode of unit mean square under them, 1/s.
+    pub damping: f64,
+    /// How far out they reach, share of the radius.
+    pub reach: f64,
+}
+
+/// A cymbal as a stiff body on its mount.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rigid {
+    parts: [Oscillator; 3],
+    stiffness: [f64; 3],
+    /// Force per speed of the mount, N s/m.
+    damping: f64,
+}
+
+impl Rigid {
+    /// A cymbal of that mass (kg), at rest.
+    pub fn new(mass: f64, mount: &Mount, lossless: bool, dt: f64) -> Rigid {
+        let omegas = [mount.bounce_hz, mount.rock_hz, mount.rock_hz].map(|hz| TAU * hz);
+        let sigma = |omega: f64| if lossless { 0.0 } else { omega / (2.0 * mount.q) };
+        Rigid {
+            parts: omegas.map(|omega| Oscillator::sprung(mass, omega, sigma(omega), dt)),
+            stiffness: omegas.map(|omega| mass * omega * omega),
+            damping: 2.0 * sigma(omegas[0]) * mass,
+        }
+    }
+
+    /// What a place at `radius` (share of it) in direction `angle` (rad) feels.
+    pub fn weights(radius: f64, angle: f64) -> Weights {
+        let (sin, cos) = angle.sin_cos();
+        [1.0, 2.0 * radius * cos, 2.0 * radius * sin]
+    }
+
+    /// Displacement of a place, m.
+    pub fn at(&self, weights: &Weights) -> f64 {
+        self.parts.iter().zip(weights).map(|(part, weight)| part.q * weight).sum()
+    }
+
+    /// Heave and tilts, m.
+    pub fn place(&self) -> [f64; 3] {
+        self.parts.map(|part| part.q)
+    }
+
+    /// Is at rest there.
+    pub fn put(&mut self, place: &[f64; 3]) {
+        for (part, &q) in self.parts.iter_mut().zip(place) {
+            (part.q, part.v) = (q, 0.0);
+        }
+    }
+
+    /// Heave's speed, m/s; for tests.
+    pub fn set_speed(&mut self, speed: [f64; 3]) {
+        self.parts.iter_mut().zip(speed).for_each(|(part, v)| part.v = v);
+    }
+
+    /// How far a unit force held over a sample at one place has moved another by its end, m/N.
+    pub fn compliance(&self, a: &Weights, b: &Weights) -> f64 {
+        self.parts.iter().zip(a.iter().zip(b)).map(|(part, (a, b))| a * b * part.compliance()).sum()
+    }
+
+    /// How far a steady unit force at one place moves another, m/N.
+    pub fn steady_compliance(&self, a: &Weights, b: &Weights) -> f64 {
+        self.stiffness.iter().zip(a.iter().zip(b)).map(|(stiffness, (a, b))| a * b / stiffness).sum()
+    }
+
+    /// Advances a sample without force.
+    pub fn step(&mut self) {
+        self.parts.iter_mut().for_each(Oscillator::step);
+    }
+
+    /// Adds what a force (N), held over the sample just stepped, did.
+    pub fn push(&mut self, weights: &Weights, force: f64) {
+        self.parts.iter_mut().zip(weights).for_each(|(part, weight)| part.push(weight * force));
+    }
+
+    /// Force with which the mount, held at `y` and moving at `v`, draws the heave, N, beside the spring
+    /// to zero that the body has of itself; and of it the damper's share.
+    pub fn drawn(&self, y: f64, v: f64) -> (f64, f64) {
+        let damper = self.damping * v;
+        (self.stiffness[0] * y + damper, damper)
+    }
+
+    /// Adds what many forces at once did, summed as each part feels them (N).
+    pub fn push_parts(&mut self, forces: &Weights) {
+        self.parts.iter_mut().zip(forces).for_each(|(part, force)| part.push(*force));
+    }
+
+    /// Energy with the mount held at `y`, J.
+    pub fn energy(&self, y: f64) -> f64 {
+        let absolute: f64 = self.parts.iter().map(Oscillator::energy).sum();
+        absolute + self.stiffness[0] * y * (0.5 * y - self.parts[0].q)
+    }
+
+    /// No place on the rim will be farther from where the cymbal rests with its mount at `y` than this, m, if left
+    /// alone.
+    pub fn reach(&self, y: f64) -> f64 {
+        let far = |part: &Oscillator, stiffness: f64, rest: f64| {
+            let spring = stiffness * (0.5 * rest * rest - rest * part.q);
+            (2.0 * (part.energy() + spring).max(0.0) / stiffness).sqrt()
+        };
+        let [heave, x, z] = &self.parts;
+        let [k_heave, k_x, k_z] = self.stiffness;
+        far(heave, k_heave, y) + 2.0 * far(x, k_x, 0.0).hypot(far(z, k_z, 0.0))
+    }
+
+    /// Whether all is a number.
+    pub fn is_finite(&self) -> bool {
+        self.parts.iter().all(|part| part.q.is_finite() && part.v.is_finite())
+    }
+}

@@ -1,0 +1,167 @@
+//! Modes of a round body at a few places spaced evenly around its rim.
+//!
+//! Of `2 (c - 1)` places nothing can tell an order `m` from the lowest order of the same remainder: each mode
+//! belongs to one of `c` classes, and all places together see of all modes only two amplitudes a class, one of the
+//! cosine and one of the sine. Reading every place thus costs what reading two would.
+
+use pulp::Simd;
+
+use super::{Kernel, Kernels, LANES};
+use crate::modal::{Row, zero_row};
+
+/// Most classes there can be.
+pub const MAX_CLASSES: usize = 9;
+
+/// Amplitude of the cosine and of the sine, `[class]`.
+pub type Amplitudes = [[f32; 2]; MAX_CLASSES];
+
+/// Which modes make up each amplitude.
+pub struct Folded {
+    /// Groups of lanes with modes of a class in them, class by class.
+    groups: Vec<Group>,
+    /// What a mode adds to its class's cosine and sine, [`LANES`] values for every group.
+    cos: Row,
+    sin: Row,
+}
+
+/// Some modes of one class.
+#[derive(Debug, Clone, Copy)]
+struct Group {
+    class: usize,
+    /// First of its lanes, in lanes.
+    lanes: usize,
+}
+
+impl Default for Folded {
+    /// Of no modes.
+    fn default() -> Folded {
+        Folded { groups: Vec::new(), cos: zero_row(0), sin: zero_row(0) }
+    }
+}
+
+impl Folded {
+    /// From every mode's class and its shares of the cosine and the sine, `[mode]`. Fastest where modes of a
+    /// class lie together. Allocates.
+    ///
+    /// # Panics
+    /// If there are more than [`MAX_CLASSES`] classes.
+    pub fn new(modes: &[(usize, [f64; 2])]) -> Folded {
+        assert!(modes.iter().all(|&(class, _)| class < MAX_CLASSES));
+        let mut groups = Vec::new();
+        for class in 0..MAX_CLASSES {
+            let present = modes.chunks(LANES).map(|some| some.iter().any(|mode| mode.0 == class));
+            let lanes = present.enumerate().filter(|&(_, any)| any);
+            groups.extend(lanes.map(|(lanes, _)| Group { class, lanes }));
+        }
+        let (mut cos, mut sin) = (zero_row(groups.len() * LANES), zero_row(groups.len() * LANES));
+        for (at, group) in groups.iter().enumerate() {
+            let members = modes.iter().skip(group.lanes * LANES).take(LANES).enumerate();
+            for (lane, &(_, [c, s])) in members.filter(|(_, mode)| mode.0 == group.class) {
+                (cos[at * LANES + lane], sin[at * LANES + lane]) = (c as f32, s as f32);
+            }
+        }
+        Folded { groups, cos, sin }
+    }
+
+    /// Square of every mode's amplitude at the rim, `(mode, square)`, but those that have none.
+    pub fn sizes(&self) -> impl Iterator<Item = (usize, f32)> + '_ {
+        let rows = self.cos.iter().zip(self.sin.iter()).enumerate();
+        rows.filter(|&(_, (&c, &s))| c != 0.0 || s != 0.0)
+            .map(|(at, (&c, &s))| (self.groups[at / LANES].lanes * LANES + at % LANES, c * c + s * s))
+    }
+
+    /// Every mode's share of its class, `(mode, class, [cosine, sine])`, but those that have none.
+    pub fn shares(&self) -> impl Iterator<Item = (usize, usize, [f64; 2])> + '_ {
+        let rows = self.cos.iter().zip(self.sin.iter()).enumerate();
+        rows.filter(|&(_, (&c, &s))| c != 0.0 || s != 0.0).map(|(at, (&c, &s))| {
+            let group = self.groups[at / LANES];
+            (group.lanes * LANES + at % LANES, group.class, [f64::from(c), f64::from(s)])
+        })
+    }
+}
+
+struct Gather<'a> {
+    folded: &'a Folded,
+    x: &'a [f32],
+}
+
+/// What [`Kernels::spread_folded`] works on; rows `[mode]`.
+pub struct Spread<'a> {
+    /// State.
+    pub re: &'a mut [f32],
+    /// State.
+    pub im: &'a mut [f32],
+    /// What a unit force held for a sample leaves.
+    pub hold_re: &'a [f32],
+    /// What a unit force held for a sample leaves.
+    pub hold_im: &'a [f32],
+}
+
+struct SpreadAll<'a, 'b> {
+    folded: &'a Folded,
+    forces: &'a Amplitudes,
+    body: Spread<'b>,
+}
+
+impl Kernels {
+    /// Sums a row `[mode]` into amplitudes; modes that it does not reach count as zero.
+    pub fn gather_folded(&self, folded: &Folded, x: &[f32]) -> Amplitudes {
+        self.run(Gather { folded, x })
+    }
+
+    /// Adds to a body's state what forces on the amplitudes do in a sample.
+    pub fn spread_folded(&self, folded: &Folded, forces: &Amplitudes, body: Spread<'_>) {
+        self.run(SpreadAll { folded, forces, body });
+    }
+}
+
+impl Kernel for Gather<'_> {
+    type Output = Amplitudes;
+    #[inline(always)]
+    fn with<S: Simd>(self, simd: S, fma: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s + Copy) -> Amplitudes {
+        let mut out = Amplitudes::default();
+        let x = S::as_simd_f32s(self.x).0;
+        let (cos, sin) = (S::as_simd_f32s(&self.folded.cos).0, S::as_simd_f32s(&self.folded.sin).0);
+        let per = LANES / S::F32_LANES;
+        let rows = cos.chunks_exact(per).zip(sin.chunks_exact(per));
+        let zero = simd.splat_f32s(0.0);
+        let (mut class, mut sums) = (0, [zero; 2]);
+        let sum = |sums: [S::f32s; 2]| sums.map(|sum| simd.reduce_sum_f32s(sum));
+        for (group, (cos, sin)) in self.folded.groups.iter().zip(rows) {
+            if (group.lanes + 1) * per > x.len() {
+                continue;
+            }
+            if group.class != class {
+                out[class] = sum(sums);
+                (class, sums) = (group.class, [zero; 2]);
+            }
+            for ((&x, &c), &s) in x[group.lanes * per..][..per].iter().zip(cos).zip(sin) {
+                sums = [fma(c, x, sums[0]), fma(s, x, sums[1])];
+            }
+        }
+        out[class] = sum(sums);
+        out
+    }
+}
+
+impl Kernel for SpreadAll<'_, '_> {
+    type Output = ();
+    #[inline(always)]
+    fn with<S: Simd>(self, simd: S, fma: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s + Copy) {
+        let Spread { re, im, hold_re, hold_im } = self.body;
+        let (re, im) = (S::as_mut_simd_f32s(re).0, S::as_mut_simd_f32s(im).0);
+        let (hold_re, hold_im) = (S::as_simd_f32s(hold_re).0, S::as_simd_f32s(hold_im).0);
+        let (cos, sin) = (S::as_simd_f32s(&self.folded.cos).0, S::as_simd_f32s(&self.folded.sin).0);
+        let per = LANES / S::F32_LANES;
+        let rows = cos.chunks_exact(per).zip(sin.chunks_exact(per));
+        for (group, (cos, sin)) in self.folded.groups.iter().zip(rows) {
+            let [c, s] = self.forces[group.class].map(|force| simd.splat_f32s(force));
+            for (i, (&cos, &sin)) in cos.iter().zip(sin).enumerate() {
+                let at = group.lanes * per + i;
+                let force = fma(cos, c, simd.mul_f32s(sin, s));
+                re[at] = fma(hold_re[at], force, re[at]);
+                im[at] = fma(hold_im[at], force, im[at]);
+            }
+        }
+    }
+}

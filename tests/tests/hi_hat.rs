@@ -1,0 +1,373 @@
+//! The hi-hat: two cymbals that nothing is gained by, a pedal whose work is accounted, and the sounds it makes.
+
+use overhear_engine::hi_hat::foot::SPEED;
+use overhear_engine::hi_hat::{HiHat, HiHatSpec, POINTS};
+use overhear_engine::piece::{BuildOptions, Piece, PieceId};
+use overhear_engine::strike::{Strike, Striker};
+use overhear_tests::{Chance, Spectrum, decibels, lossless_piece, piece, render, stroke, total_energy};
+use proptest::prelude::*;
+use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
+use xtask::analysis::decay::octave_decays;
+use xtask::analysis::envelope;
+use xtask::analysis::one_shot::OneShot;
+
+const RATE: f64 = 44_100.0;
+
+/// Places of the pedal from open to clamped.
+const PLACES: [f64; 6] = [0.0, 0.25, 0.5, 0.75, 0.9, 1.0];
+
+/// Brings the pedal there and lets all rest.
+fn hold(hat: &mut Piece, pedal: f64) {
+    hat.press_pedal(pedal, SPEED.1);
+    hat.finish_controls();
+}
+
+fn pedal_work(hat: &mut Piece) -> f64 {
+    hat.surface_mut().pair().expect("a hi-hat").pedal_work()
+}
+
+fn edge(speed: f64) -> Strike {
+    stroke(Striker::Stick, speed, 0.97, 0.3)
+}
+
+#[test]
+fn without_losses_the_whole_keeps_its_energy_within_a_thousandth_over_a_second() {
+    let mut hat = lossless_piece(PieceId::HiHat, RATE);
+    for pedal in PLACES {
+        for strike in
+            [edge(5.0), stroke(Striker::Shoulder, 3.0, 1.0, 2.0), stroke(Striker::Stick, 6.0, 0.1, 0.0)]
+        {
+            hat.reset();
+            hold(&mut hat, pedal);
+            hat.strike(&strike);
+            let brought = total_energy(&hat);
+            let mut worst = 0.0_f64;
+            for _ in 0..100 {
+                render(&mut hat, 0.01, RATE);
+                worst = worst.max((total_energy(&hat) / brought - 1.0).abs());
+            }
+            let landings = hat.wires().landings;
+            println!("pedal {pedal}, {:?}: {worst:.1e}, {landings} landings", strike.striker);
+            assert!(worst < 1e-3, "pedal {pedal}: {worst:e}");
+            match pedal {
+                0.0 => assert_eq!(landings, 0),
+                p if p < 0.5 => {}
+                _ => assert!(landings > 50, "pedal {pedal}: {landings} landings"),
+            }
+        }
+    }
+}
+
+#[derive(Debug, Clone)]
+enum Event {
+    Strike(Strike),
+    Press(f64, f64),
+    Stamp(f64),
+    Splash(f64),
+}
+
+fn any_event() -> impl Strategy<Value = Event> {
+    let striker = prop::sample::select(&Striker::ALL[..8]);
+    prop_oneof![
+        4 => (0.1..12.0, 0.0..=1.0, 0.0..6.3, striker).prop_map(|(speed, radius, angle, striker)| {
+            Event::Strike(Strike { speed, radius, angle, striker })
+        }),
+        3 => (0.0..=1.0, 0.05..2.5).prop_map(|(pedal, speed)| Event::Press(pedal, speed)),
+        1 => (0.05..2.5).prop_map(Event::Stamp),
+        1 => (0.05..2.5).prop_map(Event::Splash),
+    ]
+}
+
+/// Energy that is there and has left, less what strikers and the pedal brought, J.
+fn unpaid(hat: &mut Piece) -> f64 {
+    let brought = hat.surface_mut().brought_energy();
+    total_energy(hat) - brought - pedal_work(hat)
+}
+
+fn play(hat: &mut Piece, event: &Event) {
+    match *event {
+        Event::Strike(ref strike) => hat.strike(strike),
+        Event::Press(pedal, speed) => hat.press_pedal(pedal, speed),
+        Event::Stamp(speed) => hat.stamp_pedal(speed),
+        Event::Splash(speed) => hat.splash_pedal(speed),
+    }
+}
+
+#[test]
+fn energy_never_rises_but_by_the_work_of_strikers_and_pedal() {
+    let hat = std::cell::RefCell::new(piece(PieceId::HiHat, RATE));
+    let events = prop::collection::vec((any_event(), 1_usize..60), 1..10);
+    let config = Config { cases: 24, failure_persistence: None, max_shrink_iters: 32, ..Config::default() };
+    let rng = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
+    let run = |events: Vec<(Event, usize)>| {
+        let mut hat = hat.borrow_mut();
+        hat.press_pedal(0.0, SPEED.1);
+        hat.reset();
+        let mut before = unpaid(&mut hat);
+        let mut largest = 0.0_f64;
+        for (event, blocks) in &events {
+            play(&mut hat, event);
+            for _ in 0..*blocks {
+                let out = render(&mut hat, 32.0 / RATE, RATE);
+                prop_assert!(out.iter().all(|x| x.is_finite()));
+                let after = unpaid(&mut hat);
+                largest = largest.max(hat.energy() + hat.surface_mut().brought_energy());
+                // Of single precision, over what has gone through it.
+                prop_assert!(
+                    after - before < 1e-6 * largest + 1e-12,
+                    "{event:?}: {before} J, then {after} J"
+                );
+                before = after;
+            }
+        }
+        prop_assert_eq!(hat.quarantines(), 0);
+        Ok(())
+    };
+    TestRunner::new_with_rng(config, rng).run(&events, run).unwrap_or_else(|error| panic!("{error}"));
+}
+
+#[test]
+fn without_losses_the_pedal_s_work_is_all_that_is_gained() {
+    let mut hat = lossless_piece(PieceId::HiHat, RATE);
+    let mut chance = Chance::new(8);
+    for _ in 0..6 {
+        hat.press_pedal(0.0, SPEED.1);
+        hat.reset();
+        hat.strike(&edge(4.0));
+        let mut largest = 0.0_f64;
+        for _ in 0..8 {
+            hat.press_pedal(chance.unit(), chance.between(0.1, 2.0));
+            render(&mut hat, 0.05, RATE);
+            largest = largest.max(hat.energy());
+        }
+        let (error, work) = (unpaid(&mut hat), pedal_work(&mut hat));
+        println!("pedal's work {work:.4} J of {largest:.4} J, unexplained {error:.1e} J");
+        assert!(error.abs() < 1e-3 * largest, "{error} J of {largest} J");
+        assert!(work.abs() > 1e-3, "the pedal has worked: {work} J");
+    }
+}
+
+#[test]
+fn swapped_and_upside_down_two_equal_cymbals_move_the_same() {
+    let spec = HiHatSpec::default();
+    let spec = HiHatSpec { bottom: spec.top, seat: spec.clutch, ..spec };
+    let options = BuildOptions { lossless: true, linear: true, unsplit: true, ..BuildOptions::new(RATE) };
+    // As far below the touching place as the tilt: one side is pressed.
+    let motion = |swapped: bool| {
+        let mut hat = HiHat::new(&spec, &options).expect("a hi-hat");
+        hat.press(0.62, SPEED.1);
+        hat.finish_controls();
+        let surface = hat.surface_mut();
+        let count = surface.body().len();
+        let bent: Vec<f32> =
+            (0..count).map(|k| 2e-5 * ((k * k % 13) as f32 - 6.0) / (1.0 + k as f32)).collect();
+        let pair = surface.pair_mut().expect("a pair");
+        if swapped {
+            let mirrored: Vec<f32> = bent.iter().map(|q| -q).collect();
+            pair.bottom_mut().set_displacements(&mirrored);
+            pair.rigid_mut()[1].set_speed([-0.1, 0.05, -0.02]);
+        } else {
+            surface.body_mut().set_displacements(&bent);
+            surface.pair_mut().expect("a pair").rigid_mut()[0].set_speed([0.1, -0.05, 0.02]);
+        }
+        surface.wake_pair();
+        let mut out = [0.0; 30];
+        for _ in 0..20 {
+            surface.render(&mut out);
+        }
+        let pair = surface.pair().expect("a pair");
+        let [top, bottom] = [surface.body(), pair.bottom()]
+            .map(|body| (0..count).map(|k| f64::from(body.displacement(k))).collect::<Vec<f64>>());
+        let rest = pair.foot().place();
+        let [a, b] = [pair.rigid()[0].place(), pair.rigid()[1].place()];
+        (top, bottom, [a[0] - rest, a[1], a[2]], b, *pair.forces(), pair.landings().landings)
+    };
+    let (top, bottom, stiff_top, stiff_bottom, forces, landings) = motion(false);
+    let (other_top, other_bottom, other_stiff_top, other_stiff_bottom, other_forces, _) = motion(true);
+    assert!(landings > 5 && forces.iter().any(|&force| force > 0.0), "{landings} landings, {forces:?}");
+    let largest = top.iter().chain(&bottom).fold(0.0_f64, |most, q| most.max(q.abs()));
+    for k in 0..top.len() {
+        assert!(
+            (top[k] + other_bottom[k]).abs() < 1e-4 * largest,
+            "mode {k}: {} {}",
+            top[k],
+            other_bottom[k]
+        );
+        assert!(
+            (bottom[k] + other_top[k]).abs() < 1e-4 * largest,
+            "mode {k}: {} {}",
+            bottom[k],
+            other_top[k]
+        );
+    }
+    for i in 0..3 {
+        assert!((stiff_top[i] + other_stiff_bottom[i]).abs() < 1e-7, "{stiff_top:?} {other_stiff_bottom:?}");
+        assert!((stiff_bottom[i] + other_stiff_top[i]).abs() < 1e-7, "{stiff_bottom:?} {other_stiff_top:?}");
+    }
+    let most = forces.iter().fold(0.0_f64, |most, x| most.max(*x));
+    for j in 0..POINTS {
+        assert!((forces[j] - other_forces[j]).abs() < 1e-3 * most, "place {j}");
+    }
+}
+
+/// A stroke on the edge at 5 m/s with the pedal held: the sound and the landings of its first second.
+fn struck(hat: &mut Piece, pedal: f64, speed: f64) -> (Vec<f32>, u32) {
+    hat.reset();
+    hold(hat, pedal);
+    hat.strike(&edge(speed));
+    let mut out = render(hat, 1.0, RATE);
+    let landings = hat.wires().landings;
+    out.extend(render(hat, 3.0, RATE));
+    (out, landings)
+}
+
+#[test]
+fn the_farther_down_the_pedal_the_shorter_the_sound() {
+    let mut hat = piece(PieceId::HiHat, RATE);
+    let mut before = f64::INFINITY;
+    for pedal in PLACES {
+        let (out, landings) = struck(&mut hat, pedal, 5.0);
+        // Octaves from 500 Hz to 8 kHz.
+        let decays: Vec<f64> = octave_decays(&out, RATE)[4..9].iter().flatten().copied().collect();
+        assert_eq!(decays.len(), 5);
+        let mean = decays.iter().map(|t60| t60.ln()).sum::<f64>() / 5.0;
+        let mean = mean.exp();
+        let shot = OneShot::new(&out, RATE).expect("a sound");
+        let centroid = envelope::temporal_centroid_ms(&shot).expect("a sound");
+        println!(
+            "pedal {pedal:.2}: T60 {decays:.2?} s, mean {mean:.3} s, centroid {centroid:.0} ms, {landings} landings"
+        );
+        assert!(mean < before, "pedal {pedal}: {mean} s after {before} s");
+        before = mean;
+        match pedal {
+            p if p < 0.3 => {
+                assert!((2.0..5.0).contains(&mean) && centroid > 90.0, "open: {mean} s, {centroid} ms")
+            }
+            p if p > 0.8 => assert!((0.25..0.5).contains(&mean) && centroid < 51.0, "closed: {mean} s"),
+            _ => {}
+        }
+    }
+}
+
+#[test]
+fn half_open_it_sizzles() {
+    let mut hat = piece(PieceId::HiHat, RATE);
+    let mut bright = |pedal: f64| {
+        let (out, landings) = struck(&mut hat, pedal, 4.0);
+        // After the stroke itself.
+        let later = &out[4410..4410 + 22_050];
+        let spectrum = Spectrum::hann(later, RATE);
+        (spectrum.band(5000.0, 20_000.0), landings)
+    };
+    let [(open, silent), (half, landings), (closed, few)] = [0.0, 0.5, 1.0].map(&mut bright);
+    let [over_open, over_closed] = [open, closed].map(|other| 0.5 * decibels(half, other));
+    println!("{landings} landings; above 5 kHz {over_open:.1} dB over open, {over_closed:.1} dB over closed");
+    assert!(silent == 0 && landings > 200, "{silent} {landings} {few}");
+    assert!(over_open > 3.0 && over_closed > 3.0, "{over_open} dB, {over_closed} dB");
+}
+
+/// What the pedal alone sounds like: root mean square of the loudest tenth of a second, Pa, and the time after which it stays under a thousandth of it, s.
+fn foot(hat: &mut Piece, act: impl Fn(&mut Piece)) -> (f64, f64) {
+    hat.press_pedal(0.0, SPEED.1);
+    hat.reset();
+    act(hat);
+    let out = render(hat, 3.0, RATE);
+    let loudest = out.iter().enumerate().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())).expect("a sound");
+    let peak = f64::from(loudest.1.abs());
+    let tenth = (0.1 * RATE) as usize;
+    let loud = out.chunks(tenth).map(|part| part.iter().map(|&x| f64::from(x).powi(2)).sum::<f64>());
+    let loud = (loud.fold(0.0, f64::max) / tenth as f64).sqrt();
+    println!("  peak {peak:.2} Pa");
+    let last = out.iter().rposition(|x| f64::from(x.abs()) > 1e-3 * peak).unwrap_or(0);
+    (loud, (last - loudest.0) as f64 / RATE)
+}
+
+#[test]
+fn chick_and_splash_sound_from_the_pedal_alone_and_louder_when_faster() {
+    let mut hat = piece(PieceId::HiHat, RATE);
+    let mut quieter = [0.0; 2];
+    for speed in [0.2, 0.5, 1.0, 2.0] {
+        let (chick, held) = foot(&mut hat, |hat| hat.stamp_pedal(speed));
+        let (splash, rings) = foot(&mut hat, |hat| hat.splash_pedal(speed));
+        println!("{speed} m/s: chick {chick:.2} Pa, {held:.2} s; splash {splash:.2} Pa, {rings:.2} s");
+        assert!(chick > 1.2 * quieter[0] && splash > 1.2 * quieter[1], "{speed} m/s");
+        assert!(held < 0.3, "a held chick lasts {held} s");
+        assert!(rings > 0.8, "a splash rings {rings} s");
+        quieter = [chick, splash];
+    }
+}
+
+#[test]
+fn a_still_pedal_is_still_and_silent_wherever_it_is() {
+    let mut hat = piece(PieceId::HiHat, RATE);
+    for pedal in PLACES {
+        hat.reset();
+        hold(&mut hat, pedal);
+        assert!(hat.energy().abs() < 1e-12, "pedal {pedal}: {} J", hat.energy());
+        assert!(render(&mut hat, 0.1, RATE).iter().all(|&x| x == 0.0), "pedal {pedal}");
+        if pedal < 0.6 {
+            // Open cymbals ring for as long as single precision tells them from silence.
+            continue;
+        }
+        hat.strike(&edge(3.0));
+        render(&mut hat, 4.0, RATE);
+        assert!(render(&mut hat, 0.1, RATE).iter().all(|&x| x == 0.0), "pedal {pedal} after a stroke");
+    }
+}
+
+#[test]
+fn a_pedal_moved_slowly_makes_no_click() {
+    let mut hat = piece(PieceId::HiHat, RATE);
+    hold(&mut hat, 0.75);
+    let mut loudest = 0.0_f32;
+    for step in 0..60 {
+        hat.press_pedal(0.75 + 0.25 * f64::from(step) / 60.0, SPEED.1);
+        let out = render(&mut hat, 0.02, RATE);
+        loudest = out.iter().fold(loudest, |most, x| most.max(x.abs()));
+    }
+    let mut struck = piece(PieceId::HiHat, RATE);
+    hold(&mut struck, 0.75);
+    struck.strike(&edge(0.5));
+    let soft = render(&mut struck, 0.2, RATE).iter().fold(0.0_f32, |most, x| most.max(x.abs()));
+    let under = decibels(f64::from(loudest), f64::from(soft));
+    println!("from light to full clamping within 1.2 s: {under:.0} dB under a soft stroke");
+    assert!(under < -30.0, "{under} dB");
+}
+
+#[test]
+fn time_may_be_cut_anywhere_while_the_pedal_moves() {
+    let mut whole = piece(PieceId::HiHat, RATE);
+    let mut cut = piece(PieceId::HiHat, RATE);
+    let act = |hat: &mut Piece, at: usize| match at {
+        1000 => hat.strike(&edge(4.0)),
+        3333 => hat.press_pedal(0.9, 1.5),
+        7001 => hat.strike(&edge(2.0)),
+        9100 => hat.splash_pedal(1.0),
+        12_500 => hat.stamp_pedal(0.8),
+        _ => {}
+    };
+    let moments = [0, 1000, 3333, 7001, 9100, 12_500, 20_000];
+    let mut chance = Chance::new(3);
+    let (mut a, mut b) = (vec![0.0; 20_000], vec![0.0; 20_000]);
+    for window in moments.windows(2) {
+        act(&mut whole, window[0]);
+        whole.render(&mut a[window[0]..window[1]]);
+        act(&mut cut, window[0]);
+        let mut at = window[0];
+        while at < window[1] {
+            let to = (at + 1 + chance.below(50)).min(window[1]);
+            cut.render(&mut b[at..to]);
+            at = to;
+        }
+    }
+    assert!(a == b, "differs first at {:?}", a.iter().zip(&b).position(|(a, b)| a != b));
+    assert!(a.iter().any(|x| x.abs() > 0.1));
+}
+
+#[test]
+fn a_tiny_rim_or_a_huge_tilt_is_refused_by_name() {
+    let options = BuildOptions::new(RATE);
+    let refused = |spec: HiHatSpec| HiHat::new(&spec, &options).err().expect("refused").to_string();
+    assert!(refused(HiHatSpec { edge: 0.0, ..HiHatSpec::default() }).contains("rim"));
+    assert!(refused(HiHatSpec { tilt: 1.0, ..HiHatSpec::default() }).contains("tilt"));
+}
