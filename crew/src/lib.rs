@@ -46,7 +46,7 @@ const IDLE: Duration = Duration::from_secs(1);
 pub enum Patience {
     /// Some milliseconds, then the piece is silent for the run: while somebody listens.
     RealTime,
-    /// Until it is done: while a file is rendered.
+    /// Until it is done, or half a minute has passed: while a file is rendered.
     Offline,
 }
 
@@ -55,7 +55,7 @@ impl Patience {
     const fn looks(self) -> u64 {
         match self {
             Patience::RealTime => 100_000,
-            Patience::Offline => u64::MAX,
+            Patience::Offline => 1_000_000_000,
         }
     }
 }

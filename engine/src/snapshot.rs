@@ -59,6 +59,8 @@ pub struct PieceSnapshot {
     pub wires: WireSnapshot,
     /// Times the piece was put back to rest because a value was not finite.
     pub quarantines: u32,
+    /// Strikers taken away early, to make room for others: in rolls denser than four at a time.
+    pub hurried_strikers: u32,
 }
 
 impl Default for PieceSnapshot {
@@ -71,6 +73,7 @@ impl Default for PieceSnapshot {
             strike: StrikeSnapshot::default(),
             wires: WireSnapshot::default(),
             quarantines: 0,
+            hurried_strikers: 0,
         }
     }
 }
@@ -90,6 +93,8 @@ pub struct KitSnapshot {
     pub missed_runs: u32,
     /// Samples that the safety clip has bent.
     pub clipped_samples: u64,
+    /// Buffers that were ready too late. Filled in by whoever has a clock; the engine has none.
+    pub late_buffers: u64,
 }
 
 /// Shapes of a piece's lowest modes at the points of its displacement field.

@@ -105,6 +105,8 @@ pub struct Surface {
     brought_energy: f64,
     departed_energy: f64,
     last: StrikeSnapshot,
+    /// Strikers that had to make room for others before they had left.
+    hurried: u32,
     dt: f64,
 }
 
@@ -171,6 +173,7 @@ impl Surface {
             brought_energy: 0.0,
             departed_energy: 0.0,
             last: StrikeSnapshot::default(),
+            hurried: 0,
             dt,
         }
     }
@@ -277,6 +280,11 @@ impl Surface {
     /// What the latest stroke's contact measured.
     pub fn last_strike(&self) -> StrikeSnapshot {
         self.last
+    }
+
+    /// Strikers that were taken away before they had left, for there are places for [`MAX_STRIKERS`] at a time.
+    pub fn hurried_strikers(&self) -> u32 {
+        self.hurried
     }
 
     /// Changes the modes while they ring; `mode(k, old)` gives the new one.

@@ -33,11 +33,11 @@ pub fn build(id: PieceId, options: &BuildOptions) -> Piece {
     Piece::new(id, options).expect("a default piece")
 }
 
-/// The whole kit.
+/// The whole kit, as the plugin plays it.
 pub fn kit(sample_rate: f64) -> Kit {
     let mut kit = Kit::new(sample_rate);
     for id in PieceId::KIT {
-        assert!(kit.install(Box::new(piece(id, sample_rate))).is_none());
+        assert!(kit.install(Box::new(build(id, &BuildOptions::in_kit(id, sample_rate)))).is_none());
     }
     kit
 }

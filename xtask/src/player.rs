@@ -125,6 +125,7 @@ impl EnginePlayer {
             let piece = Piece::new(id, &plan.options(id, rate)).map_err(|error| bad_input!("{error}"))?;
             performer.install(Box::new(piece));
         }
+        performer.hire(plan.staff().hire().context("the system starts no more threads")?);
         Ok(EnginePlayer { performer })
     }
 
