@@ -170,7 +170,7 @@ fn stems_hold_their_microphone_and_add_up_to_the_song() {
     let pieces = PieceId::KIT.into_iter().map(PieceId::name);
     for name in pieces.chain(["overheads", "room"]) {
         // Drums hear what is struck; cymbals do not.
-        let heard = !["ride", "splash"].contains(&name);
+        let heard = !["ride", "splash", "hi-hat"].contains(&name);
         let stem = read(&format!("stems/{name}.wav"));
         assert_eq!(stem[0].iter().any(|sample| *sample != 0.0), heard, "{name}");
         for (sum, sample) in sum.iter_mut().zip(&stem[0]) {
