@@ -10,6 +10,7 @@ use no_denormals::no_denormals;
 use overhear_engine::error::SpecError;
 use overhear_engine::hi_hat::foot::SPEED;
 use overhear_engine::kit::{Control, Crew, Kit, Stereo};
+use overhear_engine::layout::Layout;
 use overhear_engine::piece::{Piece, PieceId};
 use overhear_engine::snapshot::KitSnapshot;
 use overhear_engine::strike::Striker;
@@ -43,8 +44,17 @@ impl Performer {
 
     /// As [`new`](Self::new), with the user's assignments of notes.
     pub fn with_assignments(sample_rate: f64, assignments: Arc<Assignments>) -> Performer {
+        Performer::at(Kit::new(sample_rate), assignments)
+    }
+
+    /// As [`new`](Self::new), at a kit that stands so.
+    pub fn with_layout(sample_rate: f64, layout: &Layout) -> Performer {
+        Performer::at(Kit::with_layout(sample_rate, layout), Arc::default())
+    }
+
+    fn at(kit: Kit, assignments: Arc<Assignments>) -> Performer {
         let mut performer = Performer {
-            kit: Kit::new(sample_rate),
+            kit,
             asked: [f32::NAN; PARAMETERS.len()],
             values: [f32::NAN; PARAMETERS.len()],
             playing: Playing::new(assignments),

@@ -5,6 +5,8 @@ use overhear_engine::piece::{Piece, PieceId};
 use overhear_engine::snapshot::KitSnapshot;
 use overhear_engine::strike::Striker;
 use overhear_tests::{Chance, RATES, kit, stroke};
+use xtask::player::{EnginePlayer, Hit, Player, Setup};
+use xtask::stage::Stage;
 
 const RATE: f64 = RATES[0];
 
@@ -135,4 +137,20 @@ fn five_thousand_strokes_in_ten_seconds_stay_finite_and_bounded_and_none_is_lost
     let before = energy(&kit);
     advance(&mut kit, 15 * RATE as usize);
     assert!(energy(&kit) < 1e-3 * before, "{} of {before} J", energy(&kit));
+}
+
+#[test]
+fn the_workers_that_a_parameter_hires_change_no_sample() {
+    let play = |workers: &str| {
+        let settings = xtask::settings::parse(&[workers.to_owned(), "offline_quality=as played".to_owned()]);
+        let setup = Setup { rate: 48_000, settings: settings.expect("settings"), stage: Stage::default() };
+        let mut player = EnginePlayer::new(&setup).expect("a rate");
+        let (mut left, mut right) = (vec![0.0; 12_000], vec![0.0; 12_000]);
+        let hits = [36, 38, 49, 51].map(|key| Hit { sample: 100, channel: 9, key, velocity: 110 });
+        player.render(&hits, &mut left, &mut right).expect("an engine that plays");
+        left.into_iter().chain(right).map(f32::to_bits).collect::<Vec<_>>()
+    };
+    let alone = play("workers=0");
+    assert!(alone.iter().any(|&x| f32::from_bits(x).abs() > 0.01));
+    assert!(alone == play("workers=2"));
 }

@@ -13,9 +13,6 @@ const RACK_TOM: usize = 2;
 const OVERHEADS: usize = PieceId::KIT.len();
 const ROOM: usize = OVERHEADS + 1;
 
-/// Distances of a microphone, m: from the first to the second sound takes a millisecond; the third is twice the first.
-const DISTANCES: [f64; 3] = [1.0, 1.343, 2.0];
-
 /// A kit with one piece, struck; every microphone's left output.
 fn play(id: PieceId, options: &BuildOptions, strike: &Strike, height: f64, frames: usize) -> Vec<Vec<f32>> {
     let mut kit = Kit::new(options.sample_rate);
@@ -71,19 +68,30 @@ fn difference(sound: &[f32], later: &[f32], delay: f64, weaker: f64, until: usiz
 #[test]
 fn a_microphone_34_3_cm_farther_hears_a_millisecond_later_and_one_twice_as_far_half_at_every_rate() {
     for rate in [44_100.0, 48_000.0, 96_000.0] {
-        let [near, later, half] = DISTANCES.map(|distance| heard(distance, rate));
-        for (output, name) in [(RACK_TOM, "close"), (OVERHEADS, "overheads"), (ROOM, "room")] {
-            // Until the room's first echoes, of the floor, arrive at a microphone a metre up.
-            let until = (0.0065 * rate) as usize;
+        let [one, later_than_one, two, later_than_two, four] =
+            [1.0, 1.343, 2.0, 2.343, 4.0].map(|distance| heard(distance, rate));
+        // The pairs until the room's first echoes, of the floor, arrive at a metre's height; a head is no point, and two
+        // metres off a close microphone is far enough for that not to matter.
+        let pairs = (1.0, [&one, &later_than_one, &two], 0.0065, 0.004);
+        let alone = (2.0, [&two, &later_than_two, &four], 0.02, 0.02);
+        for (output, name, of) in
+            [(RACK_TOM, "close", alone), (OVERHEADS, "overheads", pairs), (ROOM, "room", pairs)]
+        {
+            let (distance, [near, later, half], seconds, tolerance) = of;
+            let until = (seconds * rate) as usize;
             let millisecond = 1e-3 * rate;
             let moved = |extra: f64| {
-                difference(&near[output], &later[output], millisecond + extra, 1.0 / 1.343, until)
+                difference(
+                    &near[output],
+                    &later[output],
+                    millisecond + extra,
+                    distance / (distance + 0.343),
+                    until,
+                )
             };
-            let delay = 1.0 / SPEED_OF_SOUND * rate;
+            let delay = distance / SPEED_OF_SOUND * rate;
             let doubled = difference(&near[output], &half[output], delay, 0.5, until);
             println!("{name} at {rate} Hz: {:.4} off, twice as far {doubled:.4} off", moved(0.0));
-            // The head is no point: of a close microphone's way a hundredth is in its own size.
-            let tolerance = if output == RACK_TOM { 0.04 } else { 0.004 };
             assert!(moved(0.0) < tolerance && doubled < tolerance, "{name} at {rate} Hz");
             assert!(moved(1.0) > moved(0.0) && moved(-1.0) > moved(0.0), "{name} at {rate} Hz");
         }
