@@ -37,7 +37,7 @@ fn heard(distance: f64, rate: f64) -> Vec<Vec<f32>> {
     let close = Some(ListeningPoint { distance, inclination: 0.3, azimuth: 0.4 });
     let options = BuildOptions { close, ..BuildOptions::new(rate) };
     let strike = stroke(Striker::Stick, 4.0, 0.5, 0.3);
-    play(PieceId::RackTom, &options, &strike, distance, (0.02 * rate) as usize)
+    play(PieceId::RackTom, &options, &strike, distance, (0.03 * rate) as usize)
 }
 
 /// A sound between its samples (Shannon, under a window).
@@ -68,12 +68,13 @@ fn difference(sound: &[f32], later: &[f32], delay: f64, weaker: f64, until: usiz
 #[test]
 fn a_microphone_34_3_cm_farther_hears_a_millisecond_later_and_one_twice_as_far_half_at_every_rate() {
     for rate in [44_100.0, 48_000.0, 96_000.0] {
-        let [one, later_than_one, two, later_than_two, four] =
-            [1.0, 1.343, 2.0, 2.343, 4.0].map(|distance| heard(distance, rate));
-        // The pairs until the room's first echoes, of the floor, arrive at a metre's height; a head is no point, and two
-        // metres off a close microphone is far enough for that not to matter.
-        let pairs = (1.0, [&one, &later_than_one, &two], 0.0065, 0.004);
-        let alone = (2.0, [&two, &later_than_two, &four], 0.02, 0.02);
+        let [one, later_than_one, two, four, later_than_four, eight] =
+            [1.0, 1.343, 2.0, 4.0, 4.343, 8.0].map(|distance| heard(distance, rate));
+        // The pairs until the room's first echoes, of the floor, arrive at a metre's height. A drum is no point, and its
+        // other head is farther: a close microphone hears that up to some metres. Ways of a broken number of samples lose some
+        // of a stroke's first highs, the most at 44.1 kHz.
+        let pairs = (1.0, [&one, &later_than_one, &two], 0.0065, 0.06);
+        let alone = (4.0, [&four, &later_than_four, &eight], 0.03, 0.03);
         for (output, name, of) in
             [(RACK_TOM, "close", alone), (OVERHEADS, "overheads", pairs), (ROOM, "room", pairs)]
         {
@@ -93,7 +94,7 @@ fn a_microphone_34_3_cm_farther_hears_a_millisecond_later_and_one_twice_as_far_h
             let doubled = difference(&near[output], &half[output], delay, 0.5, until);
             println!("{name} at {rate} Hz: {:.4} off, twice as far {doubled:.4} off", moved(0.0));
             assert!(moved(0.0) < tolerance && doubled < tolerance, "{name} at {rate} Hz");
-            assert!(moved(1.0) > moved(0.0) && moved(-1.0) > moved(0.0), "{name} at {rate} Hz");
+            assert!(moved(1.0) > 3.0 * moved(0.0) && moved(-1.0) > 3.0 * moved(0.0), "{name} at {rate} Hz");
         }
     }
 }
