@@ -1,11 +1,14 @@
 //! The editor: the kit's levels, one piece's motion, its parameters.
 //!
-//! It reads snapshots, mode shapes and parameters and never touches the engine. Drawing is split
+//! It reads snapshots, mode shapes and parameters and never touches the engine. Every frame asks for the next: nothing
+//! outside does, because a window asked to draw before it is shown waits for an answer that X11 gives only to those
+//! who are shown, and stays blank. Drawing is split
 //! into the surface, the panels around it, those of presets and of playing, the knob and the theme; what stays here is the
 //! window: opening it at the size the project stored, and storing the size it is given.
 
 use std::error::Error;
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
 
 use nice_plug::context::gui::GuiContext;
 use nice_plug::editor::dpi::{LogicalSize, NativeSize};
@@ -34,6 +37,18 @@ use panels::Panels;
 use playing::PlayingPanel;
 use presets::PresetBar;
 
+/// From one frame to the next while the kit plays: 60 a second.
+const FRAME_INTERVAL: Duration = Duration::from_micros(16_667);
+
+/// From one frame to the next while nothing sounds: soon enough for a first stroke, cheap enough to stay open.
+const RESTING_INTERVAL: Duration = Duration::from_millis(80);
+
+/// A piece's peak above which it is drawn moving, full scale 1.
+const AUDIBLE: f32 = 1e-5;
+
+/// The framework's own way of asking for frames would do so before the window is shown.
+const NEVER: Duration = Duration::from_secs(24 * 60 * 60);
+
 /// What every window of an instance looks at.
 #[derive(Clone)]
 struct Sources {
@@ -45,21 +60,15 @@ struct Sources {
 /// The editor as the framework holds it: opens a window when the host asks.
 pub struct OverhearEditor {
     sources: Sources,
-    repaint: RepaintNotifier,
     /// The latest window, or the one to open next.
     window: Mutex<Arc<EguiEditorState>>,
 }
 
 impl OverhearEditor {
     /// An editor without a window.
-    pub fn new(
-        parameters: Arc<HostParameters>,
-        viewer: Viewer,
-        shapes: Shapes,
-        repaint: RepaintNotifier,
-    ) -> OverhearEditor {
+    pub fn new(parameters: Arc<HostParameters>, viewer: Viewer, shapes: Shapes) -> OverhearEditor {
         let window = Mutex::new(window_of(&parameters));
-        OverhearEditor { sources: Sources { parameters, viewer, shapes }, repaint, window }
+        OverhearEditor { sources: Sources { parameters, viewer, shapes }, window }
     }
 
     /// The open window, or one of the stored size: the framework's own state keeps the size it
@@ -73,8 +82,11 @@ impl OverhearEditor {
     }
 
     fn egui_editor(&self, window: Arc<EguiEditorState>) -> Option<EguiEditor<App>> {
-        let settings = EguiNiceSettings::new().with_tile(NAME).with_resize_hint(resize_hint());
-        create_egui_editor(window, self.repaint.clone(), settings, App::new(self.sources.clone()))
+        let settings = EguiNiceSettings::new()
+            .with_tile(NAME)
+            .with_resize_hint(resize_hint())
+            .with_repaint_poll_interval(NEVER);
+        create_egui_editor(window, RepaintNotifier::new(), settings, App::new(self.sources.clone()))
     }
 }
 
@@ -175,6 +187,8 @@ impl NiceEguiApp for App {
                 self.presets.show(ui, &self.sources.parameters, &mut set);
             });
         });
+        let moves = snapshot.pieces.iter().any(|piece| piece.peak > AUDIBLE);
+        ui.ctx().request_repaint_after(if moves { FRAME_INTERVAL } else { RESTING_INTERVAL });
     }
 
     fn resized(&mut self, size: WindowSize) {

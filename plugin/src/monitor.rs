@@ -5,7 +5,6 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use nice_plug_egui::RepaintNotifier;
 use overhear_engine::snapshot::KitSnapshot;
 use triple_buffer::{Input, Output, TripleBuffer};
 
@@ -18,7 +17,6 @@ const SNAPSHOT_RATE: f64 = 85.0;
 pub struct Publisher {
     snapshots: Input<KitSnapshot>,
     latest: KitSnapshot,
-    repaint: RepaintNotifier,
     /// Samples from one snapshot to the next.
     interval: usize,
     /// Samples since the latest.
@@ -31,11 +29,11 @@ pub struct Viewer {
     snapshots: Arc<Mutex<Output<KitSnapshot>>>,
 }
 
-/// Both ends. Every published snapshot asks for a repaint through `repaint`.
-pub fn monitor(repaint: RepaintNotifier) -> (Publisher, Viewer) {
+/// Both ends.
+pub fn monitor() -> (Publisher, Viewer) {
     let (input, output) = TripleBuffer::default().split();
     let latest = KitSnapshot::default();
-    let publisher = Publisher { snapshots: input, latest, repaint, interval: 1, elapsed: 0 };
+    let publisher = Publisher { snapshots: input, latest, interval: 1, elapsed: 0 };
     (publisher, Viewer { snapshots: Arc::new(Mutex::new(output)) })
 }
 
@@ -65,7 +63,6 @@ impl Publisher {
             carry_peaks(&former, &mut self.latest);
         }
         self.snapshots.write(self.latest);
-        self.repaint.request_repaint();
     }
 }
 
@@ -93,7 +90,7 @@ mod tests {
     #[test]
     fn snapshots_appear_at_their_rate_whatever_the_buffers() {
         let mut performer = Performer::new(48_000.0);
-        let (mut publisher, viewer) = monitor(RepaintNotifier::new());
+        let (mut publisher, viewer) = monitor();
         publisher.set_sample_rate(48_000.0);
         let mut sound = [[0.0; 64]; 2];
         let mut seen = 0;

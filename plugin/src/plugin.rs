@@ -16,7 +16,6 @@ use std::time::Duration;
 
 use nice_plug::midi::{Channel, Key};
 use nice_plug::prelude::*;
-use nice_plug_egui::RepaintNotifier;
 
 use crate::builder::{Builder, Delivery, Outcome};
 use crate::building::{BuildPlan, Pace};
@@ -32,7 +31,10 @@ use crate::state;
 ///
 /// A project that is opened and bounced at once must not lose its first bar, hence the wait; a
 /// machine too slow for it gets a kit that fills up while it plays rather than a host that hangs.
-const BUILD_TIMEOUT: Duration = Duration::from_secs(10);
+const BUILD_TIMEOUT: Duration = Duration::from_secs(if cfg!(test) { PATIENCE_OF_TESTS } else { 20 });
+
+/// Tests run beside others and want a whole kit, s.
+const PATIENCE_OF_TESTS: u64 = 120;
 
 /// Overhear with one stereo output.
 pub type Overhear = Instrument<Mix>;
@@ -50,7 +52,6 @@ pub struct Instrument<O> {
     stage: Option<Stage>,
     publisher: Publisher,
     viewer: Viewer,
-    repaint: RepaintNotifier,
     outputs: PhantomData<O>,
 }
 
@@ -65,23 +66,13 @@ struct Stage {
 
 impl<O> Default for Instrument<O> {
     fn default() -> Self {
-        let repaint = RepaintNotifier::new();
-        let (publisher, viewer) = monitor::monitor(repaint.clone());
+        let (publisher, viewer) = monitor::monitor();
         let (parameters, offline) = (host_parameters::for_new_instance(), Arc::<AtomicBool>::default());
         let builder = {
             let (parameters, offline) = (parameters.clone(), offline.clone());
             Builder::new(Arc::new(move || plan(&parameters, &offline)))
         };
-        Instrument {
-            parameters,
-            offline,
-            builder,
-            stage: None,
-            publisher,
-            viewer,
-            repaint,
-            outputs: PhantomData,
-        }
+        Instrument { parameters, offline, builder, stage: None, publisher, viewer, outputs: PhantomData }
     }
 }
 
@@ -119,12 +110,7 @@ impl<O: Outputs> Plugin for Instrument<O> {
     }
 
     fn editor(&mut self, _executor: AsyncExecutor<Self>) -> Option<OverhearEditor> {
-        Some(OverhearEditor::new(
-            self.parameters.clone(),
-            self.viewer.clone(),
-            self.builder.shapes(),
-            self.repaint.clone(),
-        ))
+        Some(OverhearEditor::new(self.parameters.clone(), self.viewer.clone(), self.builder.shapes()))
     }
 
     fn filter_state(state: &mut PluginState) {
@@ -187,6 +173,11 @@ impl<O: Outputs> Instrument<O> {
             self.stage = None;
             Some(self.builder.order(rate))
         };
+        // A kit that plays is replaced piece by piece while it plays on; a bounce gets what it asks for from its start.
+        if ordered.is_none() && !self.offline.load(Ordering::Acquire) {
+            self.follow();
+            return;
+        }
         match self.builder.wait(BUILD_TIMEOUT) {
             Outcome::Finished => {}
             Outcome::Late => nice_warn!("The kit is not built yet: strikes are dropped until then"),
@@ -201,6 +192,11 @@ impl<O: Outputs> Instrument<O> {
             self.stage = Some(Stage { performer, delivery, sample_rate, broken: false });
             self.publisher.set_sample_rate(rate);
         }
+        self.follow();
+    }
+
+    /// Takes over parameters and pieces.
+    fn follow(&mut self) {
         if let Some(stage) = &mut self.stage {
             stage.guarded(|stage| stage.follow(&self.parameters));
         }

@@ -123,6 +123,21 @@ fn sweeps_over_ringing_drums_do_not_click() {
     }
 }
 
+/// The snare alone, its wires buzzing.
+const BUZZING: [(usize, u8, f32); 1] = [(0, 38, 0.9)];
+
+#[test]
+fn a_sweep_of_the_preload_over_a_buzzing_snare_does_not_click() {
+    let mut performer = performer();
+    let mut take = |names: &[&str]| {
+        let names = names.iter().map(|name| (*name).to_owned()).collect();
+        play(&mut performer, &Sweep { names, share: triangle }, 512, &BUZZING)
+    };
+    let (still, swept) = (step(&take(&[])), step(&take(&["snare_preload"])));
+    println!("{still:.1e} of the peak without a sweep, {swept:.1e} with one");
+    assert!(swept < CLICK, "{swept} against {still}");
+}
+
 #[test]
 fn sweeps_give_the_same_samples_for_every_buffer_size() {
     let mut names = all("_tune");

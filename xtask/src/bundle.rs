@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 
-use crate::system::{self, LINKER};
-use crate::workspace::{self, Format, PLUGIN_PACKAGE};
+use crate::system::{self, LINKER, SOUND_HEADERS};
+use crate::workspace::{self, Format, PLUGIN_PACKAGE, STANDALONE_PACKAGE};
 
 /// Builds the plugin in release and bundles it; tells where each format's bundle lies.
 ///
@@ -39,6 +39,31 @@ pub fn run() -> Result<Vec<(Format, PathBuf)>> {
             Ok((format, path))
         })
         .collect()
+}
+
+/// Builds the program that needs no host, in release, beside the bundles; tells where it lies.
+///
+/// # Errors
+/// If something to build with is missing or the build fails.
+pub fn standalone() -> Result<PathBuf> {
+    system::ensure(&[LINKER, SOUND_HEADERS])?;
+    let target = workspace::target_dir()?;
+    let built = workspace::cargo()
+        .args(["build", "--release", "--package", STANDALONE_PACKAGE])
+        .current_dir(workspace::root())
+        .status()
+        .context("cannot run cargo")?;
+    if !built.success() {
+        bail!("`{STANDALONE_PACKAGE}` does not build");
+    }
+    let program = format!("overhear{}", env::consts::EXE_SUFFIX);
+    let folder = target.join("bundled");
+    fs::create_dir_all(&folder).with_context(|| format!("cannot make `{}`", folder.display()))?;
+    let path = folder.join(&program);
+    remove(&path)?;
+    fs::copy(target.join("release").join(&program), &path)
+        .with_context(|| format!("cannot write `{}`", path.display()))?;
+    Ok(path)
 }
 
 /// Bundles and copies the bundles to the user's plugin folders; tells where they went.

@@ -78,7 +78,7 @@ fn dispatch(task: Task) -> Result<()> {
             for (_, path) in bundle::run()? {
                 say(&format!("{}\n", path.display()))?;
             }
-            Ok(())
+            say(&format!("{}\n", bundle::standalone()?.display()))
         }
         Task::Install => {
             for path in bundle::install()? {

@@ -42,6 +42,15 @@ pub const WINDOW_LIBRARIES: Need = Need {
     packages: &["libx11-6", "libx11-xcb1", "libxcb1", "libgl1", "libgl1-mesa-dri", "libxcursor1"],
 };
 
+/// What the program without a host is compiled against.
+pub const SOUND_HEADERS: Need = Need {
+    what: "the headers of ALSA and JACK",
+    present: || {
+        !cfg!(target_os = "linux") || quiet(Command::new("pkg-config").args(["--exists", "alsa", "jack"]))
+    },
+    packages: &["pkg-config", "libasound2-dev", "libjack-jackd2-dev"],
+};
+
 /// Python with virtual environments.
 pub const PYTHON: Need = Need {
     what: "Python 3 with venv",

@@ -8,6 +8,9 @@ use anyhow::{Context, Result};
 /// Package of the plugin, as cargo knows it.
 pub const PLUGIN_PACKAGE: &str = "overhear";
 
+/// Package of the program that needs no host.
+pub const STANDALONE_PACKAGE: &str = "overhear-standalone";
+
 /// Name of the bundles, without extension; `bundler.toml` says the same.
 pub const BUNDLE_NAME: &str = "Overhear";
 

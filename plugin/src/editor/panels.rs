@@ -110,7 +110,7 @@ impl Panels {
             moving |= *level > FLOOR_DB;
         }
         if moving {
-            // Snapshots ask for repaints while the host runs; the fall goes on when it stops.
+            // The meters still fall where the kit is already silent.
             ui.ctx().request_repaint_after_secs(1.0 / 60.0);
         }
     }

@@ -70,8 +70,6 @@ impl PlayingPanel {
                 if ui.button("Cancel").clicked() {
                     assignments.learn(None);
                 }
-                // Nothing else tells the window that a note has arrived while the kit is at rest.
-                ui.ctx().request_repaint_after_secs(0.1);
             }
             None => {
                 if ui.button("Learn").clicked() {

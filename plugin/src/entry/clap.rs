@@ -4,6 +4,7 @@
 //! framework's, so that all it gets called with means to it what it did; the guard itself is found through the
 //! table's address, whose first field it is.
 
+use std::cell::UnsafeCell;
 use std::ffi::{CStr, c_char, c_void};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr;
@@ -111,6 +112,12 @@ struct Guard {
     /// The framework's own table.
     framework: clap_plugin,
     parameters: Option<Arc<HostParameters>>,
+    /// Touched by `activate` and `process` only, which never overlap; the rest is read by any thread.
+    outputs: UnsafeCell<Outputs>,
+}
+
+/// Scratch, and the ports made of it for one call.
+struct Outputs {
     scratch: Scratch,
     /// `[port]`, filled in for a call that needs completing.
     ports: Vec<clap_audio_buffer>,
@@ -132,13 +139,9 @@ unsafe fn guarded<P: ClapPlugin>(host: *const clap_host) -> *const clap_plugin {
         get_extension: Some(get_extension),
         ..framework
     };
-    let guard = Guard {
-        table,
-        framework,
-        parameters: host_parameters::take_latest(),
-        scratch: Scratch::new(ports),
-        ports: Vec::with_capacity(ports),
-    };
+    let outputs = Outputs { scratch: Scratch::new(ports), ports: Vec::with_capacity(ports) };
+    let parameters = host_parameters::take_latest();
+    let guard = Guard { table, framework, parameters, outputs: UnsafeCell::new(outputs) };
     Box::into_raw(Box::new(guard)).cast()
 }
 
@@ -147,13 +150,6 @@ unsafe fn guarded<P: ClapPlugin>(host: *const clap_host) -> *const clap_plugin {
 unsafe fn guard<'a>(plugin: *const clap_plugin) -> &'a Guard {
     // SAFETY: the table is the guard's first field.
     unsafe { &*plugin.cast() }
-}
-
-/// # Safety
-/// As [`guard`], in a call that the format lets no other overlap.
-unsafe fn guard_mut<'a>(plugin: *const clap_plugin) -> &'a mut Guard {
-    // SAFETY: as above; the box was leaked as mutable.
-    unsafe { &mut *plugin.cast_mut().cast() }
 }
 
 unsafe extern "C" fn destroy(plugin: *const clap_plugin) {
@@ -167,11 +163,10 @@ unsafe extern "C" fn destroy(plugin: *const clap_plugin) {
 }
 
 unsafe extern "C" fn activate(plugin: *const clap_plugin, rate: f64, least: u32, most: u32) -> bool {
-    // SAFETY: `activate` overlaps with no other call but those on other threads that the guard answers from
-    // fields that are not touched here.
+    // SAFETY: `activate` never overlaps with `process`, so that nobody else holds the outputs.
     unsafe {
-        let guard = guard_mut(plugin);
-        guard.scratch.prepare(most as usize);
+        let guard = guard(plugin);
+        (*guard.outputs.get()).scratch.prepare(most as usize);
         guard.framework.activate.is_some_and(|activate| activate(plugin, rate, least, most))
     }
 }
@@ -195,15 +190,16 @@ unsafe extern "C" fn timed_process(
 /// # Real-time
 /// No allocation: tables and scratch were made when the plugin was activated.
 unsafe extern "C" fn process(plugin: *const clap_plugin, call: *const clap_process) -> clap_process_status {
-    // SAFETY: `process` overlaps with neither itself nor `activate`; `call` is null or valid with all it points to.
+    // SAFETY: `process` overlaps with neither itself nor `activate`, so that nobody else holds the outputs; `call` is
+    // null or valid with all it points to.
     unsafe {
-        let Some(framework) = guard(plugin).framework.process else { return CLAP_PROCESS_ERROR };
+        let guard = guard(plugin);
+        let Some(framework) = guard.framework.process else { return CLAP_PROCESS_ERROR };
         let Some(&given) = call.as_ref() else { return CLAP_PROCESS_ERROR };
-        let guard = guard_mut(plugin);
-        if is_complete(&given, guard.scratch.ports()) {
+        let Outputs { scratch, ports } = &mut *guard.outputs.get();
+        if is_complete(&given, scratch.ports()) {
             return framework(plugin, call);
         }
-        let Guard { scratch, ports, .. } = guard;
         let completed = scratch.complete(given.frames_count as usize, |port| match port_of(&given, port) {
             Some(port) => (port.data32, port.channel_count as usize),
             None => (ptr::null_mut(), 0),

@@ -6,6 +6,9 @@ pub const CHANNELS: usize = 2;
 /// Longest buffer prepared for when a host announces none or a tiny one.
 const LEAST_FRAMES: usize = 8192;
 
+/// Longest buffer prepared for, whatever a host announces: 20 s at 48 kHz, where no host's own buffers would end.
+const MOST_FRAMES: usize = 1 << 20;
+
 /// Scratch for every channel of every declared port, and the table of pointers that a port is passed as.
 pub struct Scratch {
     frames: usize,
@@ -30,9 +33,9 @@ impl Scratch {
         }
     }
 
-    /// Makes room for buffers of up to `frames`. Allocates.
+    /// Makes room for buffers of up to `frames`, or a million where a host announces more. Allocates.
     pub fn prepare(&mut self, frames: usize) {
-        self.frames = frames.max(LEAST_FRAMES);
+        self.frames = frames.clamp(LEAST_FRAMES, MOST_FRAMES);
         for channel in self.channels.iter_mut().flatten() {
             channel.resize(self.frames, 0.0);
         }
@@ -97,6 +100,17 @@ mod tests {
         all.sort();
         all.dedup();
         assert_eq!(all.len(), 6, "two channels share a buffer");
+    }
+
+    #[test]
+    fn an_absurd_announcement_does_not_exhaust_memory() {
+        let mut scratch = Scratch::new(1);
+        scratch.prepare(u32::MAX as usize);
+        // SAFETY: no tables are given.
+        unsafe {
+            assert!(scratch.complete(MOST_FRAMES, |_| (std::ptr::null_mut(), 0)).is_some());
+            assert!(scratch.complete(MOST_FRAMES + 1, |_| (std::ptr::null_mut(), 0)).is_none());
+        }
     }
 
     #[test]

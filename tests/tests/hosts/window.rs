@@ -1,6 +1,7 @@
 //! The editor in a window of a host.
 
 use std::collections::HashSet;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -11,6 +12,7 @@ use x11rb::{COPY_DEPTH_FROM_PARENT, COPY_FROM_PARENT};
 
 use crate::score::{assert_same, notes, through_engine, through_plugin};
 use crate::{alone, instance};
+use xtask::host::{Event, Instance, Processor, What};
 use xtask::player::Blocks;
 
 /// How long an editor may take to appear: a virtual display draws in software.
@@ -54,6 +56,17 @@ impl Parent {
         image.data.chunks_exact(4).map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect::<HashSet<_>>().len()
     }
 
+    /// Waits until something is drawn.
+    fn wait_for_text(&self, instance: &mut Instance, when: &str) {
+        let begun = Instant::now();
+        // Text alone gives dozens of shades.
+        while self.colours() < 20 {
+            assert!(begun.elapsed() < PATIENCE, "{when}: the editor stays blank");
+            instance.answer();
+            thread::sleep(Duration::from_millis(50));
+        }
+    }
+
     fn children(&self) -> usize {
         self.connection.query_tree(self.window).unwrap().reply().unwrap().children.len()
     }
@@ -74,13 +87,7 @@ fn the_editor_opens_draws_and_closes_while_it_plays() {
             .expect("the editor opens");
         let sound = through_plugin(&mut instance, &score, rate, Blocks::Fixed(512));
         assert_same(&sound, &through_engine(&score, rate), "with the editor open");
-        let begun = Instant::now();
-        // Text alone gives dozens of shades.
-        while parent.colours() < 20 {
-            assert!(begun.elapsed() < PATIENCE, "round {round}: the editor stays blank");
-            instance.answer();
-            thread::sleep(Duration::from_millis(50));
-        }
+        parent.wait_for_text(&mut instance, &format!("round {round}"));
         assert_eq!(parent.children(), 1);
         instance.close_editor().unwrap();
     }
@@ -94,4 +101,75 @@ fn the_editor_opens_draws_and_closes_while_it_plays() {
     thread::sleep(Duration::from_millis(300));
     drop(instance);
     drop(parent);
+}
+
+/// Hosts make their own window between creating the editor and showing it.
+#[test]
+fn the_editor_draws_however_late_it_is_shown() {
+    let _turn = alone();
+    for delay in [0, 10, 50, 200, 1000].map(Duration::from_millis) {
+        let mut instance = instance();
+        let parent = instance
+            .open_editor(|width, height| {
+                let parent = Parent::new(width, height);
+                thread::sleep(delay);
+                Ok((parent.window, parent))
+            })
+            .expect("the editor opens");
+        parent.wait_for_text(&mut instance, &format!("shown {delay:?} late"));
+        instance.close_editor().unwrap();
+    }
+}
+
+/// Tells the other thread to stop, whatever ends this one's work.
+struct Stop<'a>(&'a AtomicBool);
+
+impl Drop for Stop<'_> {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Release);
+    }
+}
+
+#[test]
+fn the_editor_opens_and_closes_twenty_times_while_it_plays() {
+    let _turn = alone();
+    let mut instance = instance();
+    let stop = AtomicBool::new(false);
+    let threads = || std::fs::read_dir("/proc/self/task").unwrap().count();
+    let play = |processor: &mut Processor| {
+        let mut sound = [[0.0; 256], [0.0; 256]];
+        let (mut blocks, mut peak) = (0_u32, 0.0_f32);
+        while !stop.load(Ordering::Acquire) {
+            let strike = Event {
+                offset: 100,
+                what: What::NoteOn { channel: 9, key: 36 + (blocks % 24) as u8, velocity: 0.7 },
+            };
+            let events = if blocks.is_multiple_of(40) { vec![strike] } else { Vec::new() };
+            let [left, right] = &mut sound;
+            processor.process(&events, left, right)?;
+            peak = left.iter().chain(&*right).fold(peak, |peak, sample| peak.max(sample.abs()));
+            blocks += 1;
+            // About real time, so that the windows get their turn.
+            thread::sleep(Duration::from_millis(3));
+        }
+        Ok((blocks, peak))
+    };
+    let mut between = Vec::new();
+    let open_and_close = |instance: &mut Instance| {
+        let _stop = Stop(&stop);
+        for round in 0..20 {
+            let parent = instance.open_editor(|width, height| {
+                let parent = Parent::new(width, height);
+                Ok((parent.window, parent))
+            })?;
+            parent.wait_for_text(instance, &format!("round {round}"));
+            instance.close_editor()?;
+            between.push(threads());
+        }
+        Ok(())
+    };
+    let (blocks, peak) = instance.run_beside(48_000.0, 1..=256, play, open_and_close).expect("it plays");
+    assert!(blocks > 100 && peak > 0.01 && peak.is_finite(), "{blocks} blocks, peak {peak}");
+    // The first window may leave threads of the graphics driver behind.
+    assert!(between[19] <= between[1], "threads between windows: {between:?}");
 }

@@ -28,7 +28,7 @@ pub enum Task {
     Demo,
     /// Check everything the project promises, the hosts included
     Test,
-    /// Build the release bundles (CLAP, VST3)
+    /// Build the release bundles (CLAP, VST3) and the program that needs no host
     Bundle,
     /// Build the release bundles and copy them where hosts look
     Install,

@@ -289,6 +289,23 @@ impl Instance {
         frames: std::ops::RangeInclusive<u32>,
         work: impl FnOnce(&mut Processor) -> Result<T> + Send,
     ) -> Result<T> {
+        self.run_beside(rate, frames, work, |_| Ok(()))
+    }
+
+    /// As [`run`](Self::run), with `meanwhile` on this thread while the other plays.
+    ///
+    /// # Errors
+    /// If the plugin refuses, or what `meanwhile` and `work` return.
+    ///
+    /// # Panics
+    /// If `work` does.
+    pub fn run_beside<T: Send>(
+        &mut self,
+        rate: f64,
+        frames: std::ops::RangeInclusive<u32>,
+        work: impl FnOnce(&mut Processor) -> Result<T> + Send,
+        meanwhile: impl FnOnce(&mut Instance) -> Result<()>,
+    ) -> Result<T> {
         self.answer();
         let max_frames = *frames.end();
         let configuration = PluginAudioConfiguration {
@@ -310,10 +327,14 @@ impl Instance {
             let result = work(&mut processor);
             (processor.into_started().stop_processing(), Some(result))
         };
-        let (stopped, result) = thread::scope(|scope| scope.spawn(audio).join())
-            .unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        let (beside, played) = thread::scope(|scope| {
+            let audio = scope.spawn(audio);
+            (meanwhile(self), audio.join())
+        });
+        let (stopped, result) = played.unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         self.plugin.deactivate(stopped);
         self.answer();
+        beside?;
         result.context("the plugin does not start to process")?
     }
 

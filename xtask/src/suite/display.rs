@@ -20,6 +20,8 @@ impl Display {
         let mut server = Command::new("Xvfb")
             .args(["-displayfd", "1", "-screen", "0", "1920x1200x24"])
             .args(["+extension", "GLX", "-nolisten", "tcp"])
+            // Left by its last client it would begin anew, and refuse whoever comes meanwhile.
+            .arg("-noreset")
             .stdin(Stdio::null())
             .stdout(Stdio::piped())
             .stderr(Stdio::null())

@@ -7,7 +7,7 @@ use std::process::{Command, Stdio};
 use anyhow::{Context, Result, bail};
 
 use super::runner::heading;
-use crate::system::{self, HOST_LIBRARIES, LINKER, PYTHON, WINDOW_LIBRARIES, XVFB};
+use crate::system::{self, HOST_LIBRARIES, LINKER, PYTHON, SOUND_HEADERS, WINDOW_LIBRARIES, XVFB};
 use crate::workspace;
 
 /// What is installed into the tests' own Python; one place, so that it is renewed when it changes.
@@ -19,7 +19,7 @@ const PYTHON_PACKAGES: [&str; 3] = ["dawdreamer>=0.8.3", "numpy", "pedalboard>=0
 /// Naming what is missing.
 pub fn run(target: &Path) -> Result<PathBuf> {
     heading("set-up");
-    system::ensure(&[LINKER, XVFB, WINDOW_LIBRARIES, PYTHON, HOST_LIBRARIES])?;
+    system::ensure(&[LINKER, XVFB, WINDOW_LIBRARIES, SOUND_HEADERS, PYTHON, HOST_LIBRARIES])?;
     for component in ["fmt", "clippy"] {
         rust_component(component)?;
     }
