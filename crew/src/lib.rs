@@ -5,7 +5,7 @@
 //! like everybody else until it is empty, so that work which no worker has claimed is done in any case, and
 //! then waits for what has been claimed. Nothing is shared but the queues: the compiler proves that no post is
 //! ever in two hands, and there is no unsafe code here or in the engine. What the queues do inside
-//! (crossbeam's `ArrayQueue`) is tested there with loom and miri.
+//! (crossbeam's `ArrayQueue`) is taken on trust; docs/kit.md has the argument.
 //!
 //! Which thread renders a post does not change a bit of it, nor does the order: within a run no piece hears
 //! another.
