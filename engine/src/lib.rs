@@ -24,6 +24,7 @@ pub mod layout;
 pub mod listening;
 pub mod math;
 pub mod membrane;
+pub mod microphones;
 pub mod modal;
 pub mod piece;
 pub mod plate;

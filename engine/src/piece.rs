@@ -9,6 +9,7 @@ use crate::hi_hat::{HiHat, HiHatSpec};
 use crate::kit::BLOCK;
 use crate::layout::Layout;
 use crate::listening::ListeningPoint;
+use crate::microphones::{self, CloseMicrophone};
 use crate::modal::EARS;
 use crate::snapshot::{FieldShapes, PieceSnapshot, RimSnapshot, StrikeSnapshot, WireSnapshot};
 use crate::strike::Strike;
@@ -153,7 +154,8 @@ pub struct BuildOptions {
     pub unevenness: Option<f64>,
     /// What muffles a drum, if not its own.
     pub muffler: Option<Muffler>,
-    /// Where the close microphone stands, if not at the piece's own listening point.
+    /// Where the close microphone stands, if not at the piece's own listening point; see
+    /// [`microphones`](crate::microphones) for where it stands in the kit.
     pub close: Option<ListeningPoint>,
 }
 
@@ -173,6 +175,11 @@ impl BuildOptions {
             muffler: None,
             close: None,
         }
+    }
+
+    /// The instrument as it stands in the kit: heard by the piece's close microphone.
+    pub fn in_kit(id: PieceId, sample_rate: f64) -> Self {
+        BuildOptions { close: microphones::over_rim(id), ..BuildOptions::new(sample_rate) }
     }
 }
 
@@ -241,7 +248,7 @@ pub struct Piece {
     /// Nothing moves and nothing is about: there is nothing to render.
     asleep: bool,
     quarantines: u32,
-    close: ListeningPoint,
+    close: CloseMicrophone,
     /// Largest sound since the block began, Pa, and samples for which it has been next to nothing.
     loudest: f32,
     quiet: usize,
@@ -313,7 +320,7 @@ impl Piece {
             unglided: 0,
             asleep: true,
             quarantines: 0,
-            close,
+            close: CloseMicrophone::new(id, options.close, close),
             loudest: 0.0,
             quiet: 0,
         })
@@ -576,9 +583,9 @@ impl Piece {
         }
     }
 
-    /// Where its close microphone stands, seen from the middle of the struck surface.
-    pub fn close(&self) -> ListeningPoint {
-        self.close
+    /// Its close microphone.
+    pub fn close(&self) -> &CloseMicrophone {
+        &self.close
     }
 
     /// What is done once a block: controls followed, silence made exact, faults caught.
@@ -701,6 +708,7 @@ impl Piece {
         into.wires = self.wires();
         into.rims = self.rims();
         into.quarantines = self.quarantines;
+        into.hurried_strikers = self.voice.surface().hurried_strikers();
         for (k, q) in into.displacement.iter_mut().enumerate() {
             *q = if k < body.len() { body.displacement(k) } else { 0.0 };
         }

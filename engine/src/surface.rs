@@ -104,6 +104,8 @@ pub struct Surface {
     brought_energy: f64,
     departed_energy: f64,
     last: StrikeSnapshot,
+    /// Strikers that had to make room for others before they had left.
+    hurried: u32,
     dt: f64,
 }
 
@@ -170,6 +172,7 @@ impl Surface {
             brought_energy: 0.0,
             departed_energy: 0.0,
             last: StrikeSnapshot::default(),
+            hurried: 0,
             dt,
         }
     }
@@ -290,6 +293,11 @@ impl Surface {
     /// What the latest stroke's contact measured.
     pub fn last_strike(&self) -> StrikeSnapshot {
         self.last
+    }
+
+    /// Strikers that were taken away before they had left, for there are places for [`MAX_STRIKERS`] at a time.
+    pub fn hurried_strikers(&self) -> u32 {
+        self.hurried
     }
 
     /// Changes the modes while they ring; `mode(k, old)` gives the new one.

@@ -27,10 +27,11 @@ use std::time::{Duration, Instant};
 
 use crossbeam::queue::ArrayQueue;
 use overhear_engine::error::SpecError;
+use overhear_engine::kit::Crew;
 use overhear_engine::piece::{BuildOptions, Piece, PieceId};
 use overhear_engine::snapshot::FieldShapes;
 
-use crate::building::BuildPlan;
+use crate::building::{BuildPlan, Staff};
 use crate::shelf;
 
 /// Pieces of a kit.
@@ -94,6 +95,9 @@ struct Shared {
     latest: AtomicU32,
     built: ArrayQueue<Built>,
     returned: ArrayQueue<Box<Piece>>,
+    /// Workers on their way to the kit, one change at a time, and those that it has dismissed.
+    hired: ArrayQueue<Hired>,
+    dismissed: ArrayQueue<Box<dyn Crew>>,
     shapes: Mutex<[Option<Arc<FieldShapes>>; PIECES]>,
 }
 
@@ -124,6 +128,12 @@ struct Built {
     piece: Box<Piece>,
 }
 
+/// Who is to render beside the audio thread, if anybody.
+struct Hired {
+    order: u32,
+    crew: Option<Box<dyn Crew>>,
+}
+
 impl Builder {
     /// A builder that follows a plan. Has no thread until something is ordered.
     pub fn new(wanted: Wanted) -> Builder {
@@ -145,6 +155,9 @@ impl Builder {
             // The audio thread returns at most one piece for each it takes and those that faded out, at most one
             // of each kind; the thread empties this queue before it adds to the other: this can never be full.
             returned: ArrayQueue::new(4 * PIECES),
+            hired: ArrayQueue::new(1),
+            // One comes back for each that is sent, and this is emptied before another is.
+            dismissed: ArrayQueue::new(2),
             shapes: Mutex::default(),
         };
         Builder { shared: Arc::new(shared), make, wanted, thread: None }
@@ -230,6 +243,19 @@ impl Delivery {
         }
     }
 
+    /// Hands who is to render, if that has changed, to `hire` and sends back who did so far.
+    ///
+    /// # Real-time
+    /// No allocation, no lock, nothing dropped.
+    pub fn take_crew(&self, hire: impl FnOnce(Option<Box<dyn Crew>>) -> Option<Box<dyn Crew>>) {
+        let Some(Hired { order, crew }) = self.shared.hired.pop() else { return };
+        let free = if order == self.order { hire(crew) } else { crew };
+        if let Some(Err(homeless)) = free.map(|crew| self.shared.dismissed.push(crew)) {
+            // As for pieces.
+            std::mem::forget(homeless);
+        }
+    }
+
     /// Sends a piece back to be dropped.
     ///
     /// # Real-time
@@ -285,6 +311,11 @@ impl Shared {
 
     /// Builds what a job asks for until done or until its order is no longer the latest.
     fn build(&self, job: &Job, make: Make) -> Result<(), String> {
+        if job.former.map_or(Staff::NOBODY, |former| former.staff()) != job.plan.staff() {
+            // A kit without workers plays as well: no reason to fail.
+            let crew = job.plan.staff().hire().unwrap_or_default();
+            self.deliver(&self.hired, Hired { order: job.order, crew }, job.order);
+        }
         let differs = |id: PieceId, options: &BuildOptions| {
             job.former.is_none_or(|former| former.options(id, job.sample_rate) != *options)
         };
@@ -349,17 +380,16 @@ impl Shared {
         let (piece, shapes) = made?;
         if self.latest.load(Ordering::Acquire) == order {
             lock(&self.shapes)[slot] = Some(shapes);
-            self.deliver(Built { order, piece });
+            self.deliver(&self.built, Built { order, piece }, order);
         }
         Ok(())
     }
 
-    /// Puts a piece into the queue once there is room, unless it is no longer wanted.
-    fn deliver(&self, mut built: Built) {
-        let order = built.order;
+    /// Puts something into its queue once there is room, unless it is no longer wanted.
+    fn deliver<T>(&self, queue: &ArrayQueue<T>, mut built: T, order: u32) {
         while self.latest.load(Ordering::Acquire) == order {
             self.collect();
-            match self.built.push(built) {
+            match queue.push(built) {
                 Ok(()) => return,
                 // Full of an earlier order's pieces, which the audio thread returns when it
                 // runs next. If it does not run, nobody is listening: there is no hurry.
@@ -372,6 +402,7 @@ impl Shared {
     /// Drops what has come back.
     fn collect(&self) {
         while self.returned.pop().is_some() {}
+        while self.dismissed.pop().is_some() {}
     }
 
     fn end(&self, order: u32, failure: Option<String>) {

@@ -251,6 +251,14 @@ fn status(snapshot: &KitSnapshot) -> (String, Color32) {
         ("Waiting for the host to run".to_owned(), theme::FAINT)
     } else if ready < PieceId::KIT.len() {
         (format!("Building the kit: {ready} of {} pieces", PieceId::KIT.len()), theme::ACCENT)
+    } else if snapshot.late_buffers > 0 {
+        (
+            format!("{} buffers were late: lower the quality, or add a worker", snapshot.late_buffers),
+            theme::OVER,
+        )
+    } else if snapshot.missed_runs > 0 {
+        let missed = snapshot.missed_runs;
+        (format!("Workers left pieces silent for {missed} blocks: use fewer of them"), theme::OVER)
     } else if snapshot.dropped_strikes > 0 {
         let dropped = snapshot.dropped_strikes;
         (format!("Ready; {dropped} early strokes were dropped"), theme::FAINT)
