@@ -5,7 +5,7 @@
 //! like everybody else until it is empty, so that work which no worker has claimed is done in any case, and
 //! then waits for what has been claimed. Nothing is shared but the queues: the compiler proves that no post is
 //! ever in two hands, and there is no unsafe code here or in the engine. What the queues do inside
-//! (crossbeam's `ArrayQueue`) is tested there with loom and miri.
+//! (crossbeam's `ArrayQueue`) is taken on trust; docs/kit.md has the argument.
 //!
 //! Which thread renders a post does not change a bit of it, nor does the order: within a run no piece hears
 //! another.
@@ -46,7 +46,7 @@ const IDLE: Duration = Duration::from_secs(1);
 pub enum Patience {
     /// Some milliseconds, then the piece is silent for the run: while somebody listens.
     RealTime,
-    /// Until it is done: while a file is rendered.
+    /// Until it is done, or half a minute has passed: while a file is rendered.
     Offline,
 }
 
@@ -55,7 +55,7 @@ impl Patience {
     const fn looks(self) -> u64 {
         match self {
             Patience::RealTime => 100_000,
-            Patience::Offline => u64::MAX,
+            Patience::Offline => 1_000_000_000,
         }
     }
 }

@@ -17,6 +17,8 @@
 
 use std::collections::BTreeMap;
 
+use serde::{Deserialize, Serialize};
+
 use crate::math::bessel::JTable;
 use crate::math::quadrature::GaussLegendre;
 
@@ -158,7 +160,7 @@ pub fn monopole_area(radius: f64, resistance: f64, omega: f64) -> f64 {
 }
 
 /// Added mass of a mode against frequency, by Chebyshev interpolation of `ln mass` in `u`.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct MassCurve {
     /// The greatest `u`; infinity in vacuum.
     most: f64,

@@ -26,6 +26,8 @@
 //!
 //! Neglected: adhesion, friction, and the mass of the deformed material.
 
+use serde::{Deserialize, Serialize};
+
 /// Slowest approach that still sets the loss, m/s. Below it a touch is as lossy as at it; keeps
 /// `lambda` finite. *Derived*: far below any audible landing.
 const SLOWEST_APPROACH: f64 = 1e-3;
@@ -34,7 +36,7 @@ const SLOWEST_APPROACH: f64 = 1e-3;
 const MAX_ITERATIONS: usize = 60;
 
 /// Elastic constants of a solid.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Material {
     /// Young's modulus, Pa.
     pub youngs_modulus: f64,

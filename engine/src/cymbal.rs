@@ -6,12 +6,16 @@
 //! rigid motions are too slow to be heard. The plate stands in free air ([`FreeDisc`]).
 
 use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
 
 use crate::air;
 use crate::contact::Material;
 use crate::damping::{LossLaw, Muffler, SIGMA_T60, Thermoelastic};
 use crate::error::SpecError;
 use crate::glide::Glide;
+use crate::kept::Kept;
 use crate::listening::{ListeningPoint, Radiator};
 use crate::modal::Mode;
 use crate::piece::{BuildOptions, Member, ModeInfo, ModeKind};
@@ -174,23 +178,23 @@ impl Cymbal {
     /// [`SpecError`] if a number is out of range.
     pub fn new(spec: &CymbalSpec, options: &BuildOptions) -> Result<Cymbal, SpecError> {
         let limit_hz = LIMIT_HZ.min(LIMIT_OF_RATE * options.sample_rate);
-        let plate = PlateModes::new(&spec.plate, limit_hz)?;
+        let known = SoundingPlate::of(spec, limit_hz)?;
+        let SoundingPlate { plate, radiated } = &*known;
         let (orders, extent) = plate.table_extent(limit_hz);
         let tables = PlateTables::new(orders, extent);
         let splitting = if options.unsplit { Splitting::ROUND } else { spec.splitting };
-        let radiated = radiate(spec, &plate, &tables);
-        let (modes, index) = lay_out(spec, &plate, &radiated, splitting);
+        let (modes, index) = lay_out(spec, plate, radiated, splitting);
         let bare = |mode: &BuiltMode| Mode { omega: mode.omega, sigma: 0.0, mass: spec.plate.mass };
-        let coupled = couple(&plate, &tables, &index, options);
+        let coupled = couple(plate, &tables, &index, options);
         let mut surface = Surface::new(SurfaceParts {
             modes: modes.iter().map(bare).collect(),
-            shapes: ShapeTable::new(&radial_rows(&plate, &tables, &ShapeTable::radii()), index),
+            shapes: ShapeTable::new(&radial_rows(plate, &tables, &ShapeTable::radii()), index),
             transfer: vec![[0.0; 2]; modes.len()],
             material: spec.material,
             lossless: options.lossless,
             sample_rate: options.sample_rate,
         });
-        let ears = [0, 1].map(|ear| transfer(spec, &plate, &radiated, ear).into_iter());
+        let ears = [0, 1].map(|ear| transfer(spec, plate, radiated, ear).into_iter());
         let ([near, far], away) = (ears, spec.far_point.distance);
         surface.set_transfers(near, far.map(|transfer| transfer.map(|h| h * away)));
         if let Some(Coupled { potential, modes, highest_hz }) = coupled {
@@ -421,8 +425,36 @@ fn radial_rows(plate: &PlateModes, tables: &PlateTables, radii: &[f64]) -> Vec<f
     rows
 }
 
+/// A plate's modes and what each does to the air around.
+#[derive(Serialize, Deserialize)]
+pub(crate) struct SoundingPlate {
+    /// The modes.
+    pub plate: PlateModes,
+    /// `[shell]`.
+    pub radiated: Vec<Radiated>,
+}
+
+/// What has been worked out of late.
+static PLATES: Kept<SoundingPlate> = Kept::new("plate", 16);
+
+impl SoundingPlate {
+    /// A cymbal's, up to a frequency.
+    ///
+    /// # Errors
+    /// [`SpecError`] if the plate or the limit is out of range.
+    pub(crate) fn of(spec: &CymbalSpec, limit_hz: f64) -> Result<Arc<SoundingPlate>, SpecError> {
+        let key = format!("{:?} {:?} {:?} {limit_hz:?}", spec.plate, spec.listening_point, spec.far_point);
+        PLATES.get(&key, || {
+            let plate = PlateModes::new(&spec.plate, limit_hz)?;
+            let (orders, extent) = plate.table_extent(limit_hz);
+            let radiated = radiate(spec, &plate, &PlateTables::new(orders, extent));
+            Ok(SoundingPlate { plate, radiated })
+        })
+    }
+}
+
 /// What each of the plate's shell modes does to the air around, `[shell]`.
-pub(crate) fn radiate(spec: &CymbalSpec, plate: &PlateModes, tables: &PlateTables) -> Vec<Radiated> {
+fn radiate(spec: &CymbalSpec, plate: &PlateModes, tables: &PlateTables) -> Vec<Radiated> {
     let highest = plate.shells.last().map_or(0.0, |shell| shell.omega);
     let finest = plate.flat.iter().flatten().map(|flat| flat.root).fold(0.0, f64::max);
     let trace = highest * spec.plate.radius() / air::SPEED_OF_SOUND;

@@ -8,10 +8,12 @@
 //!
 //! Sources: Zener, Phys. Rev. 53, 1938; Norris & Photiadis, Q. J. Mech. Appl. Math. 58, 2005 (plates).
 
+use serde::{Deserialize, Serialize};
+
 use crate::plate::PlateSpec;
 
 /// Losses inside a material, `sigma = constant + per_khz * f / 1 kHz`.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct LossLaw {
     /// Decay rate at low frequency, 1/s.
     pub constant: f64,

@@ -5,6 +5,7 @@
 //! are not part of it.
 
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 pub mod build;
 pub mod coupled;
@@ -19,6 +20,7 @@ use crate::air::SPEED_OF_SOUND;
 use crate::damping::{Muffler, SIGMA_T60};
 use crate::error::SpecError;
 use crate::glide::Glide;
+use crate::kept::Kept;
 use crate::modal::Mode;
 use crate::piece::{BuildOptions, Member, ModeInfo, ModeKind};
 use crate::rim::Rim;
@@ -78,12 +80,16 @@ enum MufflerCoefs {
     },
 }
 
+/// What has been worked out of late.
+static BLUEPRINTS: Kept<Blueprint> = Kept::new("drum", 24);
+static HEARINGS: Kept<[Hearing; 2]> = Kept::new("hearing", 24);
+
 /// A drum that can be struck.
 pub struct Drum {
     surface: Surface,
-    blueprint: Blueprint,
+    blueprint: Arc<Blueprint>,
     /// From near and from far.
-    hearing: [Hearing; 2],
+    hearing: Arc<[Hearing; 2]>,
     far_distance: f64,
     modes: Vec<BodyMode>,
     /// Shapes on the resonant head, where wires lie against it.
@@ -110,15 +116,18 @@ impl Drum {
     pub fn new(spec: &DrumSpec, options: &BuildOptions) -> Result<Drum, SpecError> {
         let spec = spec.validated()?;
         let (low, pitch, high) = spec.pitch_hz;
-        let blueprint = Blueprint::new(&spec)?;
+        let blueprint = BLUEPRINTS.get(&spec.body(), || Blueprint::new(&spec))?;
         let place = blueprint.scale.place(pitch);
         let rungs: Vec<Rung> = blueprint.modes.iter().map(|mode| mode.at(&place)).collect();
         let modes = lay_out(&spec, &blueprint, options);
         let muffler = MufflerCoefs::new(&spec, &blueprint);
         let points = [spec.listening_point, spec.far_point];
-        let near = Hearing::new(&blueprint, &spec, spec.listening_point);
-        let far = near.from(&blueprint, &spec, spec.far_point);
-        let hearing = [near, far];
+        let heard = format!("{} {points:?} {:?}", spec.body(), spec.splitting);
+        let hearing = HEARINGS.get(&heard, || {
+            let near = Hearing::new(&blueprint, &spec, spec.listening_point);
+            let far = near.from(&blueprint, &spec, spec.far_point);
+            Ok::<_, SpecError>([near, far])
+        })?;
         let bare =
             |mode: &BodyMode| Mode { omega: rungs[mode.pair].omega, sigma: 0.0, mass: rungs[mode.pair].mass };
         let mut surface = Surface::new(SurfaceParts {

@@ -112,12 +112,17 @@ impl Kit {
     }
 
     /// Lets somebody else render the posts, and returns who did so far, to be dropped elsewhere. Output does
-    /// not depend on who does.
+    /// not depend on who does. Meant for a kit that [is whole](Self::is_whole): what a dismissed crew still has is lost.
     ///
     /// # Real-time
     /// No allocation; nothing is dropped here.
     pub fn hire(&mut self, crew: Option<Box<dyn Crew>>) -> Option<Box<dyn Crew>> {
         std::mem::replace(&mut self.crew, crew)
+    }
+
+    /// Whether nobody has a post away: the crew has brought back all it took.
+    pub fn is_whole(&self) -> bool {
+        self.posts.iter().all(Option::is_some)
     }
 
     /// Samples in which no piece hears what another does: the longest run that is rendered at once.
@@ -171,7 +176,7 @@ impl Kit {
         piece.press_pedal(seat.pedal, SPEED.1);
         piece.finish_controls();
         piece.align((self.clock % BLOCK as u64) as usize);
-        self.air.place_close(slot, piece.close().distance);
+        self.air.place_close(slot, piece.close());
         let former = post.piece.replace(piece)?;
         post.leaving.see_off(former)
     }

@@ -13,6 +13,8 @@
 //!
 //! Source: Morse & Ingard, Theoretical Acoustics, ch. 5; Rossing, Science of Percussion Instruments.
 
+use serde::{Deserialize, Serialize};
+
 use crate::air::{self, MassCurve, MassCurves, MembraneAir};
 use crate::contact::Material;
 use crate::damping::LossLaw;
@@ -20,7 +22,7 @@ use crate::error::SpecError;
 use crate::math::bessel::{self, JTable};
 
 /// A drum head.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct MembraneSpec {
     /// Radius of the vibrating part, m.
     pub radius: f64,
@@ -51,7 +53,7 @@ pub struct ModeRange {
 }
 
 /// One pair of modes (one mode for `m = 0`).
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct MembraneMode {
     /// Nodal diameters.
     pub m: u32,
@@ -77,7 +79,7 @@ pub struct Ringing {
 }
 
 /// A head and its modes, lowest first.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Membrane {
     spec: MembraneSpec,
     modes: Vec<MembraneMode>,

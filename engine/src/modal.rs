@@ -29,10 +29,7 @@ use aligned_vec::{AVec, ConstAlign};
 use simd::driven::Drive;
 use simd::{Kernels, LANES};
 
-pub use simd::EARS;
-
-/// Forces that one call of [`ModalBody::ring_driven`] takes.
-pub const MAX_DRIVES: usize = 16;
+pub use simd::{EARS, MAX_DRIVES};
 
 /// A row of one `f32` per mode, aligned and padded with zeros to whole SIMD lanes.
 pub type Row = AVec<f32, ConstAlign<64>>;
@@ -210,6 +207,11 @@ impl ModalBody {
     /// Chooses the kernels, for comparing them; [`new`](Self::new) takes the best the machine has.
     pub fn set_kernels(&mut self, kernels: Kernels) {
         self.kernels = kernels;
+    }
+
+    /// The kernels in use.
+    pub fn kernels(&self) -> Kernels {
+        self.kernels
     }
 
     /// Number of modes.
@@ -407,6 +409,11 @@ impl ModalBody {
     /// Vibration energy, J.
     pub fn energy(&self) -> f64 {
         (0..self.modes.len()).map(|k| self.mode_energy(k)).sum()
+    }
+
+    /// Energy of its motion alone, J: nothing of a body that something holds bent.
+    pub fn motion(&self) -> f64 {
+        (0..self.modes.len()).map(|k| 0.5 * self.modes[k].mass * self.velocity(k).powi(2)).sum()
     }
 
     fn mode_energy(&self, k: usize) -> f64 {

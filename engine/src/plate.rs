@@ -13,6 +13,8 @@
 
 use std::f64::consts::TAU;
 
+use serde::{Deserialize, Serialize};
+
 use crate::air;
 use crate::error::SpecError;
 use crate::math::bessel::{ITable, JTable};
@@ -34,7 +36,7 @@ pub use spec::PlateSpec;
 const FLAT_MARGIN: f64 = 2.0 * TAU;
 
 /// A mode of the domed plate; for `m > 0` it has two members, cosine and sine.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ShellMode {
     /// Nodal diameters.
     pub m: u32,
@@ -47,7 +49,7 @@ pub struct ShellMode {
 }
 
 /// Every mode of a plate up to a frequency.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct PlateModes {
     /// What it was built from.
     pub spec: PlateSpec,

@@ -27,7 +27,7 @@
 //!
 //! `g` is evaluated once in `stride` samples, at the displacements that the modes would reach by
 //! themselves in the middle of the stretch: second order, and no phase lag. Where the potential's share of
-//! the energy has become weak, the errors are too, and every other evaluation is left out; where the energy held
+//! the energy has become weak, the errors are too, and every other evaluation is left out, where it is faint two of three; where the energy held
 //! strays from the true one, the plate moves faster than was foreseen, and three are made for one.
 //!
 //! Drift: `psi` follows the path, not the true energy, and errors add up. At each evaluation `U` is
@@ -99,6 +99,9 @@ const NEGLIGIBLE: f64 = 3e-4;
 /// Share of the energy under which a potential is weak. *Measured* on the crash: no third octave moves by
 /// 0.09 dB.
 const WEAK: f64 = 0.05;
+
+/// Share of that under which it is faint. *Measured* on the crash: no third octave moves by 0.04 dB.
+const FAINT: f64 = 0.2;
 
 /// Error of the energy held, over the kinetic energy, from which it is evaluated three times as often, and the
 /// time in which one is forgotten, s. *Measured*: a crash at 6 m/s stays below, evaluated seven times a period; a
@@ -323,6 +326,11 @@ impl NonlinearForce {
     /// Before the body steps: evaluates if it is time. True if `g` is another one now.
     pub fn begin(&mut self, body: &mut ModalBody, pickup: &Pickup) -> bool {
         body.keep(&mut self.front);
+        self.prepare(body, pickup)
+    }
+
+    /// Evaluates if it is time.
+    fn prepare(&mut self, body: &mut ModalBody, pickup: &Pickup) -> bool {
         let due = self.countdown == 0 && !self.done;
         if due {
             let stride = self.judge();
@@ -331,6 +339,7 @@ impl NonlinearForce {
                 body.face(&mut self.front, pickup, 0.5 * f64::from(stride));
             }
             self.countdown = self.stride;
+            body.keep(&mut self.front);
             self.evaluate(body);
             body.connect(&mut self.port);
             self.stiffening = 1.0 + 0.5 * body.compliance(&self.port, &self.port);
@@ -340,6 +349,34 @@ impl NonlinearForce {
         }
         self.countdown = self.countdown.saturating_sub(1);
         due
+    }
+
+    /// Advances the modes in front through a run with no striker about, under what `air` presses (a port and the
+    /// pressures of the run), and adds what is heard of them.
+    ///
+    /// # Real-time
+    /// As so many samples of [`begin`](Self::begin) to [`finish`](Self::finish), in fewer passes over the modes.
+    pub fn ring(
+        &mut self,
+        body: &mut ModalBody,
+        pickup: &Pickup,
+        air: Option<(&Port, &[f32])>,
+        out: &mut [&mut [f32]; EARS],
+    ) {
+        let mut felt = air.map_or(0.0, |(port, _)| body.compliance(&self.port, port));
+        for i in 0..out[0].len() {
+            if self.prepare(body, pickup) {
+                felt = air.map_or(0.0, |(port, _)| body.compliance(&self.port, port));
+            }
+            let pressure = air.map_or(0.0, |(_, pressures)| pressures[i]);
+            let moved = body.step_front_along(&self.front, &self.port) + felt * f64::from(pressure);
+            self.mean = (self.psi + 0.5 * moved) / self.stiffening;
+            let (force, mut heard) = self.hold(0.0);
+            let forces = [(force, &self.port), (pressure, air.map_or(&self.port, |(port, _)| port))];
+            let rung = body.push_front_and_listen(&self.front, forces, pickup);
+            heard.iter_mut().zip(rung).for_each(|(heard, rung)| *heard += rung);
+            out.iter_mut().zip(heard).for_each(|(out, heard)| out[i] += heard);
+        }
     }
 
     /// After the body's free step: `psibar` if no striker pressed.
@@ -365,16 +402,23 @@ impl NonlinearForce {
 
     /// Applies the force, given `sum p_i F_i` of the strikers; the pressure that follows at once.
     pub fn finish(&mut self, body: &mut ModalBody, strikers: f64) -> Heard {
+        let (force, heard) = self.hold(strikers);
+        body.push(&self.port, force);
+        heard
+    }
+
+    /// The force held over the sample, and the pressure that follows at once.
+    fn hold(&mut self, strikers: f64) -> (f32, Heard) {
         let mean = self.mean + strikers / self.divisor();
         self.psi = 2.0 * mean - self.psi;
         let force = -mean as f32;
-        body.push(&self.port, force);
-        std::array::from_fn(|ear| {
+        let heard = std::array::from_fn(|ear| {
             // The rate of the slow part: of what changes faster the velocity is right.
             let rate = (force * self.slow[ear] - self.lag[ear]) * (1.0 / SLOW_TIME) as f32;
             self.lag[ear] += rate * self.dt as f32;
             force * self.direct[ear] + rate + std::mem::take(&mut self.jolt[ear])
-        })
+        });
+        (force, heard)
     }
 
     /// The velocities were scaled: that is heard.
@@ -480,6 +524,8 @@ impl NonlinearForce {
         let strong = ((f64::from(self.strong_stride) / self.stiffness.max(1.0).sqrt()) as u32).max(1);
         if self.astray > ASTRAY {
             (strong / 3).max(1)
+        } else if self.share < FAINT * self.weak {
+            3 * strong
         } else if self.share < self.weak {
             2 * strong
         } else {

@@ -74,6 +74,8 @@ pub struct PieceSnapshot {
     pub rims: RimSnapshot,
     /// Times the piece was put back to rest because a value was not finite.
     pub quarantines: u32,
+    /// Strikers taken away early, to make room for others: in rolls denser than four at a time.
+    pub hurried_strikers: u32,
 }
 
 impl Default for PieceSnapshot {
@@ -87,6 +89,7 @@ impl Default for PieceSnapshot {
             wires: WireSnapshot::default(),
             rims: RimSnapshot::default(),
             quarantines: 0,
+            hurried_strikers: 0,
         }
     }
 }
@@ -106,6 +109,8 @@ pub struct KitSnapshot {
     pub missed_runs: u32,
     /// Samples that the safety clip has bent.
     pub clipped_samples: u64,
+    /// Buffers that were ready too late. Filled in by whoever has a clock; the engine has none.
+    pub late_buffers: u64,
 }
 
 /// Shapes of a piece's lowest modes at the points of its displacement field.

@@ -32,7 +32,6 @@ use crate::snapshot::StrikeSnapshot;
 
 use air::{Incident, Listener};
 use patch::Film;
-use sample::add;
 use together::Compliances;
 use touch::{TouchPoint, Toucher};
 use wires::SnareWires;
@@ -105,6 +104,8 @@ pub struct Surface {
     brought_energy: f64,
     departed_energy: f64,
     last: StrikeSnapshot,
+    /// Strikers that had to make room for others before they had left.
+    hurried: u32,
     dt: f64,
 }
 
@@ -171,6 +172,7 @@ impl Surface {
             brought_energy: 0.0,
             departed_energy: 0.0,
             last: StrikeSnapshot::default(),
+            hurried: 0,
             dt,
         }
     }
@@ -248,6 +250,20 @@ impl Surface {
         self.body.energy() + self.beyond.as_ref().map_or(0.0, NonlinearForce::energy) + wires + rim
     }
 
+    /// Energy of the motion, J. Wires against a head that was tuned meanwhile may hold it bent for good, which nothing is
+    /// heard of.
+    pub fn motion(&self) -> f64 {
+        let wires: f64 =
+            self.touchers[MAX_STRIKERS..].iter().filter(|group| group.present).map(Toucher::motion).sum();
+        let rim = self.rim.as_ref().map_or(0.0, |rim| rim.body.motion());
+        let pair = self.pair.as_ref().map_or(0.0, |pair| pair.energy());
+        self.body.motion()
+            + self.beyond.as_ref().map_or(0.0, |force| force.energy().abs())
+            + wires
+            + rim
+            + pair
+    }
+
     /// True energy of the body beyond its modes, J, and the relative error of the variable that
     /// stands for it; slow, for tests.
     pub fn true_potential(&mut self) -> (f64, f64) {
@@ -277,6 +293,11 @@ impl Surface {
     /// What the latest stroke's contact measured.
     pub fn last_strike(&self) -> StrikeSnapshot {
         self.last
+    }
+
+    /// Strikers that were taken away before they had left, for there are places for [`MAX_STRIKERS`] at a time.
+    pub fn hurried_strikers(&self) -> u32 {
+        self.hurried
     }
 
     /// Changes the modes while they ring; `mode(k, old)` gives the new one.
@@ -382,17 +403,7 @@ impl Surface {
             Some(force) if force.is_active() => {
                 let first = force.front().length();
                 body.ring_driven(first, drive.into_iter(), pickup, out.each_mut().map(|out| &mut **out));
-                for i in 0..samples {
-                    force.begin(body, pickup);
-                    body.step_front(force.front());
-                    if let Some((port, pressures)) = drive {
-                        body.push_front(force.front(), port, pressures[i]);
-                    }
-                    force.free(body);
-                    let mut heard = force.finish(body, 0.0);
-                    add(&mut heard, body.listen_front(force.front(), pickup));
-                    out.iter_mut().zip(heard).for_each(|(out, heard)| out[i] += heard);
-                }
+                force.ring(body, pickup, drive, &mut out);
             }
             _ => body.ring_driven(0, drive.into_iter(), pickup, out.each_mut().map(|out| &mut **out)),
         }

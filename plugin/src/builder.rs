@@ -11,24 +11,28 @@
 //!
 //! Replaced pieces go back to be dropped here, as dropping frees memory. Every order has a
 //! number; pieces of an older one are returned unplayed. The thread starts with the first order,
-//! never when an instance is merely created, and looks between pieces whether it is still wanted,
-//! so that dropping the builder waits for one piece at most. From then on it looks a few times a second
+//! never when an instance is merely created. While it has pieces to build, others help it, as many as there are processors
+//! up to four, and end with the job: a pool that outlived it would still run when a host unloads the plugin. All look between
+//! pieces whether they are still wanted, so that dropping the builder waits for one piece each at most; pieces
+//! arrive in the order of the kit, whoever builds them. From then on it looks a few times a second
 //! whether the [plan](BuildPlan) has changed, and builds those pieces anew that it concerns: parameters
 //! are moved on threads that must not wake another. One thread per instance, because the
 //! framework's shared one does not survive instances that come and go while it works.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::atomic::{AtomicU32, Ordering};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::atomic::{AtomicBool, AtomicU32, AtomicUsize, Ordering};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError, mpsc};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 use crossbeam::queue::ArrayQueue;
 use overhear_engine::error::SpecError;
+use overhear_engine::kit::Crew;
 use overhear_engine::piece::{BuildOptions, Piece, PieceId};
 use overhear_engine::snapshot::FieldShapes;
 
-use crate::building::BuildPlan;
+use crate::building::{BuildPlan, Staff};
+use crate::shelf;
 
 /// Pieces of a kit.
 const PIECES: usize = PieceId::KIT.len();
@@ -41,6 +45,12 @@ const NO_ORDER: u32 = 0;
 
 /// Computes one piece.
 type Make = fn(PieceId, &BuildOptions) -> Result<Piece, SpecError>;
+
+/// A piece with what is drawn of it, or why there is none.
+type Made = Result<(Box<Piece>, Arc<FieldShapes>), String>;
+
+/// Threads that build at once, at most.
+const MOST_THREADS: usize = 4;
 
 /// Says what is wanted now; asked by any thread but the audio thread.
 pub type Wanted = Arc<dyn Fn() -> BuildPlan + Send + Sync>;
@@ -85,6 +95,9 @@ struct Shared {
     latest: AtomicU32,
     built: ArrayQueue<Built>,
     returned: ArrayQueue<Box<Piece>>,
+    /// Workers on their way to the kit, one change at a time, and those that it has dismissed.
+    hired: ArrayQueue<Hired>,
+    dismissed: ArrayQueue<Box<dyn Crew>>,
     shapes: Mutex<[Option<Arc<FieldShapes>>; PIECES]>,
 }
 
@@ -115,10 +128,22 @@ struct Built {
     piece: Box<Piece>,
 }
 
+/// Who is to render beside the audio thread, if anybody.
+struct Hired {
+    order: u32,
+    crew: Option<Box<dyn Crew>>,
+}
+
 impl Builder {
     /// A builder that follows a plan. Has no thread until something is ordered.
     pub fn new(wanted: Wanted) -> Builder {
-        Builder::with(Piece::new, wanted)
+        Builder::with(
+            |id, options| {
+                shelf::provide();
+                Piece::new(id, options)
+            },
+            wanted,
+        )
     }
 
     fn with(make: Make, wanted: Wanted) -> Builder {
@@ -130,6 +155,9 @@ impl Builder {
             // The audio thread returns at most one piece for each it takes and those that faded out, at most one
             // of each kind; the thread empties this queue before it adds to the other: this can never be full.
             returned: ArrayQueue::new(4 * PIECES),
+            hired: ArrayQueue::new(1),
+            // One comes back for each that is sent, and this is emptied before another is.
+            dismissed: ArrayQueue::new(2),
             shapes: Mutex::default(),
         };
         Builder { shared: Arc::new(shared), make, wanted, thread: None }
@@ -215,6 +243,19 @@ impl Delivery {
         }
     }
 
+    /// Hands who is to render, if that has changed, to `hire` and sends back who did so far.
+    ///
+    /// # Real-time
+    /// No allocation, no lock, nothing dropped.
+    pub fn take_crew(&self, hire: impl FnOnce(Option<Box<dyn Crew>>) -> Option<Box<dyn Crew>>) {
+        let Some(Hired { order, crew }) = self.shared.hired.pop() else { return };
+        let free = if order == self.order { hire(crew) } else { crew };
+        if let Some(Err(homeless)) = free.map(|crew| self.shared.dismissed.push(crew)) {
+            // As for pieces.
+            std::mem::forget(homeless);
+        }
+    }
+
     /// Sends a piece back to be dropped.
     ///
     /// # Real-time
@@ -270,36 +311,85 @@ impl Shared {
 
     /// Builds what a job asks for until done or until its order is no longer the latest.
     fn build(&self, job: &Job, make: Make) -> Result<(), String> {
-        for (slot, id) in PieceId::KIT.into_iter().enumerate() {
-            let options = job.plan.options(id, job.sample_rate);
-            if job.former.is_some_and(|former| former.options(id, job.sample_rate) == options) {
-                continue;
+        if job.former.map_or(Staff::NOBODY, |former| former.staff()) != job.plan.staff() {
+            // A kit without workers plays as well: no reason to fail.
+            let crew = job.plan.staff().hire().unwrap_or_default();
+            self.deliver(&self.hired, Hired { order: job.order, crew }, job.order);
+        }
+        let differs = |id: PieceId, options: &BuildOptions| {
+            job.former.is_none_or(|former| former.options(id, job.sample_rate) != *options)
+        };
+        let wanted: Vec<(usize, PieceId, BuildOptions)> = PieceId::KIT
+            .into_iter()
+            .enumerate()
+            .map(|(slot, id)| (slot, id, job.plan.options(id, job.sample_rate)))
+            .filter(|(_, id, options)| differs(*id, options))
+            .collect();
+        let (taken, given_up) = (AtomicUsize::new(0), AtomicBool::new(false));
+        let next = || {
+            let dropped =
+                self.latest.load(Ordering::Acquire) != job.order || given_up.load(Ordering::Acquire);
+            let index = taken.fetch_add(1, Ordering::Relaxed);
+            wanted
+                .get(index)
+                .filter(|_| !dropped)
+                .map(|&(_, id, ref options)| (index, made(make, id, options)))
+        };
+        let (send, made) = mpsc::channel();
+        thread::scope(|scope| {
+            let processors = thread::available_parallelism().map_or(1, usize::from);
+            for _ in 1..processors.min(MOST_THREADS).min(wanted.len()) {
+                let (send, next) = (send.clone(), &next);
+                // One that cannot be had is done without.
+                let _ = thread::Builder::new().name("overhear-helper".to_owned()).spawn_scoped(
+                    scope,
+                    move || {
+                        while let Some(made) = next() {
+                            // Received to the end, or nobody wants it.
+                            let _ = send.send(made);
+                        }
+                    },
+                );
             }
-            let made = catch_unwind(AssertUnwindSafe(|| {
-                let piece = make(id, &options)?;
-                let shapes = Arc::new(piece.field_shapes());
-                Ok::<_, SpecError>((Box::new(piece), shapes))
-            }));
-            let (piece, shapes) = match made {
-                Ok(Ok(made)) => made,
-                Ok(Err(error)) => return Err(format!("{}: {error}", id.name())),
-                Err(_) => return Err(format!("{}: building it panicked", id.name())),
+            let mut waiting: Vec<Option<Made>> = wanted.iter().map(|_| None).collect();
+            let mut due = 0;
+            let mut arrive = |(index, made): (usize, Made)| {
+                waiting[index] = Some(made);
+                while let Some(made) = waiting.get_mut(due).and_then(Option::take) {
+                    self.hand_over(job.order, wanted[due].0, made)?;
+                    due += 1;
+                }
+                Ok(())
             };
-            if self.latest.load(Ordering::Acquire) != job.order {
-                return Ok(());
-            }
+            let all = || {
+                while let Some(made_here) = next() {
+                    arrive(made_here)?;
+                    made.try_iter().try_for_each(&mut arrive)?;
+                }
+                drop(send);
+                made.iter().try_for_each(&mut arrive)
+            };
+            let outcome = all();
+            given_up.store(true, Ordering::Release);
+            outcome
+        })
+    }
+
+    /// Passes a piece on, if it could be made and is still wanted.
+    fn hand_over(&self, order: u32, slot: usize, made: Made) -> Result<(), String> {
+        let (piece, shapes) = made?;
+        if self.latest.load(Ordering::Acquire) == order {
             lock(&self.shapes)[slot] = Some(shapes);
-            self.deliver(Built { order: job.order, piece });
+            self.deliver(&self.built, Built { order, piece }, order);
         }
         Ok(())
     }
 
-    /// Puts a piece into the queue once there is room, unless it is no longer wanted.
-    fn deliver(&self, mut built: Built) {
-        let order = built.order;
+    /// Puts something into its queue once there is room, unless it is no longer wanted.
+    fn deliver<T>(&self, queue: &ArrayQueue<T>, mut built: T, order: u32) {
         while self.latest.load(Ordering::Acquire) == order {
             self.collect();
-            match self.built.push(built) {
+            match queue.push(built) {
                 Ok(()) => return,
                 // Full of an earlier order's pieces, which the audio thread returns when it
                 // runs next. If it does not run, nobody is listening: there is no hurry.
@@ -312,6 +402,7 @@ impl Shared {
     /// Drops what has come back.
     fn collect(&self) {
         while self.returned.pop().is_some() {}
+        while self.dismissed.pop().is_some() {}
     }
 
     fn end(&self, order: u32, failure: Option<String>) {
@@ -323,6 +414,20 @@ impl Shared {
         }
         drop(desk);
         self.changed.notify_all();
+    }
+}
+
+/// Makes a piece and what is drawn of it, or says why not.
+fn made(make: Make, id: PieceId, options: &BuildOptions) -> Made {
+    let made = catch_unwind(AssertUnwindSafe(|| {
+        let piece = make(id, options)?;
+        let shapes = Arc::new(piece.field_shapes());
+        Ok::<_, SpecError>((Box::new(piece), shapes))
+    }));
+    match made {
+        Ok(Ok(made)) => Ok(made),
+        Ok(Err(error)) => Err(format!("{}: {error}", id.name())),
+        Err(_) => Err(format!("{}: building it panicked", id.name())),
     }
 }
 

@@ -168,7 +168,8 @@ impl NiceEguiApp for App {
 
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut Frame) {
         let Some(gui) = &self.gui else { return };
-        let snapshot = self.sources.viewer.latest();
+        let mut snapshot = self.sources.viewer.latest();
+        snapshot.late_buffers = self.sources.parameters.deadlines().late();
         let shapes = |slot| self.sources.shapes.of(slot);
         let mut set = |index: usize, gesture| {
             let Some(parameter) = self.sources.parameters.values().get(index) else { return };

@@ -8,6 +8,7 @@ use crossbeam::atomic::AtomicCell;
 use nice_plug::params::persist::{deserialize_field, serialize_field};
 use nice_plug::prelude::*;
 
+use crate::deadline::Deadlines;
 use crate::midi::assignments::{Assignment, Assignments, NOTES};
 use crate::midi::maps::NoteMap;
 use crate::parameters::{PARAMETERS, Parameter, find};
@@ -31,6 +32,8 @@ pub struct HostParameters {
     values: Box<[FloatParam]>,
     window: AtomicCell<WindowSize>,
     assignments: Arc<Assignments>,
+    /// No parameter, but what host, editor and audio thread share is here.
+    deadlines: Deadlines,
 }
 
 impl Default for HostParameters {
@@ -39,6 +42,7 @@ impl Default for HostParameters {
             values: PARAMETERS.iter().map(host_parameter).collect(),
             window: AtomicCell::new(DEFAULT_WINDOW),
             assignments: Arc::default(),
+            deadlines: Deadlines::default(),
         }
     }
 }
@@ -82,6 +86,11 @@ impl HostParameters {
     /// The user's assignments of notes.
     pub fn assignments(&self) -> Arc<Assignments> {
         self.assignments.clone()
+    }
+
+    /// Whether buffers are ready in time.
+    pub fn deadlines(&self) -> &Deadlines {
+        &self.deadlines
     }
 
     /// Logical size of the editor's window.

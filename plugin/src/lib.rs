@@ -5,13 +5,14 @@
 //! know no framework, and the commands share them with the plugin.
 //!
 //! With the feature `framework`, around them: [`plugin`] is the instance a host holds,
-//! [`builder`] the thread that makes its pieces, [`host_parameters`] and [`state`] what a project
+//! [`builder`] the thread that makes its pieces, [`shelf`] what outlives it, [`host_parameters`] and [`state`] what a project
 //! stores, [`monitor`] what the [`editor`] may know.
 #![deny(unsafe_code)]
 
 #[cfg(feature = "framework")]
 pub mod builder;
 pub mod building;
+pub mod deadline;
 #[cfg(feature = "framework")]
 pub mod editor;
 #[cfg(feature = "framework")]
@@ -27,6 +28,7 @@ pub mod performer;
 #[cfg(feature = "framework")]
 pub mod plugin;
 pub mod presets;
+pub mod shelf;
 #[cfg(feature = "framework")]
 pub mod state;
 

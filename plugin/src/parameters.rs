@@ -72,6 +72,8 @@ pub enum Construction {
     OfflineQuality,
     /// Pitch of a drum's resonant head over the batter head's.
     ResonantRatio(PieceId),
+    /// Threads that render pieces beside the host's own.
+    Workers,
 }
 
 /// One parameter. Plain values are in [`unit`](Self::unit)s.
@@ -107,9 +109,9 @@ pub struct Parameter {
 }
 
 impl Construction {
-    /// Whether it is a quality: the same instrument, computed more or less closely.
-    pub fn is_quality(self) -> bool {
-        matches!(self, Construction::Quality | Construction::OfflineQuality)
+    /// Whether it is about the machine: the same instrument, computed more or less closely, or by more cores.
+    pub fn is_effort(self) -> bool {
+        matches!(self, Construction::Quality | Construction::OfflineQuality | Construction::Workers)
     }
 }
 
@@ -233,7 +235,7 @@ mod tests {
     use overhear_engine::piece::Piece;
 
     /// Changing this list breaks every project that was ever saved.
-    const FROZEN_IDS: [&str; 78] = [
+    const FROZEN_IDS: [&str; 79] = [
         "kktune", "kkmuff", "kklevl", "sntune", "snmuff", "snlevl", "rttune", "rtmuff", "rtlevl", "fttune",
         "ftmuff", "ftlevl", "crtune", "crmuff", "crlevl", "rdtune", "rdmuff", "rdlevl", "sptune", "spmuff",
         "splevl", "master", "dynam", "snprel", "snwire", "tptune", "tpmuff", "tplevl", "kkpan", "snpan",
@@ -241,7 +243,7 @@ mod tests {
         "crplac", "rdplac", "spplac", "tpplac", "kkstik", "snstik", "rtstik", "ftstik", "crstik", "rdstik",
         "spstik", "tpstik", "velcur", "humpla", "humspd", "notmap", "midchn", "chokes", "poscc", "qualit",
         "offqua", "kkreso", "snreso", "rtreso", "ftreso", "cllevl", "ohlevl", "rmlevl", "hear", "sympat",
-        "clip", "hhtune", "hhmuff", "hhlevl", "hhpan", "hhplac", "hhstik", "hhpedl",
+        "clip", "hhtune", "hhmuff", "hhlevl", "hhpan", "hhplac", "hhstik", "hhpedl", "workrs",
     ];
 
     #[test]

@@ -9,7 +9,8 @@ use std::sync::Arc;
 use no_denormals::no_denormals;
 use overhear_engine::error::SpecError;
 use overhear_engine::hi_hat::foot::SPEED;
-use overhear_engine::kit::{Control, Kit, Stereo};
+use overhear_engine::kit::{Control, Crew, Kit, Stereo};
+use overhear_engine::layout::Layout;
 use overhear_engine::piece::{Piece, PieceId};
 use overhear_engine::snapshot::KitSnapshot;
 use overhear_engine::strike::Striker;
@@ -43,8 +44,17 @@ impl Performer {
 
     /// As [`new`](Self::new), with the user's assignments of notes.
     pub fn with_assignments(sample_rate: f64, assignments: Arc<Assignments>) -> Performer {
+        Performer::at(Kit::new(sample_rate), assignments)
+    }
+
+    /// As [`new`](Self::new), at a kit that stands so.
+    pub fn with_layout(sample_rate: f64, layout: &Layout) -> Performer {
+        Performer::at(Kit::with_layout(sample_rate, layout), Arc::default())
+    }
+
+    fn at(kit: Kit, assignments: Arc<Assignments>) -> Performer {
         let mut performer = Performer {
-            kit: Kit::new(sample_rate),
+            kit,
             asked: [f32::NAN; PARAMETERS.len()],
             values: [f32::NAN; PARAMETERS.len()],
             playing: Playing::new(assignments),
@@ -66,6 +76,20 @@ impl Performer {
             self.install(Box::new(Piece::new(id, &plan.options(id, sample_rate))?));
         }
         Ok(())
+    }
+
+    /// Lets others render pieces, or nobody, from the next run on; returns who did so far, to be dropped elsewhere. Meant for
+    /// a kit that [is whole](Self::is_whole).
+    ///
+    /// # Real-time
+    /// No allocation; nothing is dropped here.
+    pub fn hire(&mut self, crew: Option<Box<dyn Crew>>) -> Option<Box<dyn Crew>> {
+        self.kit.hire(crew)
+    }
+
+    /// Whether no worker holds a piece: all have come back from the latest run.
+    pub fn is_whole(&self) -> bool {
+        self.kit.is_whole()
     }
 
     /// Puts a piece in its place and returns what stood there, to be dropped elsewhere.
@@ -300,7 +324,7 @@ impl Performer {
 /// Hosts call with either mode; a tail that fades through denormals must neither cost a hundred
 /// times as much in one of them nor sound different.
 #[allow(unsafe_code)]
-fn flushed<T>(engine: impl FnOnce() -> T) -> T {
+pub(crate) fn flushed<T>(engine: impl FnOnce() -> T) -> T {
     // SAFETY: only the flush-to-zero and denormals-are-zero modes change, and only in here; no
     // code in the engine relies on denormals, and the former mode returns before any other code
     // runs.

@@ -123,7 +123,10 @@ impl<O: Outputs> Plugin for Instrument<O> {
         config: &BufferConfig,
         _context: &mut impl ActivateContext<Self>,
     ) -> bool {
-        self.offline.store(config.process_mode == ProcessMode::Offline, Ordering::Release);
+        let offline = config.process_mode == ProcessMode::Offline;
+        self.offline.store(offline, Ordering::Release);
+        let awaited = (!offline).then_some(f64::from(config.sample_rate));
+        self.parameters.deadlines().expect(awaited);
         self.prepare(config.sample_rate);
         // A rate that the engine does not know is no reason to lose the project: it stays silent.
         true
@@ -210,6 +213,10 @@ impl Stage {
         self.delivery.take(|piece| self.performer.install(piece));
         while let Some(piece) = self.performer.retire() {
             self.delivery.give_back(piece);
+        }
+        // What a crew has not brought back yet would go with it.
+        if self.performer.is_whole() {
+            self.delivery.take_crew(|crew| self.performer.hire(crew));
         }
     }
 

@@ -82,7 +82,7 @@ fn is_set_up(parameter: &Parameter) -> bool {
     use Manner::{Channel, Chokes, Curve, FollowsPosition, Map};
     match parameter.drives {
         Drives::Playing(Map | Channel | Chokes | FollowsPosition | Curve) => true,
-        Drives::Building(construction) => construction.is_quality(),
+        Drives::Building(construction) => construction.is_effort(),
         _ => false,
     }
 }

@@ -33,11 +33,16 @@ pub fn build(id: PieceId, options: &BuildOptions) -> Piece {
     Piece::new(id, options).expect("a default piece")
 }
 
-/// The whole kit.
+/// A piece as it stands in the kit, heard by its close microphone.
+pub fn kit_piece(id: PieceId, sample_rate: f64) -> Piece {
+    build(id, &BuildOptions::in_kit(id, sample_rate))
+}
+
+/// The whole kit, as the plugin plays it.
 pub fn kit(sample_rate: f64) -> Kit {
     let mut kit = Kit::new(sample_rate);
     for id in PieceId::KIT {
-        assert!(kit.install(Box::new(piece(id, sample_rate))).is_none());
+        assert!(kit.install(Box::new(kit_piece(id, sample_rate))).is_none());
     }
     kit
 }

@@ -3,7 +3,7 @@
 use overhear_engine::kit::{Control, Kit};
 use overhear_engine::piece::{Piece, PieceId};
 use overhear_engine::strike::{Strike, Striker};
-use overhear_tests::{Chance, RATES, kit, piece, render, stroke, total_energy};
+use overhear_tests::{Chance, RATES, kit, kit_piece, piece, render, stroke, total_energy};
 
 #[derive(Debug, Clone, Copy)]
 enum Action {
@@ -95,7 +95,7 @@ fn start_over(kit: &mut Kit, spare: &mut Option<Box<Piece>>) {
 
 fn buffers_do_not_matter(rate: f64) {
     let mut kit = kit(rate);
-    let mut spare = Some(Box::new(piece(PieceId::Snare, rate)));
+    let mut spare = Some(Box::new(kit_piece(PieceId::Snare, rate)));
     let score = score(rate as u64);
     let whole = play(&mut kit, &mut spare, &score, || LENGTH);
     assert!(whole.iter().filter(|&&[left, _]| f32::from_bits(left).abs() > 1e-3).count() > LENGTH / 2);
@@ -129,7 +129,7 @@ fn the_hosts_buffer_changes_no_sample_at_96_khz() {
 #[test]
 fn a_kit_reset_plays_as_a_new_one() {
     let score = score(7);
-    let spare = || Some(Box::new(piece(PieceId::Snare, RATES[0])));
+    let spare = || Some(Box::new(kit_piece(PieceId::Snare, RATES[0])));
     let mut random = Chance::new(3);
     let new = play(&mut kit(RATES[0]), &mut spare(), &score, || 512);
     // Left in the middle of a block, with controls on their way and strikers about.

@@ -1,9 +1,12 @@
-//! The kit as a whole: its outputs.
+//! The kit as a whole: its outputs, and what it does under more than can be played.
 
 use overhear_engine::kit::{Control, Kit, Microphone, OUTPUTS, Stereo};
-use overhear_engine::piece::PieceId;
+use overhear_engine::piece::{Piece, PieceId};
+use overhear_engine::snapshot::KitSnapshot;
 use overhear_engine::strike::Striker;
-use overhear_tests::{RATES, kit, stroke};
+use overhear_tests::{Chance, RATES, kit, stroke};
+use xtask::player::{EnginePlayer, Hit, Player, Setup};
+use xtask::stage::Stage;
 
 const RATE: f64 = RATES[0];
 
@@ -63,4 +66,91 @@ fn a_pan_all_the_way_leaves_the_other_side_silent_and_gets_there_without_a_step(
     assert!(steps(&left[1_990..2_100]) <= steps(&left[1_800..1_990]) + 1e-3);
     assert!(left[8_000..].iter().all(|&x| x.abs() < 1e-6));
     assert!(right[8_000..].iter().any(|&x| x.abs() > 1e-3));
+}
+
+/// 5,000 strokes in 10 s: on every piece by turns and at random, with rolls of a stroke every 3 ms.
+fn storm(chance: &mut Chance) -> Vec<(usize, PieceId, bool)> {
+    let rate = RATE as usize;
+    let mut strokes = Vec::new();
+    for i in 0..3_000 {
+        let id = if i % 2 == 0 { PieceId::KIT[i / 2 % PieceId::KIT.len()] } else { chance.of(&PieceId::KIT) };
+        strokes.push((chance.below(10 * rate), id, false));
+    }
+    for roll in 0..20 {
+        let (id, from) = (PieceId::KIT[roll % PieceId::KIT.len()], chance.below(9 * rate));
+        strokes.extend((0..100).map(|i| (from + i * 3 * rate / 1000, id, true)));
+    }
+    strokes.sort_by_key(|&(at, _, _)| at);
+    strokes
+}
+
+#[test]
+fn five_thousand_strokes_in_ten_seconds_stay_finite_and_bounded_and_none_is_lost_silently() {
+    let (mut kit, mut chance) = (kit(RATE), Chance::new(5));
+    let strokes = storm(&mut chance);
+    assert_eq!(strokes.len(), 5_000);
+    let (mut left, mut right) = (vec![0.0; 4_096], vec![0.0; 4_096]);
+    let (mut now, mut peak) = (0, 0.0_f32);
+    let begun = std::time::Instant::now();
+    let mut advance = |kit: &mut Kit, until: usize| -> f32 {
+        while now < until {
+            let frames = (until - now).min(left.len());
+            let (left, right) = (&mut left[..frames], &mut right[..frames]);
+            kit.render(left, right);
+            for x in left.iter().chain(right.iter()) {
+                assert!(x.is_finite(), "at sample {now}");
+                peak = peak.max(x.abs());
+            }
+            now += frames;
+        }
+        peak
+    };
+    for (at, id, rolls) in strokes {
+        advance(&mut kit, at);
+        let mut stroke = chance.stroke(8.0);
+        if rolls {
+            (stroke.striker, stroke.radius) = (Striker::Stick, 0.4);
+        }
+        kit.strike(id, &stroke);
+    }
+    let peak = advance(&mut kit, 10 * RATE as usize);
+    let share = begun.elapsed().as_secs_f64() / 10.0;
+    let mut snapshot = KitSnapshot::default();
+    kit.snapshot(&mut snapshot);
+    let struck: u32 = snapshot.pieces.iter().map(|piece| piece.strike.count).sum();
+    let hurried: u32 = snapshot.pieces.iter().map(|piece| piece.hurried_strikers).sum();
+    println!("peak {peak:.1}, {hurried} strikers made room for others, {:.0} % of real time", 100.0 * share);
+    // Every stroke was played, and whoever had to make room for the next is counted.
+    assert_eq!((struck, snapshot.dropped_strikes, snapshot.missed_runs), (5_000, 0, 0));
+    assert!(hurried > 100, "{hurried}");
+    for (id, piece) in PieceId::KIT.iter().zip(&snapshot.pieces) {
+        assert_eq!(piece.quarantines, 0, "{id:?}");
+    }
+    // No more than what so many strokes bring: each stays well below full scale, hundreds sound at a time.
+    assert!(peak < 30.0, "{peak}");
+    // It dies away as it must.
+    for id in PieceId::KIT.into_iter().filter(|id| !id.is_drum()) {
+        kit.choke(id, 1.0);
+    }
+    let energy =
+        |kit: &Kit| PieceId::KIT.iter().filter_map(|&id| kit.piece(id)).map(Piece::energy).sum::<f64>();
+    let before = energy(&kit);
+    advance(&mut kit, 15 * RATE as usize);
+    assert!(energy(&kit) < 1e-3 * before, "{} of {before} J", energy(&kit));
+}
+
+#[test]
+fn the_workers_that_a_parameter_hires_change_no_sample() {
+    let play = |workers: &str| {
+        let settings = xtask::settings::parse(&[workers.to_owned(), "offline_quality=as played".to_owned()]);
+        let setup = Setup { rate: 48_000, settings: settings.expect("settings"), stage: Stage::default() };
+        let mut player = EnginePlayer::new(&setup).expect("a rate");
+        let (mut left, mut right) = (vec![0.0; 12_000], vec![0.0; 12_000]);
+        let hits = [36, 38, 49, 51].map(|key| Hit { sample: 100, channel: 9, key, velocity: 110 });
+        player.render(&hits, &mut left, &mut right).expect("an engine that plays");
+        left.into_iter().chain(right).map(f32::to_bits).collect::<Vec<_>>()
+    };
+    let alone = play("workers=0");
+    assert!(alone.iter().any(|&x| f32::from_bits(x).abs() > 0.01));
+    assert!(alone == play("workers=2"));
 }

@@ -4,6 +4,7 @@
 //! `cargo test --package overhear-tests --features traps --test process`
 
 use assert_no_alloc::{AllocDisabler, assert_no_alloc, reset_violation_count, violation_count};
+use overhear::deadline::Deadlines;
 use overhear::parameters::PARAMETERS;
 use overhear::performer::Performer;
 use overhear_engine::snapshot::KitSnapshot;
@@ -15,6 +16,7 @@ static ALLOCATOR: AllocDisabler = AllocDisabler;
 /// A performer with its kit, and what a host gives it.
 struct Session {
     performer: Performer,
+    deadlines: Deadlines,
     snapshot: KitSnapshot,
     left: Vec<f32>,
     right: Vec<f32>,
@@ -25,8 +27,11 @@ impl Session {
     fn new(seed: u64) -> Session {
         let mut performer = Performer::new(48_000.0);
         performer.install_kit(48_000.0).expect("a rate that pieces can be built for");
+        let deadlines = Deadlines::default();
+        deadlines.expect(Some(48_000.0));
         Session {
             performer,
+            deadlines,
             snapshot: KitSnapshot::default(),
             left: vec![0.0; 512],
             right: vec![0.0; 512],
@@ -63,7 +68,9 @@ impl Session {
         }
         let longest = self.chance.of(&[1, 1, 2, 4, 8, 16, 33, 64]);
         let frames = 1 + self.chance.below(longest);
-        self.performer.render(&mut self.left[..frames], &mut self.right[..frames]);
+        // As the entries do it, around all of a host's call.
+        let (left, right) = (&mut self.left[..frames], &mut self.right[..frames]);
+        self.deadlines.timed(frames, || self.performer.render(left, right));
     }
 }
 
@@ -79,6 +86,7 @@ fn nothing_allocates_while_ten_thousand_events_are_performed() {
     session.performer.snapshot(&mut session.snapshot);
     assert!(session.snapshot.pieces.iter().all(|piece| piece.ready && piece.quarantines == 0));
     assert_eq!(session.snapshot.dropped_strikes, 0);
+    assert_eq!(session.deadlines.buffers(), 10_000);
 }
 
 /// In a child of this test, which forbids itself all system calls.

@@ -11,7 +11,7 @@ use overhear_engine::kit::{Control, Kit};
 use overhear_engine::piece::{Piece, PieceId};
 use overhear_engine::snapshot::KitSnapshot;
 use overhear_engine::strike::Strike;
-use overhear_tests::{Chance, kit, piece};
+use overhear_tests::{Chance, kit, kit_piece};
 
 #[global_allocator]
 static ALLOCATOR: AllocDisabler = AllocDisabler;
@@ -39,7 +39,7 @@ impl Stage {
         Stage {
             kit: kit(RATE),
             spares: [PieceId::Snare, PieceId::Splash, PieceId::Timpani]
-                .map(|id| Box::new(piece(id, RATE)))
+                .map(|id| Box::new(kit_piece(id, RATE)))
                 .into(),
             snapshot: KitSnapshot::default(),
             left: vec![0.0; 8192],

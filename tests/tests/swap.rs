@@ -3,7 +3,7 @@
 use overhear_engine::kit::{Control, Kit, Microphone};
 use overhear_engine::piece::PieceId;
 use overhear_engine::strike::Striker;
-use overhear_tests::{kit, piece, stroke};
+use overhear_tests::{kit, kit_piece, stroke};
 
 const RATE: f64 = 48_000.0;
 
@@ -44,7 +44,7 @@ fn a_piece_that_rings_fades_out_under_the_new_one_without_a_click() {
         };
         let mut kit = struck(id);
         sound(&mut kit, BEFORE, 512);
-        assert!(kit.install(Box::new(piece(id, RATE))).is_none(), "it still sounds");
+        assert!(kit.install(Box::new(kit_piece(id, RATE))).is_none(), "it still sounds");
         assert!(kit.retire().is_none(), "it is still fading");
         let faded = sound(&mut kit, 2_400, 512);
         // The fade may bend the sound, never as sharply as the sound bends itself by more than a few per cent.
@@ -68,7 +68,7 @@ fn a_swap_sounds_the_same_in_every_buffer_size() {
     let swapped = |buffer| {
         let mut kit = struck(PieceId::Crash);
         let mut all = sound(&mut kit, BEFORE, buffer);
-        kit.install(Box::new(piece(PieceId::Crash, RATE)));
+        kit.install(Box::new(kit_piece(PieceId::Crash, RATE)));
         kit.strike(PieceId::Crash, &stroke(Striker::Shoulder, 3.0, 0.97, 0.0));
         all.extend(sound(&mut kit, 4_800, buffer));
         all
@@ -82,7 +82,7 @@ fn a_swap_sounds_the_same_in_every_buffer_size() {
 #[test]
 fn a_piece_at_rest_is_handed_back_at_once() {
     let mut kit = kit(RATE);
-    assert!(kit.install(Box::new(piece(PieceId::Snare, RATE))).is_some());
+    assert!(kit.install(Box::new(kit_piece(PieceId::Snare, RATE))).is_some());
     assert!(kit.retire().is_none());
 }
 
@@ -92,7 +92,7 @@ fn swaps_faster_than_the_fade_hand_every_piece_back() {
     let mut back = 0;
     for _ in 0..5 {
         sound(&mut kit, 100, 100);
-        back += usize::from(kit.install(Box::new(piece(PieceId::FloorTom, RATE))).is_some());
+        back += usize::from(kit.install(Box::new(kit_piece(PieceId::FloorTom, RATE))).is_some());
         kit.strike(PieceId::FloorTom, &stroke(Striker::Stick, 1.0, 0.3, 0.0));
     }
     kit.reset();

@@ -90,6 +90,38 @@ fn same_bits(rate: f64, seconds: f64, workers: &[usize], buffers: &[usize]) {
 }
 
 #[test]
+fn a_hit_on_five_pieces_is_the_same_on_0_1_and_3_workers_in_any_buffers() {
+    const RATE: f64 = RATES[0];
+    let play = |workers: usize, buffer: usize| {
+        let (mut kit, mut chance) = (kit(RATE), Chance::new(7));
+        if workers > 0 {
+            let crew = Workers::new(workers, Patience::Offline, Post::render).expect("threads");
+            assert!(kit.hire(Some(Box::new(crew))).is_none());
+        }
+        for id in &PieceId::KIT[..5] {
+            kit.strike(*id, &stroke(Striker::Stick, 5.0, 0.4, 0.2));
+        }
+        let (mut left, mut right) = (vec![f32::NAN; 11_025], vec![f32::NAN; 11_025]);
+        let mut done = 0;
+        while done < left.len() {
+            let length = if buffer == 0 { 1 + chance.below(2_000) } else { buffer };
+            let end = (done + length).min(left.len());
+            kit.render(&mut left[done..end], &mut right[done..end]);
+            done = end;
+        }
+        [left, right].map(|side| side.into_iter().map(f32::to_bits).collect::<Vec<_>>())
+    };
+    let whole = play(0, 11_025);
+    assert!(whole[0].iter().any(|&x| f32::from_bits(x).abs() > 0.05));
+    for workers in [0, 1, 3] {
+        // A length of 0 is any.
+        for buffer in [1, 17, 64, 512, 8192, 0] {
+            assert!(whole == play(workers, buffer), "{workers} workers, buffers of {buffer}");
+        }
+    }
+}
+
+#[test]
 fn workers_and_buffers_change_no_sample() {
     same_bits(RATES[0], 1.5, &[1, 3], &[0]);
     same_bits(RATES[1], 0.7, &[1, 3], &[64, 8192]);

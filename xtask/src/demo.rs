@@ -13,6 +13,7 @@ use crate::player::{Blocks, Played, Setup, Source, Take};
 use crate::progress::Progress;
 use crate::render::{Style, takes};
 use crate::song::Song;
+use crate::stage::Stage;
 use crate::wav::{Bits, WavFile};
 use crate::workspace::Format;
 use crate::{bundle, output, picture, workspace};
@@ -68,6 +69,7 @@ fn style(source: Source) -> Style {
         source,
         rate: RATE,
         settings: Vec::new(),
+        stage: Stage::default(),
         blocks: Blocks::Fixed(BLOCK),
         bits: Bits::Float32,
         tail: TAIL,
@@ -79,7 +81,7 @@ fn style(source: Source) -> Style {
 fn play(take: &Take, style: &Style, label: &str) -> Result<(Played, Vec<f32>, Vec<f32>)> {
     let (mut left, mut right) = (Vec::new(), Vec::new());
     let mut progress = Progress::new(label, take.frames);
-    let setup = Setup { rate: style.rate, settings: style.settings.clone() };
+    let setup = Setup { rate: style.rate, settings: style.settings.clone(), stage: style.stage };
     let played = style.source.perform(&setup, |player| {
         take.play(player, style.blocks, |l, r| {
             progress.advance(l.len() as u64);

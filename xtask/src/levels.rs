@@ -6,6 +6,7 @@ use overhear_engine::kit::{OUTPUTS, Stereo};
 use overhear_engine::piece::PieceId;
 
 use crate::player::{EnginePlayer, Hit, Setup};
+use crate::stage::Stage;
 
 /// Peaks of one piece, full scale 1, before the master.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,7 +22,7 @@ pub struct Row {
 /// # Errors
 /// If the engine cannot be built at the sample rate (Hz).
 pub fn table(rate: u32) -> Result<Vec<Row>> {
-    let mut player = EnginePlayer::new(&Setup { rate, settings: Vec::new() })?;
+    let mut player = EnginePlayer::new(&Setup { rate, settings: Vec::new(), stage: Stage::default() })?;
     let frames = rate as usize;
     let mut buffers = vec![[vec![0.0_f32; frames], vec![0.0_f32; frames]]; OUTPUTS + 1];
     let mut rows = Vec::new();

@@ -31,6 +31,7 @@ pub mod render;
 pub mod report;
 pub mod settings;
 pub mod song;
+pub mod stage;
 pub mod suite;
 pub mod system;
 pub mod wav;

@@ -10,11 +10,12 @@ use anyhow::{Context, Result};
 use overhear::building::{BuildPlan, Pace};
 use overhear::parameters::PARAMETERS;
 use overhear::performer::{Performer, velocity_from_midi};
-use overhear_engine::piece::{Piece, PieceId};
+use overhear_engine::piece::{BuildOptions, Piece, PieceId};
 
 use crate::bad_input;
 use crate::host::{self, Bundle, Processor};
 use crate::settings::Setting;
+use crate::stage::Stage;
 
 /// Longest buffer that is played.
 pub const LONGEST_BLOCK: u32 = 8192;
@@ -57,6 +58,8 @@ pub struct Setup {
     pub rate: u32,
     /// Parameters moved before the start.
     pub settings: Vec<Setting>,
+    /// Where pieces and microphones stand; the plugin knows the default only.
+    pub stage: Stage,
 }
 
 impl Source {
@@ -72,6 +75,10 @@ impl Source {
     ) -> Result<T> {
         match self {
             Source::Engine => work(&mut EnginePlayer::new(setup)?),
+            Source::Clap(path) if setup.stage != Stage::default() => Err(bad_input!(
+                "`{}` plays where pieces and microphones stand by default, accepted with other places: the engine",
+                path.display(),
+            )),
             Source::Clap(path) => {
                 let mut instance = Bundle::load(path)?.instantiate()?;
                 let known = instance.parameters()?;
@@ -114,7 +121,7 @@ impl EnginePlayer {
     /// [`BadInput`](crate::error::BadInput) if the sample rate cannot be used.
     pub fn new(setup: &Setup) -> Result<EnginePlayer> {
         let rate = f64::from(setup.rate);
-        let mut performer = Performer::new(rate);
+        let mut performer = Performer::with_layout(rate, &setup.stage.layout);
         // Before the pieces, as the plugin does it: they start with these values.
         for &(index, value) in &setup.settings {
             performer.set_parameter(index, value);
@@ -122,9 +129,12 @@ impl EnginePlayer {
         let value = |index: usize| performer.parameter(index).unwrap_or(PARAMETERS[index].default);
         let plan = BuildPlan::of(value, Pace::Offline);
         for id in PieceId::KIT {
-            let piece = Piece::new(id, &plan.options(id, rate)).map_err(|error| bad_input!("{error}"))?;
+            let options = plan.options(id, rate);
+            let options = BuildOptions { close: setup.stage.close(id).or(options.close), ..options };
+            let piece = Piece::new(id, &options).map_err(|error| bad_input!("{error}"))?;
             performer.install(Box::new(piece));
         }
+        performer.hire(plan.staff().hire().context("the system starts no more threads")?);
         Ok(EnginePlayer { performer })
     }
 

@@ -13,6 +13,7 @@ use crate::bad_input;
 use crate::output::Folder;
 use crate::player::{Blocks, Source};
 use crate::settings::Setting;
+use crate::stage::Stage;
 use crate::wav::Bits;
 
 pub use job::{Job, Report, takes};
@@ -41,6 +42,8 @@ pub struct Style {
     pub rate: u32,
     /// Parameters moved before the start.
     pub settings: Vec<Setting>,
+    /// Where pieces and microphones stand.
+    pub stage: Stage,
     /// How the sound is cut into buffers.
     pub blocks: Blocks,
     /// How samples are stored.

@@ -3,6 +3,8 @@
 
 use std::f64::consts::{SQRT_2, TAU};
 
+use serde::{Deserialize, Serialize};
+
 use crate::air::{DENSITY, MassCurves};
 use crate::cavity::{CavityOrder, HeadShape};
 use crate::drum::coupled::{CoupledMode, OrderProblem, Stretched};
@@ -36,6 +38,7 @@ const BASIS: f64 = 1.15;
 const HEARD_SHARE: f64 = 1e-3;
 
 /// A head with its modes, and its tension at every pitch of the scale.
+#[derive(Serialize, Deserialize)]
 pub struct TunedHead {
     /// The head.
     pub membrane: Membrane,
@@ -46,6 +49,7 @@ pub struct TunedHead {
 }
 
 /// Everything a drum is made from.
+#[derive(Serialize, Deserialize)]
 pub struct Blueprint {
     /// The pitches worked out.
     pub scale: PitchScale,

@@ -29,6 +29,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use serde::{Deserialize, Serialize};
+
 use crate::air::{self, DENSITY, HankelShape, SPEED_OF_SOUND};
 use crate::cavity::CavityOrder;
 use crate::drum::shadow;
@@ -77,7 +79,7 @@ pub struct OrderProblem<'a> {
 }
 
 /// A mode of the drum.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CoupledMode {
     /// Undamped angular frequency, rad/s.
     pub omega: f64,

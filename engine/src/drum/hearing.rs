@@ -15,6 +15,8 @@
 
 use std::f64::consts::TAU;
 
+use serde::{Deserialize, Serialize};
+
 use crate::air::SPEED_OF_SOUND;
 use crate::drum::build::Blueprint;
 use crate::drum::coupled::Outside;
@@ -31,6 +33,7 @@ const SINGLY: f64 = 12.0;
 const LEAST: f32 = 1e-3;
 
 /// Pressure over modal acceleration of the member of a pair that points at the listener, Pa s2/m.
+#[derive(Serialize, Deserialize)]
 enum PairHearing {
     /// `[pitch of the mode's grid]`.
     Singly(Vec<[f32; 2]>),
@@ -44,6 +47,7 @@ enum PairHearing {
 }
 
 /// Everything needed to hear a drum at any of its pitches.
+#[derive(Serialize, Deserialize)]
 pub struct Hearing {
     /// `[pair]`.
     pairs: Vec<PairHearing>,
@@ -137,7 +141,6 @@ impl Hearing {
 struct Ears<'a> {
     blueprint: &'a Blueprint,
     spec: &'a DrumSpec,
-    point: ListeningPoint,
     near: Rayleigh,
     far: Rayleigh,
     /// Radial functions of the heads' modes where the integrals want them, `[mode][radius]`.
@@ -145,6 +148,8 @@ struct Ears<'a> {
     far_shapes: Option<Vec<f64>>,
     /// What the far head is later by, s.
     lag: f64,
+    /// How much of the half-space the struck head fills, seen from the point.
+    fills: f64,
 }
 
 impl<'a> Ears<'a> {
@@ -161,7 +166,8 @@ impl<'a> Ears<'a> {
         let near_shapes = head.radial_shapes(near.radii());
         let far_shapes = blueprint.resonant.as_ref().map(|head| head.membrane.radial_shapes(far.radii()));
         let lag = (behind.distance - point.distance) / SPEED_OF_SOUND;
-        Ears { blueprint, spec, point, near, far, near_shapes, far_shapes, lag }
+        let fills = point.fills(radius);
+        Ears { blueprint, spec, near, far, near_shapes, far_shapes, lag, fills }
     }
 
     /// A head's motion in a mode, along the radius: head modes `first..first + count` of the head, `skip..` of the
@@ -188,7 +194,7 @@ impl<'a> Ears<'a> {
             let radius = self.spec.batter.membrane.radius;
             let ka = omega * radius / SPEED_OF_SOUND;
             let space = 0.5 * shadow::baffling(ka);
-            let gain = shadow::near_gain(ka, self.point.fills(radius));
+            let gain = shadow::near_gain(ka, self.fills);
             (re, im) = (re * gain, im * gain);
             let radial = match (&self.blueprint.resonant, &self.far_shapes) {
                 (Some(head), Some(shapes)) => {
@@ -212,3 +218,6 @@ impl<'a> Ears<'a> {
         [re as f32, im as f32]
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -85,6 +85,12 @@ fn head(radius: f64, thickness: f64, loss: LossLaw, limit_hz: f64) -> HeadSpec {
 pub const PILLOW: Muffler = Muffler::Pillow { sigma: 21.0, flow: PILLOW_FLOW };
 
 impl DrumSpec {
+    /// What its modes and their shapes follow from, as text in which every number stands exactly.
+    pub(crate) fn body(&self) -> String {
+        let DrumSpec { batter, resonant, cavity, outside, named_mode, tuned_as_heard, pitch_hz, .. } = self;
+        format!("{batter:?} {resonant:?} {cavity:?} {outside:?} {named_mode:?} {tuned_as_heard} {pitch_hz:?}")
+    }
+
     /// A shell of that size with a head on either end.
     fn two_headed(
         diameter_in: f64,

@@ -19,9 +19,9 @@ use std::collections::BTreeMap;
 
 use crate::drum::build::Blueprint;
 use crate::membrane::MembraneSpec;
-use crate::modal::simd::{Block, BlockProduct, Kernels, LANES};
+use crate::modal::simd::blocks::{Block, BlockProduct};
+use crate::modal::simd::{Kernels, LANES};
 use crate::modal::{Row, zero_row};
-use crate::piece::Member;
 use crate::potential::{Evaluation, Potential};
 use crate::split::Splitting;
 
@@ -42,11 +42,11 @@ pub fn stride(sample_rate: f64) -> u32 {
     ((sample_rate / RATE) as u32).max(1)
 }
 
-/// A mode of the body, and its shares times the wavenumbers.
-type BentMode = (u32, Vec<f64>);
+/// The members of a mode among the body's, and its shares times the wavenumbers.
+type BentMode = (Vec<u32>, Vec<f64>);
 
 /// The stretching energy of one head. `S` is a quadratic form in the drum's modes; only modes of one order
-/// and member meet in it, so its matrix is made of blocks.
+/// and member meet in it, so its matrix is made of blocks, alike for both members.
 pub struct Stretch {
     /// `A E h / (16 (1 - nu))`: energy over `S^2`, J.
     stiffness: f64,
@@ -56,8 +56,8 @@ pub struct Stretch {
     blocks: Vec<Block>,
     /// The blocks' matrices, 1/m2, as [`Kernels::blocks`] wants them.
     matrix: Row,
-    /// `[block][row]`: the mode of the body.
-    modes: Vec<Vec<u32>>,
+    /// The mode of the body, and its row.
+    modes: Vec<(u32, u32)>,
     /// Displacements in the order of the blocks, and their product with the matrix.
     sorted: Row,
     product: Row,
@@ -69,29 +69,33 @@ impl Stretch {
     pub fn new(spec: &MembraneSpec, blueprint: &Blueprint, pitch_hz: f64) -> (Stretch, usize) {
         let place = blueprint.scale.place(pitch_hz);
         let limit = std::f64::consts::TAU * LIMIT_HZ;
-        // Modes of the body, with their shares times the wavenumbers, by order and member.
-        let mut sorted: BTreeMap<(u32, bool), Vec<BentMode>> = BTreeMap::new();
+        // Modes with their shares times the wavenumbers, by order.
+        let mut sorted: BTreeMap<u32, Vec<BentMode>> = BTreeMap::new();
         let mut count = 0;
         for mode in blueprint.modes.iter().take_while(|mode| mode.at(&place).omega < limit) {
             let (first, heads) = blueprint.batter.order(mode.m);
             let wave = |i: usize| blueprint.batter.membrane.modes()[first + i].zero / spec.radius;
             let bent: Vec<f64> = (0..heads).map(|i| wave(i) * mode.share(i, &place)).collect();
-            for (member, _) in Splitting::ROUND.members(mode.m, 0) {
-                sorted.entry((mode.m, member == Member::Sine)).or_default().push((count, bent.clone()));
-                count += 1;
-            }
+            let members = count..count + Splitting::ROUND.members(mode.m, 0).count() as u32;
+            count = members.end;
+            sorted.entry(mode.m).or_default().push((members.collect(), bent));
         }
-        let (mut blocks, mut columns, mut start) = (Vec::new(), Vec::new(), 0);
-        for modes in sorted.values() {
-            blocks.push(Block { start, size: modes.len() });
-            start += modes.len().div_ceil(LANES) * LANES;
-            for (_, a) in modes {
+        let (mut blocks, mut columns, mut modes, mut start) = (Vec::new(), Vec::new(), Vec::new(), 0);
+        for (&m, bent) in &sorted {
+            let block = Block { start, size: bent.len(), twice: m > 0 };
+            start += block.rows();
+            for (i, (members, a)) in bent.iter().enumerate() {
+                let rows = members.iter().zip((block.start + i..).step_by(block.padded()));
+                modes.extend(rows.map(|(&mode, row)| (mode, row as u32)));
                 let column =
-                    modes.iter().map(|(_, b)| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>() as f32);
+                    bent.iter().map(|(_, b)| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>() as f32);
                 columns.extend(column);
                 columns.resize(columns.len().div_ceil(LANES) * LANES, 0.0);
             }
+            blocks.push(block);
         }
+        // In the order of the modes, so that their displacements are read in one go.
+        modes.sort_unstable();
         let mut matrix = zero_row(columns.len());
         matrix.copy_from_slice(&columns);
         let stretch = Stretch {
@@ -100,7 +104,7 @@ impl Stretch {
             kernels: Kernels::detect(),
             blocks,
             matrix,
-            modes: sorted.into_values().map(|modes| modes.into_iter().map(|mode| mode.0).collect()).collect(),
+            modes,
             sorted: zero_row(start),
             product: zero_row(start),
         };
@@ -109,10 +113,8 @@ impl Stretch {
 
     /// `S` at displacements `q`; leaves half its gradient in `product`, in the order of the blocks.
     fn form(&mut self, q: &[f32]) -> f64 {
-        for (block, modes) in self.blocks.iter().zip(&self.modes) {
-            for (x, &mode) in self.sorted[block.start..].iter_mut().zip(modes) {
-                *x = q[mode as usize];
-            }
+        for &(mode, row) in &self.modes {
+            self.sorted[row as usize] = q[mode as usize];
         }
         let Stretch { kernels, blocks, matrix, sorted, product, .. } = self;
         kernels.blocks(BlockProduct { blocks, matrix, x: sorted, y: product });
@@ -135,10 +137,8 @@ impl Potential for Stretch {
             (self.stiffness * self.yielding * self.yielding + slope * (s - self.yielding), slope)
         };
         let factor = 2.0 * slope as f32;
-        for (block, modes) in self.blocks.iter().zip(&self.modes) {
-            for (y, &mode) in self.product[block.start..].iter().zip(modes) {
-                gradient[mode as usize] = factor * y;
-            }
+        for &(mode, row) in &self.modes {
+            gradient[mode as usize] = factor * self.product[row as usize];
         }
         Evaluation { energy, depth: 0.0 }
     }

@@ -8,6 +8,8 @@
 //! Shapes: each mode is a mixture of the heads' own modes of its order, scaled so that the squares of
 //! the shares add to one.
 
+use serde::{Deserialize, Serialize};
+
 use crate::drum::coupled::CoupledMode;
 use crate::math::cubic::Stencil;
 
@@ -16,7 +18,7 @@ use crate::math::cubic::Stencil;
 pub const PITCHES: usize = 25;
 
 /// At how many of them an order is worked out.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Grid {
     /// All: its modes pass some of the air where single pitches are heard.
     Fine,
@@ -37,7 +39,7 @@ impl Grid {
 }
 
 /// What is interpolated, `ln` but for the shares.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 struct Entry {
     omega: f64,
     sigma: f64,
@@ -51,7 +53,7 @@ struct Entry {
 }
 
 /// One mode (or pair) of the drum against pitch.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct TunedMode {
     /// Nodal diameters.
     pub m: u32,
@@ -86,7 +88,7 @@ pub struct Rung {
 }
 
 /// The pitches of a table, evenly spaced in logarithm.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PitchScale {
     low: f64,
     high: f64,

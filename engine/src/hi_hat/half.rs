@@ -102,17 +102,17 @@ impl Half {
         options: &BuildOptions,
     ) -> Result<(Half, Struck), SpecError> {
         let limit_hz = cymbal::LIMIT_HZ.min(cymbal::LIMIT_OF_RATE * options.sample_rate);
-        let plate = PlateModes::new(&spec.plate, limit_hz)?;
+        let known = cymbal::SoundingPlate::of(spec, limit_hz)?;
+        let (plate, radiated) = (&known.plate, &known.radiated);
         let (orders, extent) = plate.table_extent(limit_hz);
         let tables = PlateTables::new(orders, extent);
         let splitting = if options.unsplit { Splitting::ROUND } else { spec.splitting };
-        let radiated = cymbal::radiate(spec, &plate, &tables);
         let at_rim = plate.radial_shapes(&tables, &[1.0]);
         let at_mount = plate.radial_shapes(&tables, &[mount.reach]);
         let (mut modes, mut index, mut shares, mut pairs) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let mut transfers = [Vec::new(), Vec::new()];
         let mut front = 0;
-        for Ranked { shell: row, rank: (part, _) } in order(&plate, coupled_hz) {
+        for Ranked { shell: row, rank: (part, _) } in order(plate, coupled_hz) {
             let shell = &plate.shells[row];
             let axis = spec.splitting.axis(shell.m, shell.n);
             if coupled_hz.is_some_and(|hz| shell.omega <= TAU * hz) {
@@ -144,7 +144,7 @@ impl Half {
         }
         let coupled = coupled_hz
             .filter(|_| !pairs.is_empty())
-            .map(|hz| (VonKarman::new(&plate, &tables, &pairs), front, hz));
+            .map(|hz| (VonKarman::new(plate, &tables, &pairs), front, hz));
         let shapes = ShapeTable::new(&plate.radial_shapes(&tables, &ShapeTable::radii()), index);
         let mut half = Half {
             modes,

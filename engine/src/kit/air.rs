@@ -12,7 +12,9 @@ use super::mix::{Desk, PAIRS};
 use super::post::Post;
 use super::room::{self, SILENT_RUN, Tail};
 use super::{BLOCK, GainRuns};
+use crate::air::SPEED_OF_SOUND;
 use crate::layout::{CLOSE, Layout, Pair, distance};
+use crate::microphones::CloseMicrophone;
 use crate::modal::EARS;
 use crate::piece::PieceId;
 
@@ -34,6 +36,8 @@ pub(super) struct Air {
     heard: Box<[[Tap; PIECES]; PIECES]>,
     /// To the close microphone.
     close: [Tap; PIECES],
+    /// Distance from each piece at which its sound is time zero of the mix, m.
+    time_zero: [f64; PIECES],
     /// `[pair][side][piece]`.
     pairs: Box<[[[MovingTap; PIECES]; 2]; PAIRS]>,
     /// `[side][piece][image]`, of the room pair.
@@ -52,7 +56,8 @@ impl Air {
             layout: *layout,
             lines: std::array::from_fn(|_| std::array::from_fn(|_| Line::new(sample_rate))),
             heard: Box::new([[still; PIECES]; PIECES]),
-            close: [still; PIECES],
+            close: [Tap::new(0.0, 1.0, sample_rate); PIECES],
+            time_zero: [CLOSE; PIECES],
             pairs: Box::new([[[moving; PIECES]; 2]; PAIRS]),
             images: Box::new([[[moving; IMAGES]; PIECES]; 2]),
             tail: Tail::new(sample_rate),
@@ -68,7 +73,6 @@ impl Air {
             drums.flat_map(|(to, _)| (0..PIECES).filter(move |&from| from != to).map(move |from| (to, from)));
         let reach = ways.map(|(to, from)| air.heard[to][from].reach()).min();
         air.min_delay = reach.unwrap_or(BLOCK).max(1);
-        (0..PIECES).for_each(|piece| air.place_close(piece, CLOSE));
         air.place_pair(0, layout.overheads);
         air.place_pair(1, layout.room);
         air.jump();
@@ -80,32 +84,46 @@ impl Air {
         self.min_delay
     }
 
-    /// Puts a close microphone so far (m) from its piece.
-    pub(super) fn place_close(&mut self, piece: usize, metres: f64) {
+    /// Puts a close microphone where its piece was built to be heard. What is on the way to it is heard there at once.
+    pub(super) fn place_close(&mut self, piece: usize, microphone: &CloseMicrophone) {
+        let CloseMicrophone { point, time_zero, gain } = *microphone;
         // What distance does to the level is in the piece's own sound.
-        let late = (metres - CLOSE).max(0.0) / crate::air::SPEED_OF_SOUND;
-        self.close[piece] = Tap::new(late, 1.0, self.sample_rate);
+        let late = (point.distance - time_zero).max(0.0) / SPEED_OF_SOUND;
+        self.close[piece] = Tap::new(late, f64::from(gain), self.sample_rate);
+        if std::mem::replace(&mut self.time_zero[piece], time_zero) == time_zero {
+            return;
+        }
+        // The pairs hear it by as much later as it is time zero from nearer by.
+        let [overheads, room] = [self.layout.overheads, self.layout.room];
+        self.place_piece(piece, 0, overheads);
+        self.place_piece(piece, 1, room);
+        if self.lines[piece].iter().all(Line::is_silent) {
+            self.jump_piece(piece);
+        }
     }
 
     /// Puts a pair of microphones somewhere; what is heard fades over.
     pub(super) fn place_pair(&mut self, pair: usize, places: Pair) {
-        let rate = self.sample_rate;
-        for (side, place) in places.iter().enumerate() {
-            for (piece, placement) in self.layout.pieces.iter().enumerate() {
-                let metres = distance(&placement.centre, place);
-                self.pairs[pair][side][piece].set(Tap::way(metres, CLOSE, rate));
-                if pair == 1 {
-                    let images = room::images(&placement.centre);
-                    for (tap, (image, share)) in self.images[side][piece].iter_mut().zip(images) {
-                        tap.set(Tap::way(distance(&image, place), CLOSE, rate).weakened(share as f32));
-                    }
-                }
-            }
-        }
+        (0..PIECES).for_each(|piece| self.place_piece(piece, pair, places));
         if pair == 1 {
             self.layout.room = places;
         } else {
             self.layout.overheads = places;
+        }
+    }
+
+    /// Lets a pair of microphones hear a piece from there.
+    fn place_piece(&mut self, piece: usize, pair: usize, places: Pair) {
+        let (rate, lead, centre) =
+            (self.sample_rate, self.time_zero[piece], self.layout.pieces[piece].centre);
+        for (side, place) in places.iter().enumerate() {
+            self.pairs[pair][side][piece].set(Tap::way(distance(&centre, place), lead, rate));
+            if pair == 1 {
+                let images = room::images(&centre);
+                for (tap, (image, share)) in self.images[side][piece].iter_mut().zip(images) {
+                    tap.set(Tap::way(distance(&image, place), lead, rate).weakened(share as f32));
+                }
+            }
         }
     }
 
@@ -118,6 +136,13 @@ impl Air {
     pub(super) fn jump(&mut self) {
         let pairs = self.pairs.iter_mut().flatten().flatten();
         pairs.chain(self.images.iter_mut().flatten().flatten()).for_each(MovingTap::jump);
+    }
+
+    /// Of one piece alone.
+    fn jump_piece(&mut self, piece: usize) {
+        let pairs = self.pairs.iter_mut().flatten().map(|side| &mut side[piece]);
+        let images = self.images.iter_mut().flat_map(|side| &mut side[piece]);
+        pairs.chain(images).for_each(MovingTap::jump);
     }
 
     /// Lets a piece hear the others over its run, so much of them.

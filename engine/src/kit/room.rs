@@ -32,8 +32,9 @@ const SOFT_HZ: f64 = 5_000.0;
 const LINES: usize = 8;
 const WAYS: [f64; LINES] = [3.01, 3.67, 4.21, 5.03, 5.81, 6.61, 7.43, 8.29];
 
-/// Pressure in the lines below this is silence, Pa: 160 dB under full scale.
-const SILENCE: f32 = 2e-7;
+/// Pressure in the lines below this is silence, Pa: 140 dB under full scale, so that a kit sleeps within a second of what
+/// is heard last.
+const SILENCE: f32 = 2e-6;
 
 /// Mirror images of a place in the room's surfaces, and the share of the pressure each sends back.
 pub(super) fn images(source: &Point) -> [(Point, f64); 6] {

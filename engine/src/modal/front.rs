@@ -4,6 +4,7 @@
 //! other modes can ring on in long stretches meanwhile ([`ModalBody::ring`]).
 
 use super::simd::LANES;
+use super::simd::front::{Along, FORCES, PushAndHear};
 use super::{EARS, Heard, ModalBody, Pickup, Port, Row, zero_row};
 
 /// Rows about the first modes of one body, whole SIMD lanes of them.
@@ -87,6 +88,39 @@ impl ModalBody {
     /// a port: `sum shape * (q - kept)`.
     pub fn moved(&self, front: &Front, port: &Port) -> f64 {
         f64::from(self.kernels.dot_difference(&port.shape, &self.state.im, &front.kept))
+    }
+
+    /// [`step_front`](Self::step_front), and how far the modes in front have moved in the direction of a port of theirs.
+    pub fn step_front_along(&mut self, front: &Front, port: &Port) -> f64 {
+        let n = front.length.min(self.state.im.len());
+        let along = Along {
+            re: &mut self.state.re[..n],
+            im: &mut self.state.im[..n],
+            turn_re: &self.coefs.turn_re[..n],
+            turn_im: &self.coefs.turn_im[..n],
+            shape: &port.shape[..n],
+        };
+        f64::from(self.kernels.rotate_along(along))
+    }
+
+    /// [`push_front`](Self::push_front) at two ports at once, and [`listen_front`](Self::listen_front).
+    pub fn push_front_and_listen(
+        &mut self,
+        front: &Front,
+        forces: [(f32, &Port); FORCES],
+        pickup: &Pickup,
+    ) -> Heard {
+        let n = front.length.min(self.state.im.len());
+        let few = |row| <[f32]>::len(row).min(n);
+        self.kernels.push_and_hear(PushAndHear {
+            re: &mut self.state.re[..n],
+            im: &mut self.state.im[..n],
+            forces: forces.map(|(force, port)| (force, [&port.gain_re[..n], &port.gain_im[..n]])),
+            weights: pickup
+                .ears
+                .each_ref()
+                .map(|ear| [&ear.weight_re[..few(&ear.weight_re)], &ear.weight_im[..few(&ear.weight_im)]]),
+        })
     }
 
     /// Advances the modes in front by one sample without force, and no others.

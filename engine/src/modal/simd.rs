@@ -5,12 +5,19 @@
 //! Within one level results are bit-equal whatever way a stretch of samples is cut; across levels
 //! they differ by rounding.
 
+pub mod blocks;
 pub mod driven;
 pub mod folded;
+pub mod front;
 pub mod level;
 pub mod polar;
 
 use pulp::{Arch, Scalar128b, Simd, WithSimd};
+
+use driven::Drive;
+
+/// Forces that drive one run, at most.
+pub const MAX_DRIVES: usize = 16;
 
 /// Rows are padded to a multiple of this, the `f32` lanes of the widest registers.
 pub const LANES: usize = 16;
@@ -126,14 +133,6 @@ impl Kernels {
         self.run(ring);
     }
 
-    /// `y <- A x` with `A` made of square blocks along its diagonal.
-    ///
-    /// Each block's rows and columns begin at a multiple of [`LANES`] in `x` and `y`, and its matrix is stored
-    /// column by column, each padded with zeros to whole lanes.
-    pub fn blocks(&self, product: BlockProduct<'_>) {
-        self.run(product);
-    }
-
     /// Zeroes the modes whose state has decayed to nothing.
     pub fn flush(&self, re: &mut [f32], im: &mut [f32]) {
         self.run(Flush { re, im });
@@ -214,48 +213,6 @@ impl Kernel for Rotate<'_> {
         let (t_re, t_im) = (S::as_simd_f32s(self.turn_re).0, S::as_simd_f32s(self.turn_im).0);
         for ((re, im), (&t_re, &t_im)) in re.iter_mut().zip(im).zip(t_re.iter().zip(t_im)) {
             (*re, *im) = turn(simd, fma, (*re, *im), (t_re, t_im));
-        }
-    }
-}
-
-/// One block of a [`BlockProduct`].
-#[derive(Debug, Clone, Copy)]
-pub struct Block {
-    /// Where its rows and columns begin.
-    pub start: usize,
-    /// Number of rows and columns.
-    pub size: usize,
-}
-
-/// What [`Kernels::blocks`] works on.
-pub struct BlockProduct<'a> {
-    /// The blocks, in the order of `matrix`.
-    pub blocks: &'a [Block],
-    /// Their columns, one after the other, padded.
-    pub matrix: &'a [f32],
-    /// `[row]`, padded between blocks.
-    pub x: &'a [f32],
-    /// `[row]`.
-    pub y: &'a mut [f32],
-}
-
-impl Kernel for BlockProduct<'_> {
-    type Output = ();
-    #[inline(always)]
-    fn with<S: Simd>(self, simd: S, fma: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s + Copy) {
-        let mut matrix = S::as_simd_f32s(self.matrix).0;
-        for block in self.blocks {
-            let padded = block.size.div_ceil(LANES) * LANES;
-            let y = S::as_mut_simd_f32s(&mut self.y[block.start..][..padded]).0;
-            y.fill(simd.splat_f32s(0.0));
-            for &x in &self.x[block.start..][..block.size] {
-                let (column, rest) = matrix.split_at(y.len());
-                let x = simd.splat_f32s(x);
-                for (y, &a) in y.iter_mut().zip(column) {
-                    *y = fma(a, x, *y);
-                }
-                matrix = rest;
-            }
         }
     }
 }
@@ -447,47 +404,102 @@ impl Kernel for &mut Ring<'_> {
     type Output = ();
     #[inline(always)]
     fn with<S: Simd>(self, simd: S, fma: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s + Copy) {
-        let n = self.samples();
-        let mut sums = [[simd.splat_f32s(0.0); EARS]; MAX_RUN];
-        let re = S::as_mut_simd_f32s(self.re).0;
-        let im = S::as_mut_simd_f32s(self.im).0;
-        let rows = RingRows::new(self.turn_re, self.turn_im, &self.heard);
-        let groups = re.len();
-        let mut first = 0;
-        while first + GROUPS <= groups {
-            if rows.reach_all(first + GROUPS) {
-                ring_groups::<S, GROUPS, EARS>(simd, fma, first, (re, im), &rows, &mut sums[..n]);
-            } else {
-                ring_groups::<S, GROUPS, FULL>(simd, fma, first, (re, im), &rows, &mut sums[..n]);
-            }
-            first += GROUPS;
-        }
-        for rest in first..groups {
-            if rows.reach_all(rest + 1) {
-                ring_groups::<S, 1, EARS>(simd, fma, rest, (re, im), &rows, &mut sums[..n]);
-            } else {
-                ring_groups::<S, 1, FULL>(simd, fma, rest, (re, im), &rows, &mut sums[..n]);
-            }
-        }
-        write_sums(simd, &sums, &mut self.heard);
+        ring_all(simd, fma, self, &[]);
     }
+}
+
+/// Advances all groups of modes that move or are driven, and listens.
+#[inline(always)]
+fn ring_all<S: Simd>(
+    simd: S,
+    fma: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s + Copy,
+    ring: &mut Ring<'_>,
+    drives: &[Drive<'_>],
+) {
+    let n = ring.samples();
+    let mut sums = [[simd.splat_f32s(0.0); EARS]; MAX_RUN];
+    let state = (S::as_mut_simd_f32s(ring.re).0, S::as_mut_simd_f32s(ring.im).0);
+    let rows = RingRows::new(ring.turn_re, ring.turn_im, &ring.heard, drives);
+    let groups = state.0.len();
+    let (mut first, sums) = (0, &mut sums[..n]);
+    while first + GROUPS <= groups {
+        ring_some::<S, GROUPS>(simd, fma, first, (&mut *state.0, &mut *state.1), &rows, sums);
+        first += GROUPS;
+    }
+    for rest in first..groups {
+        ring_some::<S, 1>(simd, fma, rest, (&mut *state.0, &mut *state.1), &rows, sums);
+    }
+    write_sums(simd, sums, &mut ring.heard);
+}
+
+/// Advances `G` groups, unless they are still and nothing drives them; as many ears as reach them listen.
+#[inline(always)]
+fn ring_some<S: Simd, const G: usize>(
+    simd: S,
+    fma: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s + Copy,
+    first: usize,
+    (re, im): (&mut [S::f32s], &mut [S::f32s]),
+    rows: &RingRows<'_, S>,
+    sums: &mut [[S::f32s; EARS]],
+) {
+    let at = first..first + G;
+    let moves = any(simd, &re[at.clone()]) || any(simd, &im[at.clone()]);
+    let driven =
+        rows.drives().any(|drive| any(simd, &drive.0[at.clone()]) || any(simd, &drive.1[at.clone()]));
+    match (moves || driven, driven, rows.reach_all(first + G)) {
+        (false, ..) => {}
+        (_, false, true) => ring_groups::<S, G, EARS, false>(simd, fma, first, (re, im), rows, sums),
+        (_, false, false) => ring_groups::<S, G, FULL, false>(simd, fma, first, (re, im), rows, sums),
+        (_, true, true) => ring_groups::<S, G, EARS, true>(simd, fma, first, (re, im), rows, sums),
+        (_, true, false) => ring_groups::<S, G, FULL, true>(simd, fma, first, (re, im), rows, sums),
+    }
+}
+
+/// Whether any lane is not zero.
+#[inline(always)]
+fn any<S: Simd>(simd: S, row: &[S::f32s]) -> bool {
+    let largest =
+        row.iter().fold(simd.splat_f32s(0.0), |largest, &x| simd.max_f32s(largest, simd.abs_f32s(x)));
+    // A NaN may pass for nothing here: whoever looks whether all is finite finds it.
+    simd.reduce_max_f32s(largest) != 0.0
 }
 
 /// The rows a ring reads.
 struct RingRows<'a, S: Simd> {
     turn: [&'a [S::f32s]; 2],
     heard: [[&'a [S::f32s]; 2]; EARS],
+    drives: [DriveRows<'a, S>; MAX_DRIVES],
+    driven: usize,
 }
+
+/// What a unit force leaves, real and imaginary part, and the forces.
+type DriveRows<'a, S> = (&'a [<S as Simd>::f32s], &'a [<S as Simd>::f32s], &'a [f32]);
 
 impl<'a, S: Simd> RingRows<'a, S> {
     #[inline(always)]
-    fn new(turn_re: &'a [f32], turn_im: &'a [f32], heard: &'a [Heard<'_>; EARS]) -> Self {
-        let rows =
+    fn new(
+        turn_re: &'a [f32],
+        turn_im: &'a [f32],
+        heard: &'a [Heard<'_>; EARS],
+        drives: &'a [Drive<'_>],
+    ) -> Self {
+        let pair =
             |heard: &'a Heard<'_>| [heard.weight_re, heard.weight_im].map(|row| S::as_simd_f32s(row).0);
+        let mut rows: [DriveRows<'a, S>; MAX_DRIVES] = [(&[], &[], &[]); MAX_DRIVES];
+        for (row, drive) in rows.iter_mut().zip(drives) {
+            *row = (S::as_simd_f32s(drive.gain_re).0, S::as_simd_f32s(drive.gain_im).0, drive.forces);
+        }
         RingRows {
             turn: [turn_re, turn_im].map(|row| S::as_simd_f32s(row).0),
-            heard: heard.each_ref().map(rows),
+            heard: heard.each_ref().map(pair),
+            drives: rows,
+            driven: drives.len(),
         }
+    }
+
+    #[inline(always)]
+    fn drives(&self) -> impl Iterator<Item = &DriveRows<'a, S>> {
+        self.drives[..self.driven].iter()
     }
 
     /// Whether every ear hears groups up to there.
@@ -507,9 +519,10 @@ fn write_sums<S: Simd>(simd: S, sums: &[[S::f32s; EARS]], heard: &mut [Heard<'_>
     }
 }
 
-/// Advances `G` groups of modes through every sample, their state in registers throughout; the first `E` ears hear them.
+/// Advances `G` groups of modes through every sample, their state in registers throughout; the first `E` ears hear
+/// them, and drives act on them if they are `DRIVEN`.
 #[inline(always)]
-fn ring_groups<S: Simd, const G: usize, const E: usize>(
+fn ring_groups<S: Simd, const G: usize, const E: usize, const DRIVEN: bool>(
     simd: S,
     fma: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s + Copy,
     first: usize,
@@ -517,13 +530,28 @@ fn ring_groups<S: Simd, const G: usize, const E: usize>(
     rows: &RingRows<'_, S>,
     sums: &mut [[S::f32s; EARS]],
 ) {
-    let load = |row: &[S::f32s]| -> [S::f32s; G] { std::array::from_fn(|i| row[first + i]) };
+    let load = |row: &[S::f32s]| -> [S::f32s; G] {
+        let row = &row[first..first + G];
+        std::array::from_fn(|i| row[i])
+    };
     let (mut z_re, mut z_im) = (load(re), load(im));
     let [t_re, t_im] = rows.turn.map(load);
     let weights: [_; E] = std::array::from_fn(|ear| rows.heard[ear].map(load));
-    for sum in sums {
+    for (sample, sum) in sums.iter_mut().enumerate() {
         for i in 0..G {
             (z_re[i], z_im[i]) = turn(simd, fma, (z_re[i], z_im[i]), (t_re[i], t_im[i]));
+        }
+        if DRIVEN {
+            for (gain_re, gain_im, forces) in rows.drives() {
+                let force = simd.splat_f32s(forces[sample]);
+                let (gain_re, gain_im) = (&gain_re[first..first + G], &gain_im[first..first + G]);
+                for i in 0..G {
+                    z_re[i] = fma(gain_re[i], force, z_re[i]);
+                    z_im[i] = fma(gain_im[i], force, z_im[i]);
+                }
+            }
+        }
+        for i in 0..G {
             for (sum, [w_re, w_im]) in sum.iter_mut().zip(&weights) {
                 *sum = fma(w_im[i], z_im[i], fma(w_re[i], z_re[i], *sum));
             }

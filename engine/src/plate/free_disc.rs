@@ -32,13 +32,15 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use nalgebra::{Complex, DMatrix, DVector};
 
+use serde::{Deserialize, Serialize};
+
 use super::radial::angular_norm;
 use crate::air::{DENSITY, SPEED_OF_SOUND};
 use crate::listening::{ListeningPoint, Radiator};
 use crate::math::quadrature::{GaussLegendre, Rules};
 
 /// What a mode does to the air.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Radiated {
     /// Pressure at each point over modal acceleration, `[re, im]` in Pa s2/m, for a member whose shape
     /// is largest toward the point.

@@ -13,10 +13,12 @@
 
 use std::f64::consts::PI;
 
+use serde::{Deserialize, Serialize};
+
 use crate::math::bessel::{self, ITable, JTable};
 
 /// Value and slope at the rim of one part of a radial function.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Rim {
     /// Value at `r = 1`.
     pub value: f64,
@@ -25,7 +27,7 @@ pub struct Rim {
 }
 
 /// Radial function of unit mean square.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct RadialMode {
     /// Nodal diameters.
     pub m: u32,

@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use serde::{Deserialize, Serialize};
+
 use crate::error::SpecError;
 
 /// Young's modulus of cymbal bronze, Pa. *Literature* (B20, cast and hammered).
@@ -14,7 +16,7 @@ pub const BRONZE_POISSON_RATIO: f64 = 0.34;
 pub const BRONZE_DENSITY: f64 = 8600.0;
 
 /// A cymbal's plate.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PlateSpec {
     /// Diameter, m, 0.1 to 0.8.
     pub diameter: f64,

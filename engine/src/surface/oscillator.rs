@@ -59,6 +59,11 @@ impl Oscillator {
         self.v += self.hold[1] * force;
     }
 
+    /// Energy of motion alone, J.
+    pub fn motion(&self) -> f64 {
+        0.5 * self.mass * self.v * self.v
+    }
+
     /// Energy of motion and of the spring, J.
     pub fn energy(&self) -> f64 {
         0.5 * self.mass * (self.v * self.v + (self.omega * self.q).powi(2))

@@ -4,6 +4,7 @@ use crate::contact::ContactStep;
 use crate::modal::Heard;
 
 use super::air::Incident;
+use super::together::hertz::Hertz;
 use super::together::{self, Meeting};
 use super::touch::Side;
 use super::{FIRST_WIRE, MAX_POINTS, Surface, above, owner};
@@ -172,6 +173,44 @@ impl Surface {
 
     /// Forces of all contacts for this sample.
     pub(super) fn solve(&mut self) {
+        let live = &self.live[..self.live_count];
+        let hertz = live.iter().all(|&i| Hertz::<MAX_POINTS>::knows(&self.points[i].law));
+        let solved = match live.len() {
+            2..=8 if hertz => self.solve_hertz::<8>(),
+            9..=MAX_POINTS if hertz => self.solve_hertz::<MAX_POINTS>(),
+            _ => false,
+        };
+        if !solved {
+            self.solve_any();
+        }
+    }
+
+    /// [`solve`](Self::solve) of at most `N` contacts of Hertz's law; false if they were not found.
+    fn solve_hertz<const N: usize>(&mut self) -> bool {
+        let live = &self.live[..self.live_count];
+        let mut hertz = Hertz::<N>::APART;
+        for (n, &i) in live.iter().enumerate() {
+            let point = &self.points[i];
+            // The preloads of the others are part of equilibrium: what they would push is put back.
+            let mut free = point.step.free - self.yielding[i][i] * point.preload;
+            for (yielding, &j) in hertz.yielding[n].iter_mut().zip(live) {
+                *yielding = self.yielding[i][j];
+                free += *yielding * self.points[j].preload;
+            }
+            hertz.yielding[n][n] = point.step.compliance;
+            (hertz.stiffness[n], hertz.before[n]) = (point.law.stiffness, point.step.before);
+            (hertz.free[n], hertz.loss[n]) = (free, point.step.lambda / point.step.dt);
+            hertz.force[n] = point.force;
+        }
+        let solved = hertz.solve(self.body.kernels());
+        if solved {
+            live.iter().zip(hertz.force).for_each(|(&i, force)| self.points[i].force = force);
+        }
+        solved
+    }
+
+    /// [`solve`](Self::solve) of contacts of any law.
+    fn solve_any(&mut self) {
         let live = &self.live[..self.live_count];
         let absent = Meeting { law: self.points[0].law, step: self.points[0].step, force: 0.0 };
         let (mut meetings, mut yielding) = ([absent; MAX_POINTS], [[0.0; MAX_POINTS]; MAX_POINTS]);

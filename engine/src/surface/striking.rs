@@ -35,6 +35,7 @@ impl Surface {
         }
         let i = self.free_place();
         if self.touchers[i].present {
+            self.hurried = self.hurried.saturating_add(1);
             self.leave(i);
         }
         self.last = StrikeSnapshot {

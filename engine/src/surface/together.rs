@@ -6,6 +6,8 @@
 //! it should wander, at the corner where a contact opens, sweeps over single contacts do it (Gauss-Seidel: they
 //! converge because a place yields more to its own force than to another's).
 
+pub mod hertz;
+
 use crate::contact::{ContactLaw, ContactStep};
 
 /// Contacts of one surface that can be solved together.

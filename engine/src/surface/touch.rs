@@ -268,8 +268,13 @@ impl Toucher {
         }
     }
 
-    /// Energy of its motion, J.
+    /// Energy of its motion and of what is bent, J.
     pub fn energy(&self) -> f64 {
         self.parts[..self.part_count].iter().map(Oscillator::energy).sum()
+    }
+
+    /// Energy of its motion alone, J.
+    pub fn motion(&self) -> f64 {
+        self.parts[..self.part_count].iter().map(Oscillator::motion).sum()
     }
 }

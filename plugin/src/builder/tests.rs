@@ -143,3 +143,34 @@ fn a_change_of_plan_builds_what_it_concerns_and_nothing_else() {
         thread::sleep(Duration::from_millis(10));
     }
 }
+
+#[test]
+fn workers_come_when_they_are_wanted_and_go_when_not() {
+    static WANTED: AtomicBool = AtomicBool::new(false);
+    let wanted = || {
+        let value = |index: usize| match PARAMETERS[index].name {
+            "workers" if WANTED.load(Ordering::Relaxed) => 1.0,
+            _ => PARAMETERS[index].default,
+        };
+        BuildPlan::of(value, Pace::RealTime)
+    };
+    let mut builder = Builder::with(quick, Arc::new(wanted));
+    let delivery = builder.order(RATE);
+    assert_eq!(builder.wait(LONG), Outcome::Finished);
+    delivery.take_crew(|_| unreachable!("nobody was wanted"));
+    let hired = |wanted: bool, former: Option<Box<dyn Crew>>| {
+        WANTED.store(wanted, Ordering::Relaxed);
+        assert_eq!(builder.wait(LONG), Outcome::Finished);
+        let mut present = None;
+        delivery.take_crew(|crew| {
+            present = crew;
+            former
+        });
+        present
+    };
+    let crew = hired(true, None);
+    assert!(crew.is_some());
+    assert!(hired(false, crew).is_none());
+    // No piece was built anew for that.
+    assert_eq!(taken(&delivery).len(), PIECES);
+}

@@ -13,13 +13,16 @@ use super::surface::Surface;
 use super::theme;
 use crate::NAME;
 use crate::outputs::title;
-use crate::parameters::PARAMETERS;
+use crate::parameters::{PARAMETERS, Parameter};
 
 /// Space around and between panels, points.
 const GAP: f32 = 10.0;
 
 /// Room of a knob where there is enough, points.
 const KNOB_WIDTH: f32 = 96.0;
+
+/// Knobs of the kit beside a piece's; the panel of playing has all of them.
+const KIT_KNOBS: usize = 2;
 
 /// Bottom of the meters, dB.
 const FLOOR_DB: f32 = -60.0;
@@ -219,11 +222,15 @@ impl Panels {
         ui.painter().rect_filled(rect, theme::CORNER, theme::PANEL);
         let piece = title(PieceId::KIT[self.selected]);
         let left = rect.min.x + 12.0;
-        let kit = rect.max.x - 2.0 * KNOB_WIDTH - 12.0;
-        for (group, start, room) in [(piece, left, kit - left), ("Kit", kit, 2.0 * KNOB_WIDTH)] {
+        let kit_room = KIT_KNOBS as f32 * KNOB_WIDTH;
+        let kit = rect.max.x - kit_room - 12.0;
+        for (group, start, room, most) in
+            [(piece, left, kit - left, PARAMETERS.len()), ("Kit", kit, kit_room, KIT_KNOBS)]
+        {
             caption(ui, pos2(start + 6.0, rect.min.y + 13.0), group);
-            let shown =
-                || PARAMETERS.iter().zip(parameters).enumerate().filter(|(_, (p, _))| p.group == group);
+            let of_group =
+                |(_, (parameter, _)): &(usize, (&Parameter, &FloatParam))| parameter.group == group;
+            let shown = || PARAMETERS.iter().zip(parameters).enumerate().filter(of_group).take(most);
             let width = KNOB_WIDTH.min(room / shown().count().max(1) as f32);
             for (place, (index, (parameter, value))) in shown().enumerate() {
                 let at = pos2(start + place as f32 * width, rect.min.y + 26.0);
@@ -244,6 +251,14 @@ fn status(snapshot: &KitSnapshot) -> (String, Color32) {
         ("Waiting for the host to run".to_owned(), theme::FAINT)
     } else if ready < PieceId::KIT.len() {
         (format!("Building the kit: {ready} of {} pieces", PieceId::KIT.len()), theme::ACCENT)
+    } else if snapshot.late_buffers > 0 {
+        (
+            format!("{} buffers were late: lower the quality, or add a worker", snapshot.late_buffers),
+            theme::OVER,
+        )
+    } else if snapshot.missed_runs > 0 {
+        let missed = snapshot.missed_runs;
+        (format!("Workers left pieces silent for {missed} blocks: use fewer of them"), theme::OVER)
     } else if snapshot.dropped_strikes > 0 {
         let dropped = snapshot.dropped_strikes;
         (format!("Ready; {dropped} early strokes were dropped"), theme::FAINT)

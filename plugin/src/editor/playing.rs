@@ -10,7 +10,7 @@ use crate::midi_map::{BEYOND, MAP, Meaning};
 use crate::parameters::PARAMETERS;
 
 /// Groups of parameters shown here rather than with a piece.
-const GROUPS: [&str; 2] = ["Playing", "Rendering"];
+const GROUPS: [&str; 4] = ["Kit", "Microphones", "Playing", "Rendering"];
 
 /// Room of a knob, points.
 const CELL: [f32; 2] = [110.0, 96.0];

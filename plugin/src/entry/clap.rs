@@ -135,7 +135,7 @@ unsafe fn guarded<P: ClapPlugin>(host: *const clap_host) -> *const clap_plugin {
     let table = clap_plugin {
         destroy: Some(destroy),
         activate: Some(activate),
-        process: Some(process),
+        process: Some(timed_process),
         get_extension: Some(get_extension),
         ..framework
     };
@@ -168,6 +168,22 @@ unsafe extern "C" fn activate(plugin: *const clap_plugin, rate: f64, least: u32,
         let guard = guard(plugin);
         (*guard.outputs.get()).scratch.prepare(most as usize);
         guard.framework.activate.is_some_and(|activate| activate(plugin, rate, least, most))
+    }
+}
+
+/// # Real-time
+/// Two looks at the clock beside what [`process`] does.
+unsafe extern "C" fn timed_process(
+    plugin: *const clap_plugin,
+    call: *const clap_process,
+) -> clap_process_status {
+    // SAFETY: as for `process`.
+    unsafe {
+        let frames = call.as_ref().map_or(0, |call| call.frames_count as usize);
+        match &guard(plugin).parameters {
+            Some(parameters) => parameters.deadlines().timed(frames, || process(plugin, call)),
+            None => process(plugin, call),
+        }
     }
 }
 

@@ -6,6 +6,7 @@
 
 use std::cell::UnsafeCell;
 use std::ffi::c_void;
+use std::sync::Arc;
 
 use nice_plug::prelude::*;
 use nice_plug::wrapper::setup_logger;
@@ -29,12 +30,14 @@ use nice_plug::wrapper::vst3::vst3::{Class, ComWrapper};
 use nice_plug::wrapper::vst3::{PluginInfo, Wrapper};
 
 use super::scratch::{CHANNELS, Scratch};
+use crate::host_parameters::{self, HostParameters};
 use crate::plugin::{Overhear, OverhearMulti};
 
 /// The framework's object, and what completes a host's outputs.
 struct Guard<P: Vst3Plugin> {
     framework: Wrapper<P>,
     outputs: UnsafeCell<Outputs>,
+    parameters: Option<Arc<HostParameters>>,
 }
 
 /// Scratch, and the buses made of it for one call.
@@ -47,7 +50,9 @@ impl<P: Vst3Plugin> Guard<P> {
     fn new() -> Guard<P> {
         let ports = P::AUDIO_IO_LAYOUTS.first().map_or(0, |layout| 1 + layout.aux_output_ports.len());
         let outputs = Outputs { scratch: Scratch::new(ports), buses: Vec::with_capacity(ports) };
-        Guard { framework: Wrapper::new(), outputs: UnsafeCell::new(outputs) }
+        let framework = Wrapper::new();
+        let parameters = host_parameters::take_latest();
+        Guard { framework, outputs: UnsafeCell::new(outputs), parameters }
     }
 }
 
@@ -137,6 +142,23 @@ impl<P: Vst3Plugin> IAudioProcessorTrait for Guard<P> {
     }
 
     unsafe fn process(&self, data: *mut ProcessData) -> tresult {
+        // SAFETY: as `complete` wants it.
+        unsafe {
+            let frames = data.as_ref().map_or(0, |data| data.numSamples.max(0) as usize);
+            match &self.parameters {
+                Some(parameters) => parameters.deadlines().timed(frames, || self.complete(data)),
+                None => self.complete(data),
+            }
+        }
+    }
+}
+
+impl<P: Vst3Plugin> Guard<P> {
+    /// Processes with every output there.
+    ///
+    /// # Safety
+    /// As the format says of `process`.
+    unsafe fn complete(&self, data: *mut ProcessData) -> tresult {
         // SAFETY: `data` is null or valid with all it points to; `process` overlaps with neither itself nor
         // `setupProcessing`, so that nobody else holds the outputs.
         unsafe {

@@ -69,6 +69,10 @@ pub fn about(parameter: &Parameter) -> &'static str {
         Drives::Playing(manner) => playing(manner),
         Drives::Building(Quality) => "*Built.* How far up cymbals' modes are coupled while the host plays.",
         Drives::Building(OfflineQuality) => "*Built.* The same while the host renders to a file.",
+        Drives::Building(Workers) => {
+            "*Built.* Threads that render pieces beside the host's own. They change no sample, and look for work all \
+             the while the kit sounds."
+        }
         Drives::Building(ResonantRatio(_)) => "*Built.* Pitch of the resonant head over the batter head's.",
     }
 }

@@ -8,7 +8,7 @@ use crate::midi::maps::NoteMap;
 use crate::midi::playing::ChokeRule;
 
 /// Every parameter, in the order hosts see. Frozen: append only.
-pub static PARAMETERS: [Parameter; 78] = {
+pub static PARAMETERS: [Parameter; 79] = {
     use PieceId::*;
     [
         drum_tune(Kick, "Kick", "kktune", "kick_tune", [35.0, 55.0, 90.0]),
@@ -238,6 +238,15 @@ pub static PARAMETERS: [Parameter; 78] = {
             decimals: 3,
             drives: Drives::Control(Control::Pedal),
             choices: &[],
+        },
+        Parameter {
+            id: "workrs",
+            name: "workers",
+            label: "Workers",
+            group: "Rendering",
+            max: overhear_crew::MOST as f32,
+            centre: 0.5 * overhear_crew::MOST as f32,
+            ..built(Construction::Workers, &[])
         },
     ]
 };

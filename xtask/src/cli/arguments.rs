@@ -11,6 +11,7 @@ use overhear_engine::piece::{self, BuildOptions};
 use overhear_engine::strike::Strike;
 
 use crate::player::{Blocks, Source};
+use crate::stage::Stage;
 use crate::wav::Bits;
 use crate::{bench, hear, realism, render, settings};
 
@@ -153,6 +154,13 @@ pub struct RenderArguments {
     /// Play a CLAP bundle in an embedded host; the same samples
     #[arg(long, value_name = "PATH")]
     clap: Option<PathBuf>,
+    /// Put a piece, a pair of microphones or a close microphone somewhere, metres: kick=0,.3,-.2,
+    /// overheads=-1,2,0,1,2,0, snare-mic=-.4,.8,-.3; repeatable; the engine only
+    #[arg(long, value_name = "NAME=X,Y,Z", allow_hyphen_values = true)]
+    place: Vec<String>,
+    /// Threads that render pieces beside the first, 0 to 3; does not change the sound
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(0..=3))]
+    workers: Option<u8>,
     /// Songs rendered at once; as many as there are cores if not given
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
@@ -171,6 +179,8 @@ impl RenderArguments {
     /// [`BadInput`](crate::error::BadInput) for a parameter that is not one.
     pub fn into_request(self) -> Result<render::Request> {
         let source = self.clap.map_or(Source::Engine, Source::Clap);
+        let workers = self.workers.map(|workers| format!("workers={workers}"));
+        let set: Vec<String> = self.set.into_iter().chain(workers).collect();
         Ok(render::Request {
             inputs: self.songs,
             output: self.output,
@@ -179,7 +189,8 @@ impl RenderArguments {
             style: render::Style {
                 source,
                 rate: self.rate,
-                settings: settings::preset_and_set(&self.preset, &self.set)?,
+                settings: settings::preset_and_set(&self.preset, &set)?,
+                stage: Stage::parse(&self.place)?,
                 blocks: self.block,
                 bits: self.bits,
                 tail: self.tail,

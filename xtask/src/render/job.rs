@@ -101,7 +101,7 @@ impl Job {
 }
 
 fn play(take: &Take, style: &Style, file: &mut WavFile, mut progress: Progress) -> Result<Played> {
-    let setup = Setup { rate: style.rate, settings: style.settings.clone() };
+    let setup = Setup { rate: style.rate, settings: style.settings.clone(), stage: style.stage };
     let played = style.source.perform(&setup, |player| {
         take.play(player, style.blocks, |left, right| {
             progress.advance(left.len() as u64);

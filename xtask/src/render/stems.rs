@@ -50,7 +50,7 @@ impl Stems {
     /// # Errors
     /// If the engine or a file fails.
     pub fn render(self, take: &Take, style: &Style, mut progress: Progress) -> Result<Vec<WavFile>> {
-        let setup = Setup { rate: style.rate, settings: style.settings.clone() };
+        let setup = Setup { rate: style.rate, settings: style.settings.clone(), stage: style.stage };
         let engine = EnginePlayer::new(&setup)?;
         let (master, parameter) = find("master_level")?;
         let decibels = engine.performer.parameter(master).unwrap_or(parameter.default);

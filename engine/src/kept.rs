@@ -1,0 +1,147 @@
+//! Results of long calculations, kept for whoever builds the same piece next.
+//!
+//! What a drum's or a plate's modes are and how they are heard follows from its description alone. It is worked out once
+//! in a process and shared: every instance and every rebuild that asks for the same gets the same, to the last bit. Where
+//! the program provides a [`Shelf`], results also outlive the process.
+//!
+//! The key is the whole description as text, in which every number stands exactly. On the shelf a result is preceded
+//! by its key and stands under a [name](name_of) that also holds [`MARK`], a digest of the engine's sources: an
+//! engine with other equations finds nothing there.
+//!
+//! Nothing here runs on the audio thread.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+/// Stands for the engine's sources and the machine they were compiled for.
+pub const MARK: &str = env!("OVERHEAR_ENGINE_MARK");
+
+/// Where results outlive the process; see [`provide`].
+pub trait Shelf: Send + Sync {
+    /// What was put under a name, unharmed, or nothing.
+    fn take(&self, name: &str) -> Option<Vec<u8>>;
+    /// Puts something under a name, if that is possible.
+    fn put(&self, name: &str, bytes: &[u8]);
+}
+
+static SHELF: OnceLock<Box<dyn Shelf>> = OnceLock::new();
+
+/// Results older than this are forgotten.
+static AGE: AtomicU64 = AtomicU64::new(0);
+
+/// Provides the shelf for the rest of the process; false if there is one already.
+pub fn provide(shelf: Box<dyn Shelf>) -> bool {
+    SHELF.set(shelf).is_ok()
+}
+
+/// Forgets what is held in memory, so that it is taken from the shelf or worked out anew; for tests and measurements.
+pub fn forget() {
+    AGE.fetch_add(1, Ordering::AcqRel);
+}
+
+/// Results of one kind; the latest are held.
+pub struct Kept<T> {
+    kind: &'static str,
+    most: usize,
+    /// Age and key of each, latest last.
+    held: Mutex<Vec<(u64, String, Arc<T>)>>,
+}
+
+impl<T: Serialize + DeserializeOwned> Kept<T> {
+    /// Room for so many.
+    pub const fn new(kind: &'static str, most: usize) -> Kept<T> {
+        Kept { kind, most, held: Mutex::new(Vec::new()) }
+    }
+
+    /// The result for a key: held, from the shelf, or made. Two threads that ask for the same at once may both make it.
+    ///
+    /// # Errors
+    /// What `make` says.
+    pub fn get<E>(&self, key: &str, make: impl FnOnce() -> Result<T, E>) -> Result<Arc<T>, E> {
+        if let Some(held) = self.held(key) {
+            return Ok(held);
+        }
+        let name = name_of(self.kind, key);
+        let shelf = SHELF.get();
+        let shelved = shelf.and_then(|shelf| shelf.take(&name)).and_then(|bytes| unpack(key, &bytes));
+        let result = match shelved {
+            Some(result) => result,
+            None => {
+                let made = make()?;
+                if let (Some(shelf), Ok(bytes)) = (shelf, postcard::to_stdvec(&(key, &made))) {
+                    shelf.put(&name, &bytes);
+                }
+                made
+            }
+        };
+        let result = Arc::new(result);
+        let mut held = self.lock();
+        let excess = (held.len() + 1).saturating_sub(self.most);
+        held.drain(..excess);
+        held.push((AGE.load(Ordering::Acquire), key.to_owned(), result.clone()));
+        Ok(result)
+    }
+
+    fn held(&self, key: &str) -> Option<Arc<T>> {
+        let mut held = self.lock();
+        let age = AGE.load(Ordering::Acquire);
+        held.retain(|(of, ..)| *of == age);
+        let at = held.iter().position(|(_, known, _)| known == key)?;
+        let entry = held.remove(at);
+        let result = entry.2.clone();
+        held.push(entry);
+        Some(result)
+    }
+
+    fn lock(&self) -> std::sync::MutexGuard<'_, Vec<(u64, String, Arc<T>)>> {
+        // Whole after a panic elsewhere: entries are only added and taken out.
+        self.held.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// A result from the shelf, if it is that of the key.
+fn unpack<T: DeserializeOwned>(key: &str, bytes: &[u8]) -> Option<T> {
+    let (known, result): (String, T) = postcard::from_bytes(bytes).ok()?;
+    (known == key).then_some(result)
+}
+
+/// What a result is called on the shelf: its kind and a digest (FNV-1a) of [`MARK`] and the key.
+pub fn name_of(kind: &str, key: &str) -> String {
+    let digest =
+        MARK.bytes().chain([0]).chain(key.bytes()).fold(0xcbf2_9ce4_8422_2325_u64, |digest, byte| {
+            (digest ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+        });
+    format!("{kind}-{digest:016x}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_result_is_made_once_and_the_oldest_is_given_up() {
+        static KEPT: Kept<f64> = Kept::new("test", 2);
+        let make = |key: &str, value: f64| KEPT.get(key, || Ok::<_, ()>(value)).unwrap();
+        assert_eq!(*make("a", 1.0), 1.0);
+        assert_eq!(*make("a", 2.0), 1.0);
+        make("b", 3.0);
+        make("a", 4.0);
+        make("c", 5.0);
+        // `a` was asked for after `b`.
+        assert_eq!((*make("a", 6.0), *make("b", 7.0)), (1.0, 7.0));
+        assert!(KEPT.get("d", || Err("no")).is_err());
+    }
+
+    #[test]
+    fn what_comes_from_a_shelf_is_what_was_put_there_to_the_last_bit() {
+        let value = vec![0.1_f64, f64::NEG_INFINITY, -0.0, f64::MIN_POSITIVE, 1.0 / 3.0];
+        let bytes = postcard::to_stdvec(&("key", &value)).unwrap();
+        let back: Vec<f64> = unpack("key", &bytes).unwrap();
+        assert!(back.iter().zip(&value).all(|(a, b)| a.to_bits() == b.to_bits()));
+        assert_eq!(unpack::<Vec<f64>>("another", &bytes), None);
+        assert_eq!(unpack::<Vec<f64>>("key", &bytes[..bytes.len() - 1]), None);
+    }
+}

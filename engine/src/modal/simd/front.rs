@@ -1,0 +1,111 @@
+//! One sample of the first modes of a body in two passes: what they do freely, and what forces do to them.
+
+use pulp::Simd;
+
+use super::{EARS, Kernel, Kernels, turn};
+
+/// Forces that act in one sample, at most.
+pub const FORCES: usize = 2;
+
+/// A force and what it leaves when held for a sample, `[mode]`, real and imaginary part.
+pub type HeldForce<'a> = (f32, [&'a [f32]; 2]);
+
+/// What [`Kernels::rotate_along`] works on; all rows `[mode]`, of one length.
+pub struct Along<'a> {
+    /// State.
+    pub re: &'a mut [f32],
+    /// State.
+    pub im: &'a mut [f32],
+    /// Rotation less one.
+    pub turn_re: &'a [f32],
+    /// Rotation.
+    pub turn_im: &'a [f32],
+    /// Direction.
+    pub shape: &'a [f32],
+}
+
+/// What [`Kernels::push_and_hear`] works on; all rows `[mode]`.
+pub struct PushAndHear<'a> {
+    /// State.
+    pub re: &'a mut [f32],
+    /// State.
+    pub im: &'a mut [f32],
+    /// What acts, as long as the state or longer.
+    pub forces: [HeldForce<'a>; FORCES],
+    /// What of the state each ear hears, real and imaginary part; what is missing is not heard.
+    pub weights: [[&'a [f32]; 2]; EARS],
+}
+
+impl Kernels {
+    /// [`rotate`](Self::rotate), and how far the imaginary parts have moved along a direction.
+    pub fn rotate_along(&self, along: Along<'_>) -> f32 {
+        self.run(along)
+    }
+
+    /// Adds what forces leave to the state, and listens to it.
+    pub fn push_and_hear(&self, work: PushAndHear<'_>) -> [f32; EARS] {
+        self.run(work)
+    }
+}
+
+impl Kernel for Along<'_> {
+    type Output = f32;
+    #[inline(always)]
+    fn with<S: Simd>(self, simd: S, fma: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s + Copy) -> f32 {
+        let (re, im) = (S::as_mut_simd_f32s(self.re).0, S::as_mut_simd_f32s(self.im).0);
+        let [t_re, t_im, shape] = [self.turn_re, self.turn_im, self.shape].map(|row| S::as_simd_f32s(row).0);
+        let mut sum = simd.splat_f32s(0.0);
+        let rows = re.iter_mut().zip(im).zip(t_re.iter().zip(t_im)).zip(shape);
+        for (((re, im), (&t_re, &t_im)), &shape) in rows {
+            let (re_after, im_after) = turn(simd, fma, (*re, *im), (t_re, t_im));
+            sum = fma(shape, simd.sub_f32s(im_after, *im), sum);
+            (*re, *im) = (re_after, im_after);
+        }
+        simd.reduce_sum_f32s(sum)
+    }
+}
+
+impl Kernel for PushAndHear<'_> {
+    type Output = [f32; EARS];
+    #[inline(always)]
+    fn with<S: Simd>(
+        self,
+        simd: S,
+        fma: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s + Copy,
+    ) -> [f32; EARS] {
+        let (re, im) = (S::as_mut_simd_f32s(self.re).0, S::as_mut_simd_f32s(self.im).0);
+        let groups = re.len();
+        let both = self.forces[1].0 != 0.0;
+        let [(first, first_gains), (second, second_gains)] = self.forces;
+        let held = [simd.splat_f32s(first), simd.splat_f32s(second)];
+        let gains = [first_gains, second_gains].map(|gains| gains.map(|row| S::as_simd_f32s(row).0));
+        let weights = self.weights.map(|ear| ear.map(|row| S::as_simd_f32s(row).0));
+        // The last ear hears the first modes alone.
+        let reached = weights[EARS - 1][0].len().min(groups);
+        let mut sums = [[simd.splat_f32s(0.0); 2]; EARS];
+        for i in 0..groups {
+            let (mut z_re, mut z_im) = (re[i], im[i]);
+            z_re = fma(gains[0][0][i], held[0], z_re);
+            z_im = fma(gains[0][1][i], held[0], z_im);
+            if both {
+                z_re = fma(gains[1][0][i], held[1], z_re);
+                z_im = fma(gains[1][1][i], held[1], z_im);
+            }
+            (re[i], im[i]) = (z_re, z_im);
+            for ear in 0..EARS - 1 {
+                let [w_re, w_im] = weights[ear];
+                sums[ear] = [fma(w_re[i], z_re, sums[ear][0]), fma(w_im[i], z_im, sums[ear][1])];
+            }
+            if i < reached {
+                let [w_re, w_im] = weights[EARS - 1];
+                sums[EARS - 1] =
+                    [fma(w_re[i], z_re, sums[EARS - 1][0]), fma(w_im[i], z_im, sums[EARS - 1][1])];
+            }
+        }
+        let mut heard = [0.0; EARS];
+        for (heard, [re, im]) in heard.iter_mut().zip(sums) {
+            *heard = simd.reduce_sum_f32s(simd.add_f32s(re, im));
+        }
+        heard
+    }
+}
