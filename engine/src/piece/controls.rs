@@ -1,0 +1,154 @@
+//! What can be asked of a piece while it rings: all of it glides from the sample on at which it is asked.
+
+use super::{Piece, PieceId, Voice};
+use crate::cymbal::CymbalSpec;
+use crate::drum::DrumSpec;
+use crate::hi_hat::pair::Pair;
+use crate::snapshot::{RimSnapshot, WireSnapshot};
+
+impl Piece {
+    /// Lowest, default and highest of [`set_tuning`](Self::set_tuning): Hz for drums, ratio for
+    /// cymbals.
+    pub fn tuning_range(id: PieceId) -> (f64, f64, f64) {
+        match id {
+            PieceId::Kick => DrumSpec::kick().pitch_hz,
+            PieceId::Snare => DrumSpec::snare().pitch_hz,
+            PieceId::RackTom => DrumSpec::rack_tom().pitch_hz,
+            PieceId::FloorTom => DrumSpec::floor_tom().pitch_hz,
+            PieceId::Timpani => DrumSpec::timpani().pitch_hz,
+            PieceId::Crash | PieceId::Ride | PieceId::Splash | PieceId::HiHat => CymbalSpec::TUNING,
+        }
+    }
+
+    /// Asks for a pitch: of the named mode of a drum, Hz; of a cymbal, a ratio to its own.
+    ///
+    /// Acts while it rings, gliding over a few milliseconds from this sample on; clamped to the range.
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn set_tuning(&mut self, tuning: f64) {
+        self.glide();
+        match &mut self.voice {
+            Voice::Drum(drum) => drum.set_tuning(tuning),
+            Voice::Cymbal(cymbal) => cymbal.set_tuning(tuning),
+            Voice::HiHat(hat) => hat.set_tuning(tuning),
+        }
+    }
+
+    /// Asks for muffling, 0 (none) to 1 (all there is). Acts while it rings, as the tuning does.
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn set_muffling(&mut self, amount: f64) {
+        self.glide();
+        match &mut self.voice {
+            Voice::Drum(drum) => drum.set_muffling(amount),
+            Voice::Cymbal(cymbal) => cymbal.set_muffling(amount),
+            Voice::HiHat(hat) => hat.set_muffling(amount),
+        }
+    }
+
+    /// Lets a hand take hold of a cymbal, firmly at 1, or let go of it, 0. Closes over some 25 ms from
+    /// this sample on; takes energy and gives none. Drums are not choked.
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn choke(&mut self, strength: f64) {
+        self.glide();
+        match &mut self.voice {
+            Voice::Drum(_) => {}
+            Voice::Cymbal(cymbal) => cymbal.choke(strength),
+            Voice::HiHat(hat) => hat.choke(strength),
+        }
+    }
+
+    /// Brings a hi-hat's pedal to a place, 0 (up, open) to 1 (down, clamped), from the next sample on, at up to a
+    /// speed (m/s, see [`SPEED`](crate::hi_hat::foot::SPEED)). Other pieces have no such pedal.
+    ///
+    /// # Real-time
+    /// No allocation, no lock; linear in the number of modes.
+    pub fn press_pedal(&mut self, pedal: f64, speed: f64) {
+        if let Voice::HiHat(hat) = &mut self.voice {
+            hat.press(pedal, speed);
+            self.asleep = false;
+        }
+    }
+
+    /// Stamps on a hi-hat's pedal: brings it down at up to a speed (m/s); one that is down already is lifted first.
+    ///
+    /// # Real-time
+    /// No allocation, no lock; linear in the number of modes.
+    pub fn stamp_pedal(&mut self, speed: f64) {
+        if let Voice::HiHat(hat) = &mut self.voice {
+            hat.stamp(speed);
+            self.asleep = false;
+        }
+    }
+
+    /// Splashes with a hi-hat's pedal: brings the rims together at up to a speed (m/s) and lets them go at once.
+    ///
+    /// # Real-time
+    /// No allocation, no lock; linear in the number of modes.
+    pub fn splash_pedal(&mut self, speed: f64) {
+        if let Voice::HiHat(hat) = &mut self.voice {
+            hat.splash(speed);
+            self.asleep = false;
+        }
+    }
+
+    /// Throws snare wires on (from where the head is now) or off, at the next sample. Pieces without wires
+    /// have none to throw.
+    ///
+    /// # Real-time
+    /// No allocation, no lock; linear in the number of modes.
+    pub fn throw_wires(&mut self, on: bool) {
+        self.glide();
+        if let Voice::Drum(drum) = &mut self.voice {
+            drum.throw_wires(on);
+        }
+    }
+
+    /// Asks for a force that presses the snare wires on, all of them together, N; see
+    /// [`PRELOAD`](crate::surface::wires::PRELOAD) for the range. Acts while they buzz, gliding.
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn set_preload(&mut self, newtons: f64) {
+        self.glide();
+        if let Voice::Drum(drum) = &mut self.voice {
+            drum.set_preload(newtons);
+        }
+    }
+
+    /// What the snare wires have done since the latest stroke.
+    pub fn wires(&self) -> WireSnapshot {
+        self.voice.surface().wires()
+    }
+
+    /// What a hi-hat's rims have done since the latest stroke.
+    pub fn rims(&self) -> RimSnapshot {
+        self.voice.surface().pair().map_or_else(RimSnapshot::default, Pair::landings)
+    }
+
+    /// Lets tuning and muffling arrive at once instead of gliding.
+    ///
+    /// # Real-time
+    /// No allocation, no lock; linear in the number of modes.
+    pub fn finish_controls(&mut self) {
+        match &mut self.voice {
+            Voice::Drum(drum) => drum.finish_controls(),
+            Voice::Cymbal(cymbal) => cymbal.finish_controls(),
+            Voice::HiHat(hat) => hat.finish_controls(),
+        }
+    }
+
+    /// Lets the controls glide up to now, so that what is asked next starts here, not at a block.
+    pub(super) fn glide(&mut self) {
+        let seconds = std::mem::take(&mut self.unglided) as f64 / self.sample_rate;
+        match &mut self.voice {
+            Voice::Drum(drum) => drum.advance_controls(seconds),
+            Voice::Cymbal(cymbal) => cymbal.advance_controls(seconds),
+            Voice::HiHat(hat) => hat.advance_controls(seconds),
+        }
+    }
+}
