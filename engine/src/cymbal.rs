@@ -6,16 +6,16 @@
 //! rigid motions are too slow to be heard. The plate stands in free air ([`FreeDisc`]).
 
 use std::f64::consts::TAU;
-use std::sync::Arc;
 
+use overhear_kept::{Kept, Shared};
 use serde::{Deserialize, Serialize};
 
+use crate::MARK;
 use crate::air;
 use crate::contact::Material;
 use crate::damping::{LossLaw, Muffler, SIGMA_T60, Thermoelastic};
 use crate::error::SpecError;
 use crate::glide::Glide;
-use crate::kept::Kept;
 use crate::listening::{ListeningPoint, Radiator};
 use crate::modal::Mode;
 use crate::piece::{BuildOptions, Member, ModeInfo, ModeKind};
@@ -435,14 +435,14 @@ pub(crate) struct SoundingPlate {
 }
 
 /// What has been worked out of late.
-static PLATES: Kept<SoundingPlate> = Kept::new("plate", 16);
+static PLATES: Kept<SoundingPlate> = Kept::new("plate", MARK, 16);
 
 impl SoundingPlate {
     /// A cymbal's, up to a frequency.
     ///
     /// # Errors
     /// [`SpecError`] if the plate or the limit is out of range.
-    pub(crate) fn of(spec: &CymbalSpec, limit_hz: f64) -> Result<Arc<SoundingPlate>, SpecError> {
+    pub(crate) fn of(spec: &CymbalSpec, limit_hz: f64) -> Result<Shared<SoundingPlate>, SpecError> {
         let key = format!("{:?} {:?} {:?} {limit_hz:?}", spec.plate, spec.listening_point, spec.far_point);
         PLATES.get(&key, || {
             let plate = PlateModes::new(&spec.plate, limit_hz)?;

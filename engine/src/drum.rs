@@ -5,7 +5,6 @@
 //! are not part of it.
 
 use std::f64::consts::TAU;
-use std::sync::Arc;
 
 pub mod build;
 pub mod coupled;
@@ -16,11 +15,13 @@ pub mod spec;
 pub mod stretch;
 pub mod tuned;
 
+use overhear_kept::{Kept, Shared};
+
+use crate::MARK;
 use crate::air::SPEED_OF_SOUND;
 use crate::damping::{Muffler, SIGMA_T60};
 use crate::error::SpecError;
 use crate::glide::Glide;
-use crate::kept::Kept;
 use crate::modal::Mode;
 use crate::piece::{BuildOptions, Member, ModeInfo, ModeKind};
 use crate::rim::Rim;
@@ -81,15 +82,15 @@ enum MufflerCoefs {
 }
 
 /// What has been worked out of late.
-static BLUEPRINTS: Kept<Blueprint> = Kept::new("drum", 24);
-static HEARINGS: Kept<[Hearing; 2]> = Kept::new("hearing", 24);
+static BLUEPRINTS: Kept<Blueprint> = Kept::new("drum", MARK, 24);
+static HEARINGS: Kept<[Hearing; 2]> = Kept::new("hearing", MARK, 24);
 
 /// A drum that can be struck.
 pub struct Drum {
     surface: Surface,
-    blueprint: Arc<Blueprint>,
+    blueprint: Shared<Blueprint>,
     /// From near and from far.
-    hearing: Arc<[Hearing; 2]>,
+    hearing: Shared<[Hearing; 2]>,
     far_distance: f64,
     modes: Vec<BodyMode>,
     /// Shapes on the resonant head, where wires lie against it.

@@ -8,7 +8,7 @@
 //! 8   4        version of this format, little-endian as all numbers
 //! 12  4        CRC-32 of the contents
 //! 16  8        length of the contents, bytes
-//! 24           the contents, as `overhear_engine::kept` has packed them
+//! 24           the contents, as `overhear_kept` has packed them
 //! ```
 //!
 //! and is taken only if all of it is right; whatever is not is as good as missing, and written anew. Its
@@ -24,7 +24,7 @@ use std::sync::Once;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use directories::ProjectDirs;
-use overhear_engine::kept::{self, Shelf};
+use overhear_kept::Shelf;
 
 /// What files begin with, the version of what follows, and where the contents begin.
 const SIGNATURE: [u8; 8] = *b"OVERHEAR";
@@ -125,7 +125,7 @@ pub fn provide() {
     static ONCE: Once = Once::new();
     ONCE.call_once(|| {
         if let Some(shelf) = FolderShelf::of_platform() {
-            kept::provide(Box::new(shelf));
+            overhear_kept::provide(Box::new(shelf));
         }
     });
 }

@@ -4,9 +4,9 @@ use std::collections::HashMap;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::{Arc, Mutex};
 
-use overhear_engine::kept::{self, Shelf};
 use overhear_engine::piece::{BuildOptions, Piece, PieceId, Quality};
 use overhear_engine::strike::Striker;
+use overhear_kept::{Shelf, forget, provide};
 use overhear_tests::{RATES, stroke};
 
 /// A shelf in memory that counts and can do harm.
@@ -47,7 +47,7 @@ fn sound(id: PieceId, options: &BuildOptions) -> Vec<f32> {
 #[test]
 fn fresh_held_shelved_and_harmed_pieces_sound_alike_to_the_last_bit() {
     let shelf = Counting::default();
-    assert!(kept::provide(Box::new(shelf.clone())) && !kept::provide(Box::new(Counting::default())));
+    assert!(provide(Box::new(shelf.clone())) && !provide(Box::new(Counting::default())));
     let counts = || (shelf.found.swap(0, Ordering::Relaxed), shelf.put.swap(0, Ordering::Relaxed));
     let options = BuildOptions::new(RATES[0]);
     for id in [PieceId::Snare, PieceId::RackTom, PieceId::Splash, PieceId::HiHat] {
@@ -56,10 +56,10 @@ fn fresh_held_shelved_and_harmed_pieces_sound_alike_to_the_last_bit() {
         assert!(found == 0 && put > 0, "{id:?}: {found} found, {put} put");
         assert!(sound(id, &options) == fresh, "{id:?}: held");
         assert_eq!(counts(), (0, 0), "{id:?}: the shelf was asked for what is held");
-        kept::forget();
+        forget();
         assert!(sound(id, &options) == fresh, "{id:?}: from the shelf");
         assert_eq!(counts(), (put, 0), "{id:?}: from the shelf");
-        kept::forget();
+        forget();
         shelf.harmful.store(true, Ordering::Relaxed);
         assert!(sound(id, &options) == fresh, "{id:?}: harmed");
         assert_eq!(counts(), (put, put), "{id:?}: harmed, and so put anew");

@@ -69,11 +69,11 @@ fn difference(sound: &[f32], later: &[f32], delay: f64, weaker: f64, until: usiz
 fn a_microphone_34_3_cm_farther_hears_a_millisecond_later_and_one_twice_as_far_half_at_every_rate() {
     for rate in [44_100.0, 48_000.0, 96_000.0] {
         let [one, later_than_one, two, four, later_than_four, eight] =
-            [1.0, 1.343, 2.0, 4.0, 4.343, 8.0].map(|distance| heard(distance, rate));
-        // The pairs until the room's first echoes, of the floor, arrive at a metre's height. A drum is no point, and its
+            [0.6, 0.943, 1.2, 4.0, 4.343, 8.0].map(|distance| heard(distance, rate));
+        // The pairs until the room's first echoes, of the floor, arrive. A drum is no point, and its
         // other head is farther: a close microphone hears that up to some metres. Ways of a broken number of samples lose some
         // of a stroke's first highs, the most at 44.1 kHz.
-        let pairs = (1.0, [&one, &later_than_one, &two], 0.0065, 0.06);
+        let pairs = (0.6, [&one, &later_than_one, &two], 0.005, 0.03);
         let alone = (4.0, [&four, &later_than_four, &eight], 0.03, 0.03);
         for (output, name, of) in
             [(RACK_TOM, "close", alone), (OVERHEADS, "overheads", pairs), (ROOM, "room", pairs)]

@@ -16,8 +16,8 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-/// Stands for the engine's sources and the machine they were compiled for.
-pub const MARK: &str = env!("OVERHEAR_ENGINE_MARK");
+/// A result, shared by all who asked for it.
+pub type Shared<T> = Arc<T>;
 
 /// Where results outlive the process; see [`provide`].
 pub trait Shelf: Send + Sync {
@@ -45,26 +45,27 @@ pub fn forget() {
 /// Results of one kind; the latest are held.
 pub struct Kept<T> {
     kind: &'static str,
+    mark: &'static str,
     most: usize,
     /// Age and key of each, latest last.
     held: Mutex<Vec<(u64, String, Arc<T>)>>,
 }
 
 impl<T: Serialize + DeserializeOwned> Kept<T> {
-    /// Room for so many.
-    pub const fn new(kind: &'static str, most: usize) -> Kept<T> {
-        Kept { kind, most, held: Mutex::new(Vec::new()) }
+    /// Room for so many, made by sources of that mark.
+    pub const fn new(kind: &'static str, mark: &'static str, most: usize) -> Kept<T> {
+        Kept { kind, mark, most, held: Mutex::new(Vec::new()) }
     }
 
     /// The result for a key: held, from the shelf, or made. Two threads that ask for the same at once may both make it.
     ///
     /// # Errors
     /// What `make` says.
-    pub fn get<E>(&self, key: &str, make: impl FnOnce() -> Result<T, E>) -> Result<Arc<T>, E> {
+    pub fn get<E>(&self, key: &str, make: impl FnOnce() -> Result<T, E>) -> Result<Shared<T>, E> {
         if let Some(held) = self.held(key) {
             return Ok(held);
         }
-        let name = name_of(self.kind, key);
+        let name = name_of(self.kind, self.mark, key);
         let shelf = SHELF.get();
         let shelved = shelf.and_then(|shelf| shelf.take(&name)).and_then(|bytes| unpack(key, &bytes));
         let result = match shelved {
@@ -108,10 +109,10 @@ fn unpack<T: DeserializeOwned>(key: &str, bytes: &[u8]) -> Option<T> {
     (known == key).then_some(result)
 }
 
-/// What a result is called on the shelf: its kind and a digest (FNV-1a) of [`MARK`] and the key.
-pub fn name_of(kind: &str, key: &str) -> String {
+/// What a result is called on the shelf: its kind and a digest (FNV-1a) of mark and key.
+pub fn name_of(kind: &str, mark: &str, key: &str) -> String {
     let digest =
-        MARK.bytes().chain([0]).chain(key.bytes()).fold(0xcbf2_9ce4_8422_2325_u64, |digest, byte| {
+        mark.bytes().chain([0]).chain(key.bytes()).fold(0xcbf2_9ce4_8422_2325_u64, |digest, byte| {
             (digest ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
         });
     format!("{kind}-{digest:016x}")
@@ -123,7 +124,7 @@ mod tests {
 
     #[test]
     fn a_result_is_made_once_and_the_oldest_is_given_up() {
-        static KEPT: Kept<f64> = Kept::new("test", 2);
+        static KEPT: Kept<f64> = Kept::new("test", "mark", 2);
         let make = |key: &str, value: f64| KEPT.get(key, || Ok::<_, ()>(value)).unwrap();
         assert_eq!(*make("a", 1.0), 1.0);
         assert_eq!(*make("a", 2.0), 1.0);
