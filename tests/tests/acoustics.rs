@@ -107,9 +107,9 @@ struct Rung {
 }
 
 /// What a piece says of the modes of its body; what it does above them is heard, not followed, and a rim is
-/// a body of its own.
+/// a body of its own, and so is a hi-hat's lower cymbal.
 fn body_modes(piece: &Piece) -> Vec<ModeInfo> {
-    let of_body = |mode: &ModeInfo| mode.kind != ModeKind::Sampled && mode.body != "rim";
+    let of_body = |mode: &ModeInfo| mode.kind != ModeKind::Sampled && !["rim", "bottom"].contains(&mode.body);
     piece.modes().into_iter().filter(of_body).collect()
 }
 
