@@ -253,7 +253,7 @@ impl HiHat {
         // Rims that are pressed together have to come apart to ring.
         self.pedal = self.pedal.min(SPLASHING);
         let rod = self.rod(self.pedal);
-        self.surface.move_pedal(|foot| foot.turn(GAP + SPLASH_DEPTH, rod, speed));
+        self.surface.move_pedal(|foot| foot.turn(GAP, rod, speed));
     }
 
     /// Asks for a ratio of all frequencies to the cymbals' own.
@@ -355,9 +355,6 @@ const RUBBING_STEP: f64 = 0.01;
 
 /// How far apart a foot that is down lifts the rims before it stamps, m. *By ear*: enough to be heard to close.
 const LIFT: f64 = 3e-3;
-
-/// How far beyond the first touch a splash brings the rod, m. *By ear*: all around the tilted rims touch.
-const SPLASH_DEPTH: f64 = 0.0;
 
 /// The upper cymbal as what is struck, with all else hung on it.
 fn assemble(

@@ -5,7 +5,7 @@
 //! the program provides a [`Shelf`], results also outlive the process.
 //!
 //! The key is the whole description as text, in which every number stands exactly. On the shelf a result is preceded
-//! by its key and stands under a [name](name_of) that also holds [`MARK`], a digest of the engine's sources: an
+//! by its key and stands under a [name](name_of) that also holds a mark, a digest of the engine's sources: an
 //! engine with other equations finds nothing there.
 //!
 //! Nothing here runs on the audio thread.

@@ -1,6 +1,6 @@
 //! Overhear without a host: its window, MIDI and sound on JACK or on the system's own devices.
 //!
-//! The framework brings backends and options (`overhear --help`); MIDI from any port plays the kit as a host's would.
+//! The framework brings backends and options (`overhear-standalone --help`); MIDI from any port plays the kit as a host's would.
 //! Without JACK, sound devices and MIDI ports it still runs, on a backend that plays to nobody.
 
 use std::process::ExitCode;

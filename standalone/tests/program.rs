@@ -12,7 +12,7 @@ use x11rb::rust_connection::RustConnection;
 const PATIENCE: Duration = Duration::from_secs(60);
 
 fn program() -> Command {
-    Command::new(env!("CARGO_BIN_EXE_overhear"))
+    Command::new(env!("CARGO_BIN_EXE_overhear-standalone"))
 }
 
 /// Ends the program however the test does.

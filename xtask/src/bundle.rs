@@ -56,7 +56,7 @@ pub fn standalone() -> Result<PathBuf> {
     if !built.success() {
         bail!("`{STANDALONE_PACKAGE}` does not build");
     }
-    let program = format!("overhear{}", env::consts::EXE_SUFFIX);
+    let program = format!("{STANDALONE_PACKAGE}{}", env::consts::EXE_SUFFIX);
     let folder = target.join("bundled");
     fs::create_dir_all(&folder).with_context(|| format!("cannot make `{}`", folder.display()))?;
     let path = folder.join(&program);
