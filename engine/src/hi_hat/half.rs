@@ -1,6 +1,6 @@
 //! One cymbal of a hi-hat, as its two halves need it: modes, their shapes, what is heard, what the rim feels.
 //!
-//! Model: a [cymbal](crate::cymbal) without its stand: it moves as a whole by [`Rigid`](super::rigid::Rigid).
+//! Model: a [cymbal] without its stand: it moves as a whole by [`Rigid`](super::rigid::Rigid).
 //!
 //! Order of the modes: the lowest first, for whoever draws; then those that hard strokes couple, then all others,
 //! each part by what the rim can tell apart (see [`Folded`]).

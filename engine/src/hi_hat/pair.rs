@@ -10,7 +10,7 @@
 //! upper one while the pedal is up, and presses with `F_j` by the law of every contact.
 //!
 //! Shells are measured from where the clamping has bent them, as snare wires are from where the strainer
-//! holds them: with `P_j` the forces in [balance](super::balance) at the present place of the rod and `bend` what
+//! holds them: with `P_j` the forces in [balance] at the present place of the rod and `bend` what
 //! they bend, a shell moves by `F_j - P_j` only. Clamped cymbals that are still are exactly still, and nothing is
 //! lost of the small in the large. Held by a still pedal, all of this keeps its energy to rounding. `P` and `bend`
 //! follow a moving pedal over a block; what they and the rod change of the energy is the

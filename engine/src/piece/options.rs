@@ -64,7 +64,7 @@ pub struct BuildOptions {
     pub quality: Quality,
     /// Heads sound above their complete sets of modes; see [`high_band`](crate::drum::high_band).
     pub high_band: bool,
-    /// Drums without what closes them: see [`DrumSpec::opened`].
+    /// Drums without what closes them: see [`DrumSpec::opened`](crate::drum::DrumSpec::opened).
     pub open: bool,
     /// Pitch of a drum's other head over the struck one's, if not its own.
     pub resonant_ratio: Option<f64>,
