@@ -386,16 +386,17 @@ impl Shared {
     }
 
     /// Puts something into its queue once there is room, unless it is no longer wanted.
-    fn deliver<T>(&self, queue: &ArrayQueue<T>, mut built: T, order: u32) {
+    fn deliver<T: Sent>(&self, queue: &ArrayQueue<T>, mut sent: T, order: u32) {
         while self.latest.load(Ordering::Acquire) == order {
             self.collect();
-            match queue.push(built) {
+            match queue.push(sent) {
                 Ok(()) => return,
-                // Full of an earlier order's pieces, which the audio thread returns when it
-                // runs next. If it does not run, nobody is listening: there is no hurry.
-                Err(refused) => built = refused,
+                Err(refused) => sent = refused,
             }
-            thread::sleep(Duration::from_millis(10));
+            // The audio thread has taken nothing, perhaps because it does not run, and somebody may be waiting.
+            if !make_room(queue, &sent) {
+                thread::sleep(Duration::from_millis(10));
+            }
         }
     }
 
@@ -429,6 +430,37 @@ fn made(make: Make, id: PieceId, options: &BuildOptions) -> Made {
         Ok(Err(error)) => Err(format!("{}: {error}", id.name())),
         Err(_) => Err(format!("{}: building it panicked", id.name())),
     }
+}
+
+/// Something on its way to the audio thread.
+trait Sent {
+    /// Whether nobody wants it any more once something newer is there.
+    fn is_superseded_by(&self, newer: &Self) -> bool;
+}
+
+impl Sent for Built {
+    fn is_superseded_by(&self, newer: &Built) -> bool {
+        self.order != newer.order || self.piece.id() == newer.piece.id()
+    }
+}
+
+impl Sent for Hired {
+    fn is_superseded_by(&self, _newer: &Hired) -> bool {
+        true
+    }
+}
+
+/// Drops what is superseded and says whether there is room now. The rest goes back to where there was room
+/// for it: nobody else adds to the queue.
+fn make_room<T: Sent>(queue: &ArrayQueue<T>, newer: &T) -> bool {
+    let mut room = false;
+    for _ in 0..queue.capacity() {
+        match queue.pop() {
+            Some(sent) if !sent.is_superseded_by(newer) => room |= queue.push(sent).is_err(),
+            Some(_) | None => room = true,
+        }
+    }
+    room
 }
 
 /// Locks even after a panic elsewhere: every value behind these locks is valid at all times.

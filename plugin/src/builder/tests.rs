@@ -30,6 +30,15 @@ fn plan(moved: bool) -> BuildPlan {
     BuildPlan::of(value, Pace::RealTime)
 }
 
+/// A plan with so many workers.
+fn staffed(workers: usize) -> BuildPlan {
+    let value = |index: usize| {
+        let parameter = &PARAMETERS[index];
+        if parameter.name == "workers" { workers as f32 } else { parameter.default }
+    };
+    BuildPlan::of(value, Pace::RealTime)
+}
+
 fn taken(delivery: &Delivery) -> Vec<PieceId> {
     let mut ids = Vec::new();
     delivery.take(|piece| {
@@ -60,10 +69,37 @@ fn pieces_of_an_earlier_order_are_sent_back() {
     let _ = builder.order(RATE);
     assert_eq!(builder.wait(LONG), Outcome::Finished);
     let delivery = builder.order(2.0 * RATE);
-    // The queue is full of the first order's pieces until somebody takes them.
-    assert_eq!(taken(&delivery), []);
     assert_eq!(builder.wait(LONG), Outcome::Finished);
     assert_eq!(taken(&delivery), PieceId::KIT);
+}
+
+#[test]
+fn what_nobody_has_taken_holds_up_no_later_order() {
+    let mut builder = Builder::with(quick, Arc::new(|| staffed(2)));
+    for _ in 0..3 {
+        let _ = builder.order(RATE);
+        assert_eq!(builder.wait(LONG), Outcome::Finished);
+        // No kit, but workers are on their way.
+        let _ = builder.order(1_000.0);
+        assert!(matches!(builder.wait(LONG), Outcome::Failed(_)));
+    }
+    let delivery = builder.order(RATE);
+    assert_eq!(builder.wait(LONG), Outcome::Finished);
+    assert_eq!(taken(&delivery), PieceId::KIT);
+}
+
+#[test]
+fn a_change_of_plan_is_not_held_up_by_pieces_that_nobody_has_taken() {
+    let moved = Arc::new(AtomicBool::new(false));
+    let seen = moved.clone();
+    let mut builder = Builder::with(quick, Arc::new(move || plan(seen.load(Ordering::Relaxed))));
+    let delivery = builder.order(RATE);
+    assert_eq!(builder.wait(LONG), Outcome::Finished);
+    moved.store(true, Ordering::Relaxed);
+    assert_eq!(builder.wait(LONG), Outcome::Finished);
+    let mut ids = taken(&delivery);
+    ids.sort();
+    assert_eq!(ids, PieceId::KIT, "a snare of either plan, or none");
 }
 
 #[test]
@@ -147,13 +183,7 @@ fn a_change_of_plan_builds_what_it_concerns_and_nothing_else() {
 #[test]
 fn workers_come_when_they_are_wanted_and_go_when_not() {
     static WANTED: AtomicBool = AtomicBool::new(false);
-    let wanted = || {
-        let value = |index: usize| match PARAMETERS[index].name {
-            "workers" if WANTED.load(Ordering::Relaxed) => 1.0,
-            _ => PARAMETERS[index].default,
-        };
-        BuildPlan::of(value, Pace::RealTime)
-    };
+    let wanted = || staffed(usize::from(WANTED.load(Ordering::Relaxed)));
     let mut builder = Builder::with(quick, Arc::new(wanted));
     let delivery = builder.order(RATE);
     assert_eq!(builder.wait(LONG), Outcome::Finished);
