@@ -124,10 +124,9 @@ impl<O: Outputs> Plugin for Instrument<O> {
         _context: &mut impl ActivateContext<Self>,
     ) -> bool {
         let offline = config.process_mode == ProcessMode::Offline;
-        self.offline.store(offline, Ordering::Release);
         let awaited = (!offline).then_some(f64::from(config.sample_rate));
         self.parameters.deadlines().expect(awaited);
-        self.prepare(config.sample_rate);
+        self.prepare(config.sample_rate, offline);
         // A rate that the engine does not know is no reason to lose the project: it stays silent.
         true
     }
@@ -163,8 +162,9 @@ impl<O: Outputs> Plugin for Instrument<O> {
 }
 
 impl<O: Outputs> Instrument<O> {
-    /// Makes the kit for a sample rate (Hz) ready, unless it is.
-    fn prepare(&mut self, sample_rate: f32) {
+    /// Makes the kit for a sample rate (Hz) ready, unless it is, to be played or for a bounce.
+    fn prepare(&mut self, sample_rate: f32, offline: bool) {
+        let other_pace = self.offline.swap(offline, Ordering::AcqRel) != offline;
         let rate = f64::from(sample_rate);
         let usable = |stage: &Stage| stage.sample_rate == sample_rate && !stage.broken;
         let ordered = if self.stage.as_ref().is_some_and(usable) {
@@ -173,8 +173,9 @@ impl<O: Outputs> Instrument<O> {
             self.stage = None;
             Some(self.builder.order(rate))
         };
-        // A kit that plays is replaced piece by piece while it plays on; a bounce gets what it asks for from its start.
-        if ordered.is_none() && !self.offline.load(Ordering::Acquire) {
+        // A kit that plays is replaced piece by piece while it plays on. A bounce gets what it asks for from its start,
+        // and so does who plays after it: a kit made for bouncing may be too dear to be played.
+        if ordered.is_none() && !offline && !other_pace {
             self.follow();
             return;
         }

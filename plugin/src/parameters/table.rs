@@ -226,7 +226,7 @@ pub static PARAMETERS: [Parameter; 79] = {
         striker(HiHat, "Hi-hat", "hhstik", "hi_hat_striker"),
         Parameter {
             id: "hhpedl",
-            name: "hihat_pedal",
+            name: "hi_hat_pedal",
             label: "Pedal",
             group: "Hi-hat",
             unit: "",

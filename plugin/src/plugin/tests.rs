@@ -72,7 +72,7 @@ fn notes_out_of_order_and_beyond_the_slice_are_not_lost() {
 fn an_instance_is_made_without_a_kit_and_prepared_with_one() {
     let mut instance = Overhear::default();
     assert!(instance.stage.is_none());
-    instance.prepare(48_000.0);
+    instance.prepare(48_000.0, false);
     assert!(instance.stage.as_ref().is_some_and(|stage| stage.performer.is_complete()));
 }
 
@@ -84,31 +84,42 @@ fn the_same_rate_keeps_the_kit_and_another_rebuilds_it() {
         snapshot.clock
     };
     let mut instance = Overhear::default();
-    instance.prepare(44_100.0);
+    instance.prepare(44_100.0, false);
     instance.stage.as_mut().unwrap().performer.render(&mut [0.0; 50], &mut [0.0; 50]);
-    instance.prepare(44_100.0);
+    instance.prepare(44_100.0, false);
     assert_eq!(clock(&mut instance), 50);
-    instance.prepare(96_000.0);
+    instance.prepare(96_000.0, false);
     assert_eq!(clock(&mut instance), 0);
     assert!(instance.stage.as_ref().is_some_and(|stage| stage.performer.is_complete()));
 }
 
 #[test]
+fn a_bounce_and_who_plays_after_it_wait_for_their_own_kit() {
+    let done = |instance: &Overhear| instance.builder.wait(Duration::ZERO) == Outcome::Finished;
+    let mut instance = Overhear::default();
+    instance.prepare(48_000.0, false);
+    for offline in [true, false] {
+        instance.prepare(48_000.0, offline);
+        assert!(done(&instance), "offline {offline}");
+    }
+}
+
+#[test]
 fn a_rate_the_engine_refuses_is_silent_and_the_next_good_one_plays() {
     let mut instance = Overhear::default();
-    instance.prepare(1_000.0);
+    instance.prepare(1_000.0, false);
     assert!(instance.stage.is_none());
-    instance.prepare(48_000.0);
+    instance.prepare(48_000.0, false);
     assert!(instance.stage.is_some());
 }
 
 #[test]
 fn a_panic_in_the_engine_silences_the_stage_until_it_is_prepared_again() {
     let mut instance = Overhear::default();
-    instance.prepare(48_000.0);
+    instance.prepare(48_000.0, false);
     let stage = instance.stage.as_mut().unwrap();
     assert!(!stage.guarded(|_| panic!("on purpose")));
     assert!(!stage.guarded(|_| {}), "it stays silent");
-    instance.prepare(48_000.0);
+    instance.prepare(48_000.0, false);
     assert!(instance.stage.as_mut().unwrap().guarded(|_| {}));
 }
