@@ -11,7 +11,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use nice_plug::context::gui::GuiContext;
-use nice_plug::editor::dpi::{LogicalSize, NativeSize};
+use nice_plug::editor::dpi::{LogicalSize, NativeSize, PhysicalSize};
 use nice_plug::editor::{HostMethods, SpawnedEditor};
 use nice_plug::prelude::*;
 use nice_plug_egui::baseview::{HandlerError, WindowSize};
@@ -25,17 +25,23 @@ use crate::builder::Shapes;
 use crate::host_parameters::{HostParameters, SMALLEST_WINDOW};
 use crate::monitor::Viewer;
 use crate::presets::Library;
+use crate::strokes::Strokes;
 
+mod field;
+mod history;
+mod kit_view;
 mod knob;
+mod knobs;
+mod levels;
+mod list;
 mod panels;
 mod playing;
 mod presets;
-mod surface;
+mod stage;
+mod status;
 mod theme;
 
-use panels::Panels;
-use playing::PlayingPanel;
-use presets::PresetBar;
+use panels::{Hands, Inputs, Panels};
 
 /// From one frame to the next while the kit plays: 60 a second.
 const FRAME_INTERVAL: Duration = Duration::from_micros(16_667);
@@ -55,6 +61,7 @@ struct Sources {
     parameters: Arc<HostParameters>,
     viewer: Viewer,
     shapes: Shapes,
+    strokes: Strokes,
 }
 
 /// The editor as the framework holds it: opens a window when the host asks.
@@ -66,9 +73,14 @@ pub struct OverhearEditor {
 
 impl OverhearEditor {
     /// An editor without a window.
-    pub fn new(parameters: Arc<HostParameters>, viewer: Viewer, shapes: Shapes) -> OverhearEditor {
+    pub fn new(
+        parameters: Arc<HostParameters>,
+        viewer: Viewer,
+        shapes: Shapes,
+        strokes: Strokes,
+    ) -> OverhearEditor {
         let window = Mutex::new(window_of(&parameters));
-        OverhearEditor { sources: Sources { parameters, viewer, shapes }, window }
+        OverhearEditor { sources: Sources { parameters, viewer, shapes, strokes }, window }
     }
 
     /// The open window, or one of the stored size: the framework's own state keeps the size it
@@ -92,7 +104,7 @@ impl OverhearEditor {
 
 fn window_of(parameters: &HostParameters) -> Arc<EguiEditorState> {
     let (width, height) = parameters.window();
-    EguiEditorState::from_size(LogicalSize::new(f64::from(width), f64::from(height)), 1.0)
+    EguiEditorState::from_size(LogicalSize::new(f64::from(width), f64::from(height)), parameters.view().zoom)
 }
 
 fn resize_hint() -> ResizeHint {
@@ -119,7 +131,10 @@ impl Editor for OverhearEditor {
 
     fn size(&self) -> NativeSize<u32> {
         let window = self.window();
-        NativeSize::from_size(window.physical_size().into(), 1.0)
+        let (size, zoom) = (window.physical_size(), window.user_scale_factor());
+        let zoomed = |points: u32| (points as f32 * zoom).round() as u32;
+        let size = PhysicalSize::new(zoomed(size.width), zoomed(size.height));
+        NativeSize::from_size(size.into(), 1.0)
     }
 
     fn resize_hint(&self) -> ResizeHint {
@@ -132,22 +147,12 @@ struct App {
     sources: Sources,
     gui: Option<GuiContext>,
     panels: Panels,
-    presets: PresetBar,
-    playing: PlayingPanel,
-    /// Whether the panel of playing covers the surface.
-    plays: bool,
 }
 
 impl App {
     fn new(sources: Sources) -> App {
-        App {
-            sources,
-            gui: None,
-            panels: Panels::default(),
-            presets: PresetBar::new(Library::default()),
-            playing: PlayingPanel::default(),
-            plays: false,
-        }
+        let view = sources.parameters.view();
+        App { sources, gui: None, panels: Panels::new(Library::default(), view) }
     }
 }
 
@@ -159,10 +164,13 @@ impl NiceEguiApp for App {
         frame: &mut Frame,
     ) -> Result<(), HandlerError> {
         theme::apply(&context);
-        frame.set_clear_color(theme::BACKGROUND.into());
+        let light = self.sources.parameters.view().light;
+        theme::choose(&context, light);
+        let palette = if light { &theme::LIGHT } else { &theme::DARK };
+        frame.set_clear_color(palette.background.into());
         self.gui = Some(gui);
-        // Peaks collected while no window was open are old news.
-        self.sources.viewer.latest();
+        // Peaks and strokes from while no window was open are old news.
+        self.panels.forget(&self.sources.viewer.latest());
         Ok(())
     }
 
@@ -175,19 +183,13 @@ impl NiceEguiApp for App {
             let Some(parameter) = self.sources.parameters.values().get(index) else { return };
             gesture_to_host(&gui.param_setter(), parameter, gesture);
         };
-        self.panels.show(ui, &snapshot, &shapes, self.sources.parameters.values(), &mut set);
-        if self.plays {
-            let cover = self.panels.stage_rect();
-            self.playing.show(ui, cover, &self.sources.parameters, &mut set);
-        }
-        let bar = panels::bar_rect(ui.max_rect());
-        ui.scope_builder(egui::UiBuilder::new().max_rect(bar), |ui| {
-            ui.horizontal(|ui| {
-                ui.toggle_value(&mut self.plays, "Playing");
-                self.presets.show(ui, &self.sources.parameters, &mut set);
-            });
-        });
-        let moves = snapshot.pieces.iter().any(|piece| piece.peak > AUDIBLE);
+        let mut play = |stroke| self.sources.strokes.play(stroke);
+        let inputs = Inputs { snapshot: &snapshot, shapes: &shapes, parameters: &self.sources.parameters };
+        self.panels.show(ui, &inputs, &mut Hands { set: &mut set, play: &mut play });
+        self.sources.parameters.set_view(self.panels.view());
+        let now = ui.input(|input| input.time);
+        let sounds = snapshot.pieces.iter().any(|piece| piece.peak > AUDIBLE);
+        let moves = sounds || self.panels.moves_on(&snapshot, now);
         ui.ctx().request_repaint_after(if moves { FRAME_INTERVAL } else { RESTING_INTERVAL });
     }
 

@@ -26,6 +26,7 @@ use crate::outputs::{Apart, Buffers, Mix, Outputs};
 use crate::parameters::PARAMETERS;
 use crate::performer::Performer;
 use crate::state;
+use crate::strokes::Strokes;
 
 /// How long activation waits for the pieces.
 ///
@@ -52,6 +53,7 @@ pub struct Instrument<O> {
     stage: Option<Stage>,
     publisher: Publisher,
     viewer: Viewer,
+    strokes: Strokes,
     outputs: PhantomData<O>,
 }
 
@@ -72,7 +74,16 @@ impl<O> Default for Instrument<O> {
             let (parameters, offline) = (parameters.clone(), offline.clone());
             Builder::new(Arc::new(move || plan(&parameters, &offline)))
         };
-        Instrument { parameters, offline, builder, stage: None, publisher, viewer, outputs: PhantomData }
+        Instrument {
+            parameters,
+            offline,
+            builder,
+            stage: None,
+            publisher,
+            viewer,
+            strokes: Strokes::default(),
+            outputs: PhantomData,
+        }
     }
 }
 
@@ -110,7 +121,8 @@ impl<O: Outputs> Plugin for Instrument<O> {
     }
 
     fn editor(&mut self, _executor: AsyncExecutor<Self>) -> Option<OverhearEditor> {
-        Some(OverhearEditor::new(self.parameters.clone(), self.viewer.clone(), self.builder.shapes()))
+        let (parameters, viewer) = (self.parameters.clone(), self.viewer.clone());
+        Some(OverhearEditor::new(parameters, viewer, self.builder.shapes(), self.strokes.clone()))
     }
 
     fn filter_state(state: &mut PluginState) {
@@ -149,6 +161,7 @@ impl<O: Outputs> Plugin for Instrument<O> {
         let played = self.stage.as_mut().is_some_and(|stage| {
             stage.guarded(|stage| {
                 stage.follow(&self.parameters);
+                self.strokes.deliver(&mut stage.performer);
                 play(&mut stage.performer, &mut buffers, || context.next_event());
                 self.publisher.rendered(buffers.len(), &mut stage.performer);
             })
