@@ -38,7 +38,8 @@ pub fn run() -> Result<()> {
     let mut fmt = workspace::cargo();
     check(&mut tally, "formatting", fmt.args(["fmt", "--all", "--check"]));
     let mut clippy = workspace::cargo();
-    clippy.args(["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]);
+    clippy.args(["clippy", "--workspace", "--all-targets", "--features", "overhear-tests/traps"]);
+    clippy.args(["--", "-D", "warnings"]);
     check(&mut tally, "lints", &mut clippy);
     let mut doc = workspace::cargo();
     doc.args(["doc", "--workspace", "--no-deps"]).env("RUSTDOCFLAGS", "-D warnings");
@@ -66,7 +67,8 @@ pub fn run() -> Result<()> {
     // By itself: its allocator and the framework's exclude each other.
     let traps = ["--package", "overhear-tests", "--features", "traps", "--test", "process"];
     let mut process = workspace::cargo();
-    tests(&mut tally, "real-time tests of process", process.arg("test").args(traps));
+    process.arg("test").args(traps).args(["--test", "fuzz"]);
+    tests(&mut tally, "real-time tests of process", &mut process);
     let mut release = workspace::cargo();
     release.args(["test", "--release"]).args(traps).args(["--test", "realtime"]);
     tests(&mut tally, "real-time tests in release", &mut release);
