@@ -47,10 +47,12 @@ fn act(chance: &mut Chance, performer: &mut Performer) {
         550..570 => performer.choke(number, channel),
         570..620 => performer.pressure(number, odd, channel),
         620..700 => performer.control_change(number % 128, odd, channel),
-        700..997 => {
+        700..990 => {
             let index = chance.below(PARAMETERS.len() + 1);
             performer.set_parameter(index, value(chance, index));
         }
+        990..993 => performer.aim(Some(odd)),
+        993..997 => performer.bend(number, 40.0 * odd, channel),
         997..999 => performer.snapshot(&mut KitSnapshot::default()),
         _ => performer.reset(),
     }

@@ -184,7 +184,10 @@ fn the_editor_opens_and_closes_twenty_times_while_it_plays() {
             }
         }
         let left = fewest_threads(after_the_first, PATIENCE);
-        assert!(left <= after_the_first, "{left} threads after 20 windows, {after_the_first} after the first");
+        assert!(
+            left <= after_the_first,
+            "{left} threads after 20 windows, {after_the_first} after the first"
+        );
         Ok(())
     };
     let (blocks, peak) = instance.run_beside(48_000.0, 1..=256, play, open_and_close).expect("it plays");
