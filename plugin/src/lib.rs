@@ -6,7 +6,7 @@
 //!
 //! With the feature `framework`, around them: [`plugin`] is the instance a host holds,
 //! [`builder`] the thread that makes its pieces, [`shelf`] what outlives it, [`host_parameters`], [`view`] and [`state`] what a project
-//! stores, [`monitor`] what the [`editor`] may know, [`strokes`] what is struck there.
+//! stores, [`monitor`] what the [`editor`] may know, [`sound`] what it may hear, [`strokes`] what is struck there.
 #![deny(unsafe_code)]
 
 #[cfg(feature = "framework")]
@@ -30,6 +30,8 @@ pub mod performer;
 pub mod plugin;
 pub mod presets;
 pub mod shelf;
+#[cfg(feature = "framework")]
+pub mod sound;
 #[cfg(feature = "framework")]
 pub mod state;
 pub mod strokes;

@@ -174,6 +174,8 @@ impl<O: Outputs> Plugin for Instrument<O> {
                 self.strokes.deliver(&mut stage.performer);
                 play(&mut stage.performer, &mut buffers, &self.parameters, || context.next_event());
                 stage.bypass.apply(bypassed, buffers.channels());
+                let (heard, _) = buffers.stretch(0, buffers.len());
+                self.publisher.heard(heard[0], heard[1]);
                 self.publisher.rendered(buffers.len(), &mut stage.performer);
             })
         });

@@ -20,7 +20,7 @@ pub const ZOOM: (f32, f32) = (0.75, 3.0);
 
 impl Default for View {
     fn default() -> View {
-        View { page: 0, light: false, piece: 1, camera: [-0.14, 0.60, 2.42], zoom: 1.0 }
+        View { page: 0, light: false, piece: 1, camera: [-0.14, 0.60, 2.5], zoom: 1.0 }
     }
 }
 

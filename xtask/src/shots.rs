@@ -53,8 +53,17 @@ const SHOTS: &[Shot] = &[
     shot("kit", 0, 1, &[], 600),
     shot("rack-tom", 0, 2, &[(48, 1.0)], 230),
     shot("crash", 0, 4, &[(49, 0.95)], 230),
-    shot("midi", 1, 1, &[], 400),
-    shot("settings", 2, 1, &[], 400),
+    shot(
+        "physics",
+        1,
+        2,
+        &[(36, 0.9), (42, 0.7), (38, 0.8), (51, 0.8), (36, 0.8), (49, 0.8), (41, 0.9), (48, 1.0)],
+        330,
+    ),
+    shot("mix", 2, 2, &[(41, 0.9), (38, 0.9)], 200),
+    shot("microphones", 3, 1, &[], 400),
+    shot("midi", 4, 1, &[], 400),
+    shot("settings", 5, 1, &[], 400),
 ];
 
 /// Takes every picture and writes them to `folder`; of the plugin at `plugin`, or of one that is built first.

@@ -87,7 +87,7 @@ impl Magnifier {
 
     /// Displacements from which on motion is drawn, and at which it fills the height there is, m. *By ear*, so to
     /// say: a head answers sound with micrometres and a stroke with millimetres.
-    const RANGE: (f32, f32) = (3e-7, 1.5e-3);
+    const RANGE: (f32, f32) = (1e-6, 1.5e-3);
 
     /// Takes in what is seen `elapsed` seconds after the last.
     pub fn follow(&mut self, field: &[f32], elapsed: f32) {
@@ -107,7 +107,7 @@ impl Magnifier {
     /// Height of the largest displacement on the screen, 0 to 1 of what there is.
     pub fn level(&self) -> f32 {
         let (least, most) = Magnifier::RANGE;
-        ((self.tallest / least).max(1.0).ln() / (most / least).ln()).clamp(0.0, 1.0).powf(1.4)
+        ((self.tallest / least).max(1.0).ln() / (most / least).ln()).clamp(0.0, 1.0).powf(1.7)
     }
 
     /// What displacements (m) are multiplied by so that the largest is drawn `height` (m) tall at most.

@@ -15,6 +15,7 @@ use super::theme::{self, Palette};
 pub mod bodies;
 pub mod camera;
 pub mod light;
+mod microphones;
 pub mod scene;
 mod shells;
 mod stands;
@@ -24,7 +25,7 @@ mod target;
 pub mod vector;
 
 use bodies::{Body, Frame};
-use camera::Camera;
+use camera::{Camera, Eye};
 use scene::Scene;
 use sticks::Replay;
 use surfaces::{Motion, Tint};
@@ -32,6 +33,15 @@ pub use target::{Target, stroke_near};
 
 /// Pieces of the kit.
 const PIECES: usize = PieceId::KIT.len();
+
+/// Room at the right of a picture that something else lies over, points.
+const BESIDE: f32 = 44.0;
+
+/// Where the kick's beater rests, m from the head.
+const READY: f32 = 0.09;
+
+/// Point of view from which every microphone is seen: turn and height, rad, and distance, m.
+const WIDE: [f32; 3] = [-0.42, 0.34, 5.6];
 
 /// How long a stroke's mark stays, s.
 const MARK_TIME: f64 = 1.0;
@@ -46,6 +56,8 @@ pub struct Seen<'a> {
     pub shapes: &'a dyn Fn(usize) -> Option<Arc<FieldShapes>>,
     /// Slot of the piece that the panels are about.
     pub selected: usize,
+    /// Whether microphones are shown.
+    pub microphones: bool,
 }
 
 /// What a hand did.
@@ -61,6 +73,8 @@ pub struct Done {
 pub struct KitView {
     bodies: [Body; PIECES],
     pub camera: Camera,
+    /// The point of view from which the microphones are seen.
+    wide: Camera,
     pub tint: Tint,
     magnifiers: [Magnifier; PIECES],
     replays: [Replay; PIECES],
@@ -76,6 +90,7 @@ impl KitView {
         KitView {
             bodies: Body::kit(),
             camera,
+            wide: Camera::of(WIDE),
             tint: Tint::default(),
             magnifiers: Default::default(),
             replays: Default::default(),
@@ -87,9 +102,9 @@ impl KitView {
     /// Draws the kit into `rect` and says what a hand did with it.
     pub fn show(&mut self, ui: &mut Ui, rect: Rect, seen: &Seen<'_>) -> Done {
         let palette = theme::of(ui);
-        let done = self.answer(ui, rect);
+        let done = self.answer(ui, rect, seen.microphones);
         let (now, elapsed) = ui.input(|input| (input.time, input.stable_dt));
-        let eye = self.camera.through(rect);
+        let eye = self.eye(rect, seen.microphones);
         let mut scene = Scene::new(eye);
         let painter = ui.painter_at(rect);
         painter.add(backdrop(rect, palette));
@@ -97,9 +112,23 @@ impl KitView {
         for slot in 0..PIECES {
             self.piece(&mut scene, slot, seen, (now, elapsed), palette);
         }
+        let microphones = if seen.microphones { microphones::all(&self.bodies, palette) } else { Vec::new() };
+        microphones::draw(&mut scene, &microphones, palette);
         painter.add(scene.finish());
+        microphones::names(&painter, &eye, &microphones, palette);
         self.caption(ui, rect, palette);
         done
+    }
+
+    /// What is seen through a rectangle: the kit, or all the microphones too.
+    pub fn eye(&self, rect: Rect, wide: bool) -> Eye {
+        // The strip of speeds lies over the right.
+        let free = Rect::from_min_max(rect.min, rect.max - vec2(BESIDE.min(0.5 * rect.width()), 0.0));
+        if wide { self.wide.through(free) } else { self.camera.through(free) }
+    }
+
+    fn camera_mut(&mut self, wide: bool) -> &mut Camera {
+        if wide { &mut self.wide } else { &mut self.camera }
     }
 
     /// The kit's bodies, where they stand by default.
@@ -123,9 +152,9 @@ impl KitView {
     }
 
     /// Turns, zooms, strikes.
-    fn answer(&mut self, ui: &mut Ui, rect: Rect) -> Done {
+    fn answer(&mut self, ui: &mut Ui, rect: Rect, wide: bool) -> Done {
         let response = ui.interact(rect, ui.scope_id().with("kit"), Sense::click_and_drag());
-        let eye = self.camera.through(rect);
+        let eye = self.eye(rect, wide);
         let pointer = response.hover_pos().filter(|at| rect.contains(*at));
         self.hovered = pointer.and_then(|at| target::under(&self.bodies, &eye, at));
         let mut done = Done::default();
@@ -139,11 +168,11 @@ impl KitView {
         let other = [PointerButton::Secondary, PointerButton::Middle];
         if turns || other.into_iter().any(|button| response.dragged_by(button)) {
             let drag = response.drag_delta();
-            self.camera.orbit(drag.x, drag.y);
+            self.camera_mut(wide).orbit(drag.x, drag.y);
         }
         if response.contains_pointer() {
             let (wheel, pinch) = ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
-            self.camera.zoom((wheel * 0.003).exp() * pinch);
+            self.camera_mut(wide).zoom((wheel * 0.003).exp() * pinch);
         }
         if self.hovered.is_some_and(|target| target.on_surface) {
             ui.set_cursor_icon(egui::CursorIcon::Crosshair);
@@ -206,8 +235,10 @@ impl KitView {
         let (sin, cos) = strike.angle.sin_cos();
         let (x, y) = (strike.radius * sin, -strike.radius * cos);
         let landing = body.surface(x, y, field::height_at(heights, x, y));
-        if let Some(height) = replay.height(strike, now) {
-            sticks::draw(scene, body, strike, landing, height, palette);
+        // A beater rests where it is ready.
+        let ready = (body.piece == PieceId::Kick).then_some(READY);
+        if let Some(height) = replay.height(strike, now).or(ready) {
+            sticks::draw(scene, body, landing, height, palette);
         }
         let age = (replay.since_touch(now) / MARK_TIME) as f32;
         if strike.count > 0 && (0.0..1.0).contains(&age) {

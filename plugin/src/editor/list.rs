@@ -9,7 +9,7 @@ use super::theme;
 use crate::outputs::title;
 
 /// Tallest row, points.
-const TALLEST: f32 = 58.0;
+const TALLEST: f32 = 66.0;
 
 /// Space between rows, points.
 const GAP: f32 = 4.0;

@@ -12,15 +12,18 @@ use super::kit_view::camera::Camera;
 use super::kit_view::{KitView, Seen};
 use super::knob::Gesture;
 use super::levels::Levels;
+use super::mix::Mix;
+use super::physics::Physics;
 use super::playing::PlayingPanel;
 use super::presets::PresetBar;
 use super::stage::{self, Stage};
-use super::status::{self, Latest};
-use super::{knobs, list, theme};
+use super::status::{self, Late, Latest};
+use super::{knobs, list, physics, theme};
 use crate::NAME;
 use crate::host_parameters::HostParameters;
 use crate::outputs::title;
 use crate::presets::Library;
+use crate::sound::Sound;
 use crate::strokes::Stroke;
 use crate::view::View;
 
@@ -34,12 +37,22 @@ const FOOTER: f32 = 24.0;
 /// Width of the list of pieces, points.
 const LIST: f32 = 168.0;
 
+/// Sizes of everything that can be chosen.
+const SIZES: [(f32, &str); 5] =
+    [(0.75, "75 %"), (1.0, "100 %"), (1.25, "125 %"), (1.5, "150 %"), (2.0, "200 %")];
+
 /// Pages of a window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Page {
     /// The kit in perspective, and the knobs of a piece.
     #[default]
     Kit,
+    /// What the strokes did.
+    Physics,
+    /// Levels.
+    Mix,
+    /// Where the microphones stand, and their levels.
+    Microphones,
     /// Which note plays what.
     Midi,
     /// What is about the kit as a whole.
@@ -47,8 +60,14 @@ pub enum Page {
 }
 
 impl Page {
-    pub const ALL: [(Page, &'static str); 3] =
-        [(Page::Kit, "Kit"), (Page::Midi, "MIDI"), (Page::Settings, "Settings")];
+    pub const ALL: [(Page, &'static str); 6] = [
+        (Page::Kit, "Kit"),
+        (Page::Physics, "Physics"),
+        (Page::Mix, "Mix"),
+        (Page::Microphones, "Microphones"),
+        (Page::Midi, "MIDI"),
+        (Page::Settings, "Settings"),
+    ];
 }
 
 /// What a window looks at.
@@ -57,6 +76,8 @@ pub struct Inputs<'a> {
     /// A piece's mode shapes once it is built, by its slot.
     pub shapes: &'a dyn Fn(usize) -> Option<Arc<FieldShapes>>,
     pub parameters: &'a HostParameters,
+    /// What is heard.
+    pub sound: &'a Sound,
 }
 
 /// Where what hands do goes.
@@ -75,6 +96,8 @@ pub struct Panels {
     zoom: f32,
     kit: KitView,
     stage: Stage,
+    physics: Physics,
+    mix: Mix,
     levels: Levels,
     presets: PresetBar,
     playing: PlayingPanel,
@@ -85,6 +108,7 @@ pub struct Panels {
     former: KitSnapshot,
     /// The stroke that the sentence is about.
     latest: Latest,
+    late: Late,
 }
 
 impl Panels {
@@ -98,6 +122,8 @@ impl Panels {
             zoom: view.zoom,
             kit,
             stage: Stage::default(),
+            physics: Physics::new(),
+            mix: Mix::default(),
             levels: Levels::default(),
             presets: PresetBar::new(library),
             playing: PlayingPanel::default(),
@@ -105,6 +131,7 @@ impl Panels {
             picture: Rect::ZERO,
             former: KitSnapshot::default(),
             latest: Latest::default(),
+            late: Late::default(),
         }
     }
 
@@ -123,6 +150,7 @@ impl Panels {
     /// Takes what was played before the window opened as old news.
     pub fn forget(&mut self, snapshot: &KitSnapshot) {
         self.former = *snapshot;
+        self.late.follow(0, 0.0);
         self.kit.forget_strokes(snapshot);
     }
 
@@ -132,6 +160,7 @@ impl Panels {
         self.levels.follow(inputs.snapshot, elapsed);
         self.latest.follow(&self.former, inputs.snapshot);
         self.former = *inputs.snapshot;
+        self.physics.follow(ui.input(|input| input.time), inputs.snapshot, inputs.shapes);
         let palette = theme::of(ui);
         ui.painter().rect_filled(ui.max_rect(), 0.0, palette.background);
 
@@ -156,9 +185,20 @@ impl Panels {
             self.header(ui, header, inputs, &mut set);
             list::show(ui, beside, &mut self.selected, inputs.snapshot, &self.levels);
             match self.page {
-                Page::Kit => self.kit(ui, page, inputs, &mut set, hands.play),
+                Page::Kit | Page::Microphones => self.kit(ui, page, inputs, &mut set, hands.play),
+                Page::Physics => {
+                    let shapes = (inputs.shapes)(self.selected);
+                    let seen = physics::Seen {
+                        snapshot: inputs.snapshot,
+                        shapes,
+                        selected: self.selected,
+                        sound: inputs.sound,
+                    };
+                    self.physics.show(ui, page, &seen);
+                }
+                Page::Mix => self.mix.show(ui, page, values, &self.levels, &mut set),
                 Page::Midi => self.playing.show(ui, page, inputs.parameters),
-                Page::Settings => settings(ui, page, inputs, &mut set),
+                Page::Settings => self.settings(ui, page, inputs, &mut set),
             }
             self.footer(ui, footer, inputs, &mut undone);
         }
@@ -173,7 +213,8 @@ impl Panels {
 
     /// Whether the next frame will look different though nothing new happens.
     pub fn moves_on(&self, snapshot: &KitSnapshot, now: f64) -> bool {
-        self.levels.move_on() || self.kit.replays(snapshot, now)
+        let alone = self.page == Page::Physics && self.physics.moves_on();
+        alone || self.levels.move_on() || self.kit.replays(snapshot, now)
     }
 
     /// The picture and the knobs of the selected piece.
@@ -188,14 +229,52 @@ impl Panels {
         let (picture, below) = rect.split_top_bottom_at_y(rect.max.y - knobs::PANEL_HEIGHT);
         let picture = Rect::from_min_max(picture.min, picture.max - vec2(0.0, GAP));
         self.picture = picture;
-        let seen = Seen { snapshot: inputs.snapshot, shapes: inputs.shapes, selected: self.selected };
+        let microphones = self.page == Page::Microphones;
+        let (snapshot, shapes) = (inputs.snapshot, inputs.shapes);
+        let seen = Seen { snapshot, shapes, selected: self.selected, microphones };
         let values = inputs.parameters.values();
         let dynamics = values.get(stage::dynamics()).map_or(6.0, |value| value.unmodulated_plain_value());
         if let Some(slot) = self.stage.show(ui, picture, &mut self.kit, &seen, dynamics, play) {
             self.selected = slot;
         }
-        let accent = theme::of(ui).pieces[self.selected];
-        knobs::panel(ui, below, (title(PieceId::KIT[self.selected]), accent), values, set);
+        let palette = theme::of(ui);
+        let group = if microphones {
+            ("Microphones", palette.accent)
+        } else {
+            (title(PieceId::KIT[self.selected]), palette.pieces[self.selected])
+        };
+        knobs::panel(ui, below, group, values, set);
+    }
+
+    /// What is about the kit as a whole, and the window.
+    fn settings(
+        &mut self,
+        ui: &mut Ui,
+        rect: Rect,
+        inputs: &Inputs<'_>,
+        set: &mut dyn FnMut(usize, Gesture),
+    ) {
+        let groups = ["Kit", "Playing", "Rendering"];
+        ui.painter().rect_filled(rect, theme::CORNER, theme::of(ui).panel);
+        ui.scope_builder(UiBuilder::new().max_rect(rect.shrink(10.0)), |ui| {
+            egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                let inner = ui.max_rect();
+                let bottom = knobs::grid(ui, inner, &groups, inputs.parameters.values(), set);
+                ui.allocate_rect(
+                    Rect::from_min_max(inner.min, pos2(inner.max.x, bottom)),
+                    egui::Sense::hover(),
+                );
+                ui.horizontal(|ui| {
+                    ui.label("Size of everything");
+                    for (zoom, name) in SIZES {
+                        if ui.selectable_label(self.zoom == zoom, name).clicked() {
+                            self.zoom = zoom;
+                            ui.ctx().set_zoom_factor(zoom);
+                        }
+                    }
+                });
+            });
+        });
     }
 
     fn header(&mut self, ui: &mut Ui, rect: Rect, inputs: &Inputs<'_>, set: &mut dyn FnMut(usize, Gesture)) {
@@ -218,8 +297,12 @@ impl Panels {
     /// One sentence, and what takes back.
     fn footer(&mut self, ui: &mut Ui, rect: Rect, inputs: &Inputs<'_>, undone: &mut Vec<(usize, Gesture)>) {
         let palette = theme::of(ui);
-        let (text, colour) = status::trouble(inputs.snapshot, palette)
-            .unwrap_or_else(|| (self.latest.sentence(inputs.snapshot), palette.text));
+        let now = ui.input(|input| input.time);
+        self.late.follow(inputs.snapshot.late_buffers, now);
+        let (text, colour) =
+            status::trouble(inputs.snapshot, &self.late, now, palette).unwrap_or_else(|| {
+                (self.latest.sentence(inputs.snapshot, self.physics.cents(self.latest.slot())), palette.text)
+            });
         let left = pos2(rect.min.x + 4.0, rect.center().y + 3.0);
         let painter = ui.painter_at(Rect::from_min_max(rect.min, pos2(rect.max.x - 250.0, rect.max.y)));
         painter.text(left, Align2::LEFT_CENTER, text, theme::body(), colour);
@@ -256,19 +339,6 @@ impl Panels {
             self.history.undo(set);
         }
     }
-}
-
-/// The page of settings: what is about the kit as a whole.
-fn settings(ui: &mut Ui, rect: Rect, inputs: &Inputs<'_>, set: &mut dyn FnMut(usize, Gesture)) {
-    ui.painter().rect_filled(rect, theme::CORNER, theme::of(ui).panel);
-    let groups = ["Kit", "Playing", "Rendering", "Microphones"];
-    ui.scope_builder(UiBuilder::new().max_rect(rect.shrink(10.0)), |ui| {
-        egui::ScrollArea::vertical().show(ui, |ui| {
-            let inner = ui.max_rect();
-            let bottom = knobs::grid(ui, inner, &groups, inputs.parameters.values(), set);
-            ui.allocate_rect(Rect::from_min_max(inner.min, pos2(inner.max.x, bottom)), egui::Sense::hover());
-        });
-    });
 }
 
 #[cfg(test)]

@@ -10,8 +10,16 @@ use crate::outputs::title;
 /// Landings of snare wires after the latest stroke from which on they are said to answer.
 const ANSWERING: u32 = 8;
 
+/// Glide that is worth a word, cents: about what is heard.
+const AUDIBLE_CENTS: f32 = 3.0;
+
 /// What is the matter with the kit as a whole, if anything is; and in what colour to say it.
-pub fn trouble(snapshot: &KitSnapshot, palette: &Palette) -> Option<(String, Color32)> {
+pub fn trouble(
+    snapshot: &KitSnapshot,
+    late: &Late,
+    now: f64,
+    palette: &Palette,
+) -> Option<(String, Color32)> {
     let quarantines: u32 = snapshot.pieces.iter().map(|piece| piece.quarantines).sum();
     let ready = snapshot.pieces.iter().filter(|piece| piece.ready).count();
     let found = if quarantines > 0 {
@@ -20,7 +28,7 @@ pub fn trouble(snapshot: &KitSnapshot, palette: &Palette) -> Option<(String, Col
         ("Waiting for the host to run".to_owned(), palette.faint)
     } else if ready < PieceId::KIT.len() {
         (format!("Building the kit: {ready} of {} pieces", PieceId::KIT.len()), palette.accent)
-    } else if snapshot.late_buffers > 0 {
+    } else if late.is_news(now) {
         let late = snapshot.late_buffers;
         (format!("{late} buffers were late: lower the quality, or add a worker"), palette.over)
     } else if snapshot.missed_runs > 0 {
@@ -30,6 +38,30 @@ pub fn trouble(snapshot: &KitSnapshot, palette: &Palette) -> Option<(String, Col
         return None;
     };
     Some(found)
+}
+
+/// Buffers that were late, and when there were more of them: what is long ago is not worth a sentence.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Late {
+    count: u64,
+    /// When the latest was noticed, s of the editor's time.
+    seen: Option<f64>,
+}
+
+impl Late {
+    /// How long it is said, s.
+    const NEWS: f64 = 4.0;
+
+    /// Takes in how many there were so far.
+    pub fn follow(&mut self, count: u64, now: f64) {
+        if std::mem::replace(&mut self.count, count) != count && count > 0 {
+            self.seen = Some(now);
+        }
+    }
+
+    fn is_news(&self, now: f64) -> bool {
+        self.seen.is_some_and(|seen| now - seen < Late::NEWS)
+    }
 }
 
 /// The stroke that was seen last, and what there was before it.
@@ -62,7 +94,8 @@ impl Latest {
     }
 
     /// What it did.
-    pub fn sentence(&self, snapshot: &KitSnapshot) -> String {
+    /// `cents` is how far its head's pitch is above its own now.
+    pub fn sentence(&self, snapshot: &KitSnapshot, cents: f32) -> String {
         let piece = &snapshot.pieces[self.slot];
         let name = title(PieceId::KIT[self.slot]);
         let stroke = &piece.strike;
@@ -78,6 +111,9 @@ impl Latest {
         );
         if stroke.touches > 1 {
             text += &format!(" in {} touches", stroke.touches);
+        }
+        if cents >= AUDIBLE_CENTS {
+            text += &format!("; head stretched, +{cents:.0} cents");
         }
         for said in self.consequences(piece, snapshot) {
             text += "; ";
@@ -128,14 +164,20 @@ mod tests {
         };
         let mut latest = Latest::default();
         latest.follow(&before, &now);
-        assert_eq!(latest.sentence(&now), "Rack tom 4.0 m/s at 0.35: 5.8 ms, 31 N");
+        assert_eq!(latest.sentence(&now, 0.0), "Rack tom 4.0 m/s at 0.35: 5.8 ms, 31 N");
         now.pieces[1].wires.landings = 40;
         latest.follow(&now, &now);
-        assert_eq!(latest.sentence(&now), "Rack tom 4.0 m/s at 0.35: 5.8 ms, 31 N; snare wires answering");
+        assert_eq!(
+            latest.sentence(&now, 0.0),
+            "Rack tom 4.0 m/s at 0.35: 5.8 ms, 31 N; snare wires answering"
+        );
+        let stretched =
+            "Rack tom 4.0 m/s at 0.35: 5.8 ms, 31 N; head stretched, +10 cents; snare wires answering";
+        assert_eq!(latest.sentence(&now, 10.2), stretched);
         // A stroke after that, which the wires do not answer.
         let before = now;
         now.pieces[4].strike = StrikeSnapshot { count: 1, ..StrikeSnapshot::default() };
         latest.follow(&before, &now);
-        assert!(!latest.sentence(&now).contains("wires"));
+        assert!(!latest.sentence(&now, 0.0).contains("wires"));
     }
 }

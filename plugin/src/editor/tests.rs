@@ -8,6 +8,7 @@ use overhear_engine::snapshot::{FIELD_MODES, FieldShapes, KitSnapshot};
 use super::knob::Gesture;
 use super::panels::Page;
 use super::*;
+use crate::sound::Sound;
 use crate::strokes::Stroke;
 use crate::view::View;
 
@@ -22,6 +23,7 @@ struct Window {
     modifiers: Modifiers,
     strokes: Vec<Stroke>,
     gestures: Vec<(usize, Gesture)>,
+    sound: Sound,
 }
 
 impl Window {
@@ -39,6 +41,7 @@ impl Window {
             modifiers: Modifiers::NONE,
             strokes: Vec::new(),
             gestures: Vec::new(),
+            sound: Sound::default(),
         }
     }
 
@@ -57,7 +60,8 @@ impl Window {
         let mut output = self.context.run_ui(input, |ui| {
             let mut set = |index, gesture| gestures.push((index, gesture));
             let mut play = |stroke| strokes.push(stroke);
-            let inputs = Inputs { snapshot: &self.snapshot, shapes: &shapes, parameters: &self.parameters };
+            let (parameters, sound) = (&self.parameters, &self.sound);
+            let inputs = Inputs { snapshot: &self.snapshot, shapes: &shapes, parameters, sound };
             self.panels.show(ui, &inputs, &mut Hands { set: &mut set, play: &mut play });
         });
         output.textures_delta.clear();
@@ -111,7 +115,7 @@ impl Window {
     fn place(&self, slot: usize, radius: f32, angle: f32) -> Pos2 {
         let (sin, cos) = angle.sin_cos();
         let body = self.panels.kit_view().bodies()[slot];
-        let eye = self.panels.kit_view().camera.through(self.panels.picture());
+        let eye = self.panels.kit_view().eye(self.panels.picture(), false);
         eye.project(body.surface(radius * sin, -radius * cos, 0.0)).0
     }
 

@@ -10,7 +10,7 @@ use super::vector::{V3, add, cross, dot, scale, sub, unit};
 const APERTURE: f32 = 0.36;
 
 /// Nothing is taken to be nearer, m.
-const NEAREST: f32 = 0.05;
+pub const NEAREST: f32 = 0.05;
 
 /// Heights of the eye above the horizon, rad: from the floor to nearly overhead.
 const PITCH: (f32, f32) = (-0.15, 1.5);

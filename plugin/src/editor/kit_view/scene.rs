@@ -8,7 +8,7 @@
 use egui::epaint::{Mesh, Vertex};
 use egui::{Color32, Pos2, Shape, Vec2};
 
-use super::camera::Eye;
+use super::camera::{Eye, NEAREST};
 use super::vector::{V3, between};
 
 /// Over how much an edge fades, points.
@@ -17,6 +17,8 @@ const SOFT: f32 = 0.7;
 /// Faces and lines of one picture.
 pub struct Scene {
     pub eye: Eye,
+    /// How much nearer than it is everything is painted, m: for what lies on something else.
+    pub lift: f32,
     vertices: Vec<Vertex>,
     depths: Vec<f32>,
     /// Sort key, the farthest smallest, and corners.
@@ -27,6 +29,7 @@ impl Scene {
     pub fn new(eye: Eye) -> Scene {
         Scene {
             eye,
+            lift: 0.0,
             vertices: Vec::with_capacity(10_000),
             depths: Vec::with_capacity(10_000),
             faces: Vec::with_capacity(10_000),
@@ -55,7 +58,11 @@ impl Scene {
 
     fn push(&mut self, depth: f32, corners: [u32; 4]) {
         // Depths are above zero, and the bits of such numbers are in their order.
-        self.faces.push((!depth.max(0.0).to_bits(), corners));
+        let nearest = corners.iter().map(|&i| self.depths[i as usize]).fold(f32::INFINITY, f32::min);
+        // What reaches behind the eye is not seen from there.
+        if nearest > NEAREST {
+            self.faces.push((!(depth - self.lift).max(0.0).to_bits(), corners));
+        }
     }
 
     /// Adds a line of a width (points) that fades out at its sides.

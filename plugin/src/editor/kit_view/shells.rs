@@ -173,6 +173,7 @@ fn lugs(
     count: usize,
     palette: &Palette,
 ) {
+    scene.lift = 0.03;
     for lug in 0..count {
         let (sin, cos) = ((lug as f32 + 0.5) * TAU / count as f32).sin_cos();
         let out = 1.03 * radius;
@@ -184,4 +185,5 @@ fn lugs(
             scene.rod(middle[0], middle[1], 0.009, colours);
         }
     }
+    scene.lift = 0.0;
 }

@@ -22,7 +22,10 @@ pub fn stand(scene: &mut Scene, body: &Body, palette: &Palette) {
     let frame = &body.frame;
     let foot = |body: &Body, away: f32| [body.frame.centre[0], 0.0, body.frame.centre[2] + away];
     match (body.piece, body.kind) {
-        (PieceId::Kick, Kind::Drum { depth, .. }) => spurs(scene, frame, body.radius, depth, chrome),
+        (PieceId::Kick, Kind::Drum { depth, .. }) => {
+            spurs(scene, frame, body.radius, depth, chrome);
+            pedal(scene, [frame.centre[0], 0.0, frame.centre[2] - 0.06], chrome);
+        }
         (PieceId::RackTom, Kind::Drum { depth, .. }) => {
             // On an arm from a stand between the toms.
             let holder = frame.at(0.55 * body.radius, 0.85 * body.radius, -0.6 * depth);

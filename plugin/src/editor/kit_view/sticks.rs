@@ -79,14 +79,7 @@ impl Replay {
 }
 
 /// Draws the stick of a stroke with its tip at a height (m) over where it lands.
-pub fn draw(
-    scene: &mut Scene,
-    body: &Body,
-    strike: &StrikeSnapshot,
-    landing: V3,
-    height: f32,
-    palette: &Palette,
-) {
+pub fn draw(scene: &mut Scene, body: &Body, landing: V3, height: f32, palette: &Palette) {
     let tip = add(landing, scale(body.frame.normal, height + 0.006));
     if body.piece == PieceId::Kick {
         // A beater on its rod, which turns about the pedal.
@@ -111,12 +104,13 @@ pub fn draw(
     let direction = unit(sub(hand, tip));
     let wood = [shade(palette.wood, 0.55, 0.0), palette.wood];
     let at = |distance: f32| add(tip, scale(direction, distance));
-    if strike.count > 0 {
-        scene.taper(at(0.0), at(0.012), [0.0045, 0.0052], wood);
-        scene.taper(at(0.012), at(0.022), [0.0052, 0.0034], wood);
-        scene.taper(at(0.022), at(0.10), [0.0034, 0.0068], wood);
-        scene.taper(at(0.10), at(0.38), [0.0068, 0.0072], wood);
-    }
+    // Its tip would be behind what it lies on.
+    scene.lift = 0.03;
+    scene.taper(at(0.0), at(0.012), [0.0055, 0.0065], wood);
+    scene.taper(at(0.012), at(0.022), [0.0065, 0.0045], wood);
+    scene.taper(at(0.022), at(0.10), [0.0045, 0.0085], wood);
+    scene.taper(at(0.10), at(0.38), [0.0085, 0.0095], wood);
+    scene.lift = 0.0;
 }
 
 #[cfg(test)]
