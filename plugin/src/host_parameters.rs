@@ -11,16 +11,10 @@ use nice_plug::prelude::*;
 use crate::deadline::Deadlines;
 use crate::midi::assignments::{Assignment, Assignments, NOTES};
 use crate::midi::maps::NoteMap;
-use crate::parameters::{Drives, Manner, PARAMETERS, Parameter};
+use crate::parameters::{BYPASS_GROUP, BYPASS_ID, Drives, Manner, PARAMETERS, Parameter};
 use crate::presets::{Library, Program, Programs};
 use crate::state;
 use crate::view::View;
-
-/// Id of the host's bypass. Frozen. No parameter of the table: presets and command lines have nothing to bypass.
-pub const BYPASS_ID: &str = "bypass";
-
-/// Group in which hosts list the bypass.
-pub const BYPASS_GROUP: &str = "Kit";
 
 /// Logical size of the editor's window, pixels: width, height.
 pub type WindowSize = (u32, u32);

@@ -23,6 +23,12 @@ pub use document::document;
 pub use error::ParameterError;
 pub use table::PARAMETERS;
 
+/// Id of the host's bypass. Frozen. No parameter of the table: presets and command lines have nothing to bypass.
+pub const BYPASS_ID: &str = "bypass";
+
+/// Group in which hosts list the bypass.
+pub const BYPASS_GROUP: &str = "Kit";
+
 /// Number by which hosts know a parameter's id: the hash of the framework.
 pub fn host_id(id: &str) -> u32 {
     let hash = id.bytes().fold(0_u32, |hash, byte| hash.wrapping_mul(31).wrapping_add(u32::from(byte)));

@@ -9,9 +9,8 @@ use std::collections::BTreeMap;
 use nice_plug::plugin::{ParamValue, PluginState};
 use nice_plug::prelude::*;
 
-use crate::host_parameters::BYPASS_ID;
 use crate::midi::assignments::{Assignment, NOTES};
-use crate::parameters::{PARAMETERS, Parameter};
+use crate::parameters::{BYPASS_ID, PARAMETERS, Parameter};
 
 /// Version of the meaning of what is stored; counts up when a migration is needed.
 pub const SCHEMA: u32 = 1;

@@ -1,7 +1,6 @@
 //! What the plugin says of itself.
 
-use overhear::host_parameters::BYPASS_ID;
-use overhear::parameters::{PARAMETERS, host_id};
+use overhear::parameters::{BYPASS_ID, PARAMETERS, host_id};
 use xtask::host::Bundle;
 use xtask::workspace::Format;
 

@@ -2,8 +2,7 @@
 
 use std::thread;
 
-use overhear::host_parameters::BYPASS_ID;
-use overhear::parameters::host_id;
+use overhear::parameters::{BYPASS_ID, host_id};
 use xtask::host::{Event, What};
 use xtask::player::Blocks;
 

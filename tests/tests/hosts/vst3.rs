@@ -4,8 +4,7 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
 
-use overhear::host_parameters::BYPASS_GROUP;
-use overhear::parameters::{PARAMETERS, find, host_id};
+use overhear::parameters::{BYPASS_GROUP, PARAMETERS, find, host_id};
 use serde_json::{Value, json};
 use xtask::player::Blocks;
 use xtask::workspace::Format;
