@@ -103,7 +103,7 @@ pub static LIGHT: Palette = Palette {
     accent: rgb(0xB85A0C),
     up: rgb(0xE8730F),
     down: rgb(0x1F6CC4),
-    level: rgb(0x4C8C40),
+    level: rgb(0x3F7A34),
     over: rgb(0xC6352B),
     pieces: [
         rgb(0xC23B2E),
