@@ -14,6 +14,9 @@ use crate::sound::Sound;
 /// Snapshots a second: a little above what screens show, so that no frame lacks a new one.
 const SNAPSHOT_RATE: f64 = 85.0;
 
+/// A piece's peak above which it can be heard, full scale 1.
+pub const AUDIBLE: f32 = 1e-5;
+
 /// The audio thread's end.
 pub struct Publisher {
     snapshots: Input<KitSnapshot>,
@@ -75,6 +78,7 @@ impl Publisher {
         if !self.snapshots.consumed() {
             carry_peaks(&former, &mut self.latest);
         }
+        self.sound.set_loud(self.latest.pieces.iter().any(|piece| piece.peak > AUDIBLE));
         self.snapshots.write(self.latest);
     }
 }

@@ -22,7 +22,7 @@ use window::HostWindow;
 
 /// Sample rate, Hz, and samples of a buffer.
 const RATE: f64 = 48_000.0;
-const BLOCK: usize = 256;
+const BLOCK: usize = 1024;
 
 /// Bytes of a state that say how long its text is.
 const LENGTH: usize = 8;
@@ -141,7 +141,8 @@ fn take(
         }
         notes.send(*note).context("nobody plays")?;
     }
-    pass(instance, shot.wait);
+    // Where the processor draws, more points take longer.
+    pass(instance, shot.wait * zoom);
     let png = window.png()?;
     instance.close_editor()?;
     Ok(png)

@@ -41,7 +41,7 @@ const BESIDE: f32 = 44.0;
 const READY: f32 = 0.09;
 
 /// Point of view from which every microphone is seen: turn and height, rad, and distance, m.
-const WIDE: [f32; 3] = [-0.42, 0.34, 5.6];
+const WIDE: [f32; 3] = [-0.42, 0.30, 4.5];
 
 /// How long a stroke's mark stays, s.
 const MARK_TIME: f64 = 1.0;

@@ -150,7 +150,7 @@ impl Panels {
     /// Takes what was played before the window opened as old news.
     pub fn forget(&mut self, snapshot: &KitSnapshot) {
         self.former = *snapshot;
-        self.late.follow(0, 0.0);
+        self.late = Late::default();
         self.kit.forget_strokes(snapshot);
     }
 
@@ -161,8 +161,6 @@ impl Panels {
         self.latest.follow(&self.former, inputs.snapshot);
         self.former = *inputs.snapshot;
         self.physics.follow(ui.input(|input| input.time), inputs.snapshot, inputs.shapes);
-        let palette = theme::of(ui);
-        ui.painter().rect_filled(ui.max_rect(), 0.0, palette.background);
 
         let whole = ui.max_rect().shrink(GAP);
         let (header, rest) = whole.split_top_bottom_at_y(whole.min.y + HEADER);

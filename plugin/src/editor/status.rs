@@ -43,7 +43,7 @@ pub fn trouble(
 /// Buffers that were late, and when there were more of them: what is long ago is not worth a sentence.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Late {
-    count: u64,
+    count: Option<u64>,
     /// When the latest was noticed, s of the editor's time.
     seen: Option<f64>,
 }
@@ -54,7 +54,8 @@ impl Late {
 
     /// Takes in how many there were so far.
     pub fn follow(&mut self, count: u64, now: f64) {
-        if std::mem::replace(&mut self.count, count) != count && count > 0 {
+        // Those from before the window was opened are old news.
+        if self.count.replace(count).is_some_and(|before| before != count) {
             self.seen = Some(now);
         }
     }

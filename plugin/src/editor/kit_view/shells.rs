@@ -173,7 +173,8 @@ fn lugs(
     count: usize,
     palette: &Palette,
 ) {
-    scene.lift = 0.03;
+    // Sides of a shell are tall, and sorted by their middle.
+    scene.lift = 0.07;
     for lug in 0..count {
         let (sin, cos) = ((lug as f32 + 0.5) * TAU / count as f32).sin_cos();
         let out = 1.03 * radius;

@@ -20,6 +20,9 @@ const WINDOW: usize = 4096;
 const BANDS: usize = 96;
 const COLUMNS: usize = 180;
 
+/// Moments drawn for each second.
+const COLUMN_RATE: f32 = 60.0;
+
 /// Frequencies drawn, Hz.
 const RANGE: (f32, f32) = (30.0, 20_000.0);
 
@@ -102,7 +105,8 @@ impl Spectrum {
     /// Takes in the latest sound; gives the strongest frequency, Hz, if anything is heard.
     fn follow(&mut self, sound: &Sound) -> Option<f32> {
         let written = sound.written();
-        if std::mem::replace(&mut self.written, written) == written {
+        let before = std::mem::replace(&mut self.written, written);
+        if before == written {
             // Nobody renders: nothing is new, and what was falls.
             self.levels.iter_mut().for_each(|level| *level = (*level - 0.02).max(0.0));
             return None;
@@ -130,8 +134,11 @@ impl Spectrum {
             }
             *level = ((decibels - LEVELS.0) / range).clamp(0.0, 1.0).max(*level - FALL / range);
         }
-        self.past.remove(0);
-        self.past.push(self.levels);
+        // As many columns as time has passed for.
+        let passed = written.wrapping_sub(before) as f32 / sound.rate().max(1.0) * COLUMN_RATE;
+        let columns = (passed.round() as usize).clamp(1, COLUMNS);
+        self.past.drain(..columns);
+        self.past.resize(COLUMNS, self.levels);
         (strongest.1 > 0.0).then_some(strongest.1)
     }
 
