@@ -12,15 +12,22 @@
 //! per face; `omega` is where the mode rings. The substitutions under the roots take the
 //! singularity of `1 / sqrt(u^2 - x^2)` away. For a membrane `f` is known in closed form.
 //!
+//! Quadrature: `f^2` is an even entire function of `x`, so that the first integrand is one of `s`, of exponential type 2:
+//! its spectrum ends at 2, and the trapezoidal rule over all `s` is exact for every step below pi (Poisson's
+//! summation). Cut off at `s_N` with half a weight, a step of pi / 2 leaves of the tail's oscillation, which then changes sign
+//! from point to point, nothing to first order, and its mean has a closed form. The second integral is Gauss's.
+//!
 //! Limits: modes of one order are coupled a little by the air; that coupling is neglected.
 //! Source: Morse & Ingard, Theoretical Acoustics, ch. 7; Christian et al., JASA 76 (1984).
 
 use std::collections::BTreeMap;
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::sync::LazyLock;
 
 use serde::{Deserialize, Serialize};
 
 use crate::math::bessel::JTable;
-use crate::math::quadrature::GaussLegendre;
+use crate::math::quadrature;
 
 /// Density of air, kg/m3.
 pub const DENSITY: f64 = 1.2;
@@ -52,16 +59,18 @@ pub struct AirLoad {
 pub struct MembraneAir<'a> {
     m: u32,
     bessel: &'a JTable,
-    panel: GaussLegendre,
 }
 
 /// How far past the mode's own wavenumber the mass integral is carried; the rest has a closed form.
 const BEYOND: f64 = 40.0;
 
+/// Step of the mass integral: half the longest that is exact.
+const STEP: f64 = FRAC_PI_2;
+
 impl<'a> MembraneAir<'a> {
     /// For order `m`; `bessel` tabulates `J_m` to at least the largest zero used plus 45.
     pub fn new(m: u32, bessel: &'a JTable) -> Self {
-        MembraneAir { m, bessel, panel: GaussLegendre::unit(8) }
+        MembraneAir { m, bessel }
     }
 
     /// Argument the Bessel table must reach for modes up to the zero `j`.
@@ -72,26 +81,24 @@ impl<'a> MembraneAir<'a> {
     /// Load of the mode whose radial wavenumber is the zero `j` of `J_m`, at `u = omega a / c`.
     pub fn load(&self, j: f64, u: f64) -> AirLoad {
         let shape = HankelShape::new(self.m, j, self.bessel);
-        let square = |s: f64| shape.at((u * u - s * s).max(0.0).sqrt()).powi(2);
-        AirLoad { mass: self.mass(j, u), resistance: circle(self.m) * self.integrate(u, square) }
+        let square = |t: f64| shape.at(u * (1.0 - t * t).max(0.0).sqrt()).powi(2);
+        // Half a node for each unit of the type resolves it, some more reach rounding.
+        let rule = quadrature::shared_unit(u as usize + 12);
+        AirLoad { mass: self.mass(j, u), resistance: circle(self.m) * u * rule.integrate(square) }
     }
 
     /// The mass of [`load`](Self::load) alone.
     pub fn mass(&self, j: f64, u: f64) -> f64 {
         let shape = HankelShape::new(self.m, j, self.bessel);
-        let end = j + BEYOND;
+        let far = ((j + BEYOND).powi(2) - u * u).max(0.0).sqrt();
+        let last = (far / STEP).ceil().max(1.0);
         let square = |s: f64| shape.at((u * u + s * s).sqrt()).powi(2);
-        let near = self.integrate((end * end - u * u).max(0.0).sqrt(), square);
-        // Past `end` the squared cosine of J_m averages to a half: f^2 is 1 / (pi x^5) times this.
-        let tail = shape.scale * shape.scale / (4.0 * std::f64::consts::PI * end.powi(4));
+        let between: f64 = (1..last as usize).map(|i| square(STEP * i as f64)).sum();
+        let near = STEP * (0.5 * (square(0.0) + square(STEP * last)) + between);
+        // Past the end the squared cosine of J_m averages to a half: f^2 is 1 / (pi x^5) times this.
+        let end = u.hypot(STEP * last);
+        let tail = shape.scale * shape.scale / (4.0 * PI * end.powi(4));
         circle(self.m) * (near + tail)
-    }
-
-    /// Integral over `0..end` in panels shorter than a swing of the integrand.
-    fn integrate(&self, end: f64, f: impl Fn(f64) -> f64) -> f64 {
-        let panels = (end / 1.5).ceil().max(1.0);
-        let width = end / panels;
-        (0..panels as usize).map(|i| width * self.panel.integrate(|t| f(width * (i as f64 + t)))).sum()
     }
 
     /// The mass as a function of `u`, for solving and retuning.
@@ -100,7 +107,7 @@ impl<'a> MembraneAir<'a> {
     /// resistance within a few percent, which no curve follows and no mode survives long enough to show.
     pub fn curve(&self, j: f64) -> MassCurve {
         let most = SUBSONIC * j;
-        let logarithms = std::array::from_fn(|i| self.mass(j, most * chebyshev(i)).ln());
+        let logarithms = CHEBYSHEV.map(|place| self.mass(j, most * place).ln());
         MassCurve { most, logarithms }
     }
 }
@@ -168,10 +175,9 @@ pub struct MassCurve {
     logarithms: [f64; NODES],
 }
 
-/// The `i`-th Chebyshev node of the second kind on `0..1`.
-fn chebyshev(i: usize) -> f64 {
-    0.5 - 0.5 * (std::f64::consts::PI * i as f64 / (NODES - 1) as f64).cos()
-}
+/// Chebyshev nodes of the second kind on `0..1`.
+static CHEBYSHEV: LazyLock<[f64; NODES]> =
+    LazyLock::new(|| std::array::from_fn(|i| 0.5 - 0.5 * (PI * i as f64 / (NODES - 1) as f64).cos()));
 
 impl MassCurve {
     /// A mode in vacuum.
@@ -184,8 +190,8 @@ impl MassCurve {
         }
         let t = (u / self.most).clamp(0.0, 1.0);
         let (mut sum, mut total) = (0.0, 0.0);
-        for (i, logarithm) in self.logarithms.iter().enumerate() {
-            let gap = t - chebyshev(i);
+        for (i, (logarithm, node)) in self.logarithms.iter().zip(&*CHEBYSHEV).enumerate() {
+            let gap = t - node;
             if gap == 0.0 {
                 return logarithm.exp();
             }

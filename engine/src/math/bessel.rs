@@ -68,6 +68,7 @@ pub fn j_orders(x: f64, out: &mut [f64]) {
     let start = (top + 20.0 + (60.0 * top).sqrt()) as usize;
     let (mut above, mut value) = (0.0, 1e-30);
     let mut norm = 0.0;
+    let twice = 2.0 / x;
     for k in (0..=start).rev() {
         // `value` is J_k up to a common factor.
         if k < out.len() {
@@ -79,7 +80,7 @@ pub fn j_orders(x: f64, out: &mut [f64]) {
         if k == 0 {
             break;
         }
-        let below = 2.0 * k as f64 / x * value - above;
+        let below = twice * k as f64 * value - above;
         (above, value) = (value, below);
         if value.abs() > MILLER_LARGE {
             for scaled in [&mut above, &mut value, &mut norm] {

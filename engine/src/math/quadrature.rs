@@ -7,6 +7,7 @@
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Nodes and weights on an interval.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,16 +45,13 @@ impl GaussLegendre {
     }
 }
 
-/// Rules on `0..1` that have been asked for: where every mode of a plate wants the same few hundred, finding their
-/// nodes takes longer than what is integrated with them (*measured*: a tenth of building a kit).
-#[derive(Debug, Clone, Default)]
-pub struct Rules(BTreeMap<usize, GaussLegendre>);
-
-impl Rules {
-    /// The rule of `n` nodes.
-    pub fn unit(&mut self, n: usize) -> &GaussLegendre {
-        self.0.entry(n).or_insert_with(|| GaussLegendre::unit(n))
-    }
+/// The rule of `n` nodes on `0..1`, found once in a process: thousands of modes want the same few hundred rules, and
+/// finding their nodes takes longer than what is integrated with them (*measured*: a tenth of building a kit).
+pub fn shared_unit(n: usize) -> Arc<GaussLegendre> {
+    static RULES: Mutex<BTreeMap<usize, Arc<GaussLegendre>>> = Mutex::new(BTreeMap::new());
+    // Whole after a panic elsewhere: rules are only added.
+    let mut rules = RULES.lock().unwrap_or_else(PoisonError::into_inner);
+    rules.entry(n).or_insert_with(|| Arc::new(GaussLegendre::unit(n))).clone()
 }
 
 /// The `i`-th node of `n` from the right end of `-1..1`, and its weight.
