@@ -13,7 +13,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use pulp::Arch;
+use pulp::{Arch, Simd, WithSimd};
 
 use super::ListeningPoint;
 
@@ -45,33 +45,30 @@ impl Rings {
         let waves = f64::from(m) + k * radius * point.inclination.sin();
         let count = 8 + (0.6 * waves) as usize + (3.0 * waves.cbrt()).max(close) as usize;
         let mut around = vec![[[0.0; LANES]; 2]; count.div_ceil(LANES)];
-        for (i, [cos, turn]) in around.iter_mut().enumerate() {
-            for lane in 0..LANES {
-                let place = i * LANES + lane;
-                let theta = PI * (place as f64 + 0.5) / count as f64;
-                cos[lane] = sin_cos(theta).1;
-                turn[lane] =
-                    if place < count { sin_cos(f64::from(m) * theta).1 / count as f64 } else { 0.0 };
-            }
+        let step = PI / count as f64;
+        let places = turned(step).zip(turned(f64::from(m) * step)).take(count);
+        for (place, (cos, cos_m)) in places.enumerate() {
+            let [into, turn] = &mut around[place / LANES];
+            (into[place % LANES], turn[place % LANES]) = (cos, cos_m / count as f64);
         }
         let square = height * height + offset * offset;
         Rings { k, distance: point.distance, square, twice_offset: 2.0 * offset, around }
     }
 
     /// `S_1` of rings of those radii (m), `[re, im]`, 1/m.
-    pub fn means(&self, radii: impl Iterator<Item = f64>) -> Vec<[f64; 2]> {
-        Arch::new().dispatch(
-            #[inline(always)]
-            || radii.map(|x| self.ring::<1>(x)[0]).collect(),
-        )
+    pub fn means(&self, radii: impl Iterator<Item = f64>) -> impl Iterator<Item = [f64; 2]> {
+        self.all::<1>(radii).into_iter().map(|[mean, _]| mean)
     }
 
     /// `S_2` and `S_3` of rings of those radii (m), `[re, im]`, 1/m2 and 1/m3.
     pub fn steep_means(&self, radii: impl Iterator<Item = f64>) -> Vec<[[f64; 2]; 2]> {
-        Arch::new().dispatch(
-            #[inline(always)]
-            || radii.map(|x| self.ring::<2>(x)).collect(),
-        )
+        self.all::<2>(radii)
+    }
+
+    fn all<const FIRST: usize>(&self, radii: impl Iterator<Item = f64>) -> Vec<[[f64; 2]; 2]> {
+        let mut sums: Vec<_> = radii.map(|x| [[x; 2]; 2]).collect();
+        Arch::new().dispatch(EachRing::<FIRST> { rings: self, sums: &mut sums });
+        sums
     }
 
     /// Of one ring: `S_1` for `FIRST` of 1, `S_2` and `S_3` for 2.
@@ -94,6 +91,32 @@ impl Rings {
             }
         }
         sums.map(|parts| parts.map(|lanes| lanes.iter().sum()))
+    }
+}
+
+/// Cosines of an angle's half, one and a half, two and a half ..., each from the one before.
+fn turned(angle: f64) -> impl Iterator<Item = f64> {
+    let (turn_sin, turn_cos) = angle.sin_cos();
+    let rotate = move |&(cos, sin): &(f64, f64)| {
+        Some((cos * turn_cos - sin * turn_sin, sin * turn_cos + cos * turn_sin))
+    };
+    std::iter::successors(Some(((0.5 * angle).cos(), (0.5 * angle).sin())), rotate).map(|(cos, _)| cos)
+}
+
+/// The sums of many rings, whose radii stand in their places.
+struct EachRing<'a, const FIRST: usize> {
+    rings: &'a Rings,
+    sums: &'a mut [[[f64; 2]; 2]],
+}
+
+impl<const FIRST: usize> WithSimd for EachRing<'_, FIRST> {
+    type Output = ();
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        // A plain loop: what an iterator calls would be compiled for the baseline.
+        for sums in self.sums {
+            *sums = self.rings.ring::<FIRST>(sums[0][0]);
+        }
     }
 }
 

@@ -31,6 +31,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::Arc;
 
 use nalgebra::{Complex, DMatrix, DVector};
+use pulp::{Arch, Simd, WithSimd};
 
 use serde::{Deserialize, Serialize};
 
@@ -38,6 +39,8 @@ use super::radial::angular_norm;
 use crate::air::{DENSITY, SPEED_OF_SOUND};
 use crate::listening::rings::Rings;
 use crate::listening::{ListeningPoint, Radiator};
+use crate::math::bessel;
+use crate::math::bessel::lanes::LANES;
 use crate::math::quadrature::{self, GaussLegendre};
 
 /// What a mode does to the air.
@@ -87,8 +90,7 @@ impl FreeDisc {
                 Complex::from(terms.map(|(((r, w), shape), phi)| r * w * shape * phi).sum::<f64>())
             }),
         );
-        let solved =
-            impedance(m, count, u).lu().solve(&drive).unwrap_or_else(|| DVector::zeros(count));
+        let solved = impedance(m, count, u).lu().solve(&drive).unwrap_or_else(|| DVector::zeros(count));
         // Per unit acceleration into the face.
         let jump = solved * Complex::new(0.0, 2.0 * DENSITY * self.radius);
         let load: Complex<f64> = jump.iter().zip(drive.iter()).map(|(a, b)| a * b).sum();
@@ -152,29 +154,35 @@ impl FreeDisc {
 /// `int phi_i phi_j k_z x dx` of order `m` at `u = omega a / c`, in units of the radius.
 fn impedance(m: usize, count: usize, u: f64) -> DMatrix<Complex<f64>> {
     let highest = m + 2 * count;
-    let mut waves = vec![0.0; highest + 1];
-    let mut row = vec![0.0; count];
-    let mut parts = [vec![0.0; count * count], vec![0.0; count * count]];
-    let mut add = |x: f64, weights: [f64; 2]| {
-        spherical_bessel(x, &mut waves);
-        row.iter_mut().zip(waves[m + 1..].iter().step_by(2)).for_each(|(to, from)| *to = *from);
-        parts.iter_mut().zip(weights).for_each(|(part, weight)| add_products(part, weight, &row));
-    };
     // What differs from zero frequency: below u, x = u sin(phi) ...
     let below = quadrature::shared_unit(u as usize + 12);
-    for (t, w) in below.nodes.iter().zip(&below.weights) {
-        let (phi, w) = (FRAC_PI_2 * t, FRAC_PI_2 * w);
-        let (sin, cos) = phi.sin_cos();
-        let weight = u * w * cos / sin;
-        add(u * sin, [weight * cos, weight * sin]);
-    }
+    let places = below.nodes.iter().zip(&below.weights).map(|(t, w)| {
+        let (sin, cos) = (FRAC_PI_2 * t).sin_cos();
+        let weight = FRAC_PI_2 * u * w * cos / sin;
+        Place { x: u * sin, weights: [weight * cos, weight * sin] }
+    });
     // ... and above, x = sqrt(u^2 + s^2), until the difference has died away.
     let reach = 1.5 * (highest as f64).max(u) + 12.0;
     let above = quadrature::shared_unit((0.8 * reach) as usize + 8);
-    for (t, w) in above.nodes.iter().zip(&above.weights) {
-        let (s, w) = (reach * t, reach * w);
+    let beyond = above.nodes.iter().zip(&above.weights).map(|(t, w)| {
+        let s = reach * t;
         let x = u.hypot(s);
-        add(x, [0.0, (x - s) * s / (x * x) * w]);
+        Place { x, weights: [0.0, (x - s) * s / (x * x) * reach * w] }
+    });
+    let places: Vec<Place> = places.chain(beyond).collect();
+    let mut waves = vec![[0.0; LANES]; highest + 1];
+    let mut row = vec![0.0; count];
+    let mut parts = [vec![0.0; count * count], vec![0.0; count * count]];
+    for places in places.chunks(LANES) {
+        // What is to spare repeats the last.
+        bessel::lanes::spherical_orders(
+            &std::array::from_fn(|lane| places[lane.min(places.len() - 1)].x),
+            &mut waves,
+        );
+        for (lane, place) in places.iter().enumerate() {
+            row.iter_mut().zip(waves[m + 1..].iter().step_by(2)).for_each(|(to, from)| *to = from[lane]);
+            Arch::new().dispatch(Products { parts: &mut parts, weights: place.weights, values: &row });
+        }
     }
     let [re, im] = parts;
     DMatrix::from_fn(count, count, |i, j| {
@@ -184,42 +192,36 @@ fn impedance(m: usize, count: usize, u: f64) -> DMatrix<Complex<f64>> {
     })
 }
 
-/// Adds the products of all values with all to the lower triangle of a matrix, row by row.
-fn add_products(matrix: &mut [f64], weight: f64, values: &[f64]) {
-    if weight == 0.0 {
-        return;
-    }
-    for (i, (line, value)) in matrix.chunks_exact_mut(values.len()).zip(values).enumerate() {
-        let share = weight * value;
-        if share != 0.0 {
-            line[..=i].iter_mut().zip(values).for_each(|(sum, other)| *sum += share * other);
-        }
-    }
+/// A node of the impedance's integrals: the wave number, and the weight's two parts.
+struct Place {
+    x: f64,
+    weights: [f64; 2],
 }
 
-/// Spherical Bessel functions `j_0..` at `x > 0`, by descending recurrence.
-fn spherical_bessel(x: f64, out: &mut [f64]) {
-    out.fill(0.0);
-    let top = out.len() - 1;
-    // Above x the functions fall off; so far above, they are nothing.
-    let start = (x + 12.0 * x.cbrt() + 26.0) as usize;
-    let (mut above, mut now) = (0.0, 1e-200);
-    let inverse = 1.0 / x;
-    for n in (0..=start).rev() {
-        if n <= top {
-            out[n] = now;
-        }
-        (above, now) = (now, (2 * n + 1) as f64 * inverse * now - above);
-        if now.abs() > 1e200 {
-            above *= 1e-200;
-            now *= 1e-200;
-            out[n.min(top + 1)..].iter_mut().for_each(|value| *value *= 1e-200);
+/// Adds the products of all values with all, weighted, to the lower triangles of matrices, row by row.
+struct Products<'a> {
+    parts: &'a mut [Vec<f64>; 2],
+    weights: [f64; 2],
+    values: &'a [f64],
+}
+
+impl WithSimd for Products<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let count = self.values.len();
+        for (matrix, weight) in self.parts.iter_mut().zip(self.weights) {
+            for i in 0..count {
+                let share = weight * self.values[i];
+                // Far above x, and of one of the parts, there is nothing.
+                if share != 0.0 {
+                    for (sum, other) in matrix[i * count..][..i + 1].iter_mut().zip(self.values) {
+                        *sum += share * other;
+                    }
+                }
+            }
         }
     }
-    // `now` is the function of order -1, cos(x) / x; of that and order 0 one is never small.
-    let (sin, cos) = x.sin_cos();
-    let scale = if sin.abs() > cos.abs() { sin / x / out[0] } else { cos / x / now };
-    out.iter_mut().for_each(|value| *value *= scale);
 }
 
 #[cfg(test)]
@@ -233,21 +235,6 @@ mod tests {
         let disc = FreeDisc::new(A, [POINT; 2], 48);
         let radial = vec![1.0; 48];
         disc.radiate(&Radiator { m: 0, radial: &radial, omega: u * SPEED_OF_SOUND / A }, 0.0)
-    }
-
-    #[test]
-    fn spherical_bessel_functions_are_theirs() {
-        for x in [1e-3, 0.4, 3.0, PI, 17.0, 90.0] {
-            let mut out = [0.0; 30];
-            spherical_bessel(x, &mut out);
-            let (sin, cos) = x.sin_cos();
-            let j1 = sin / (x * x) - cos / x;
-            assert!((out[0] - sin / x).abs() < 1e-12 / x.max(1.0));
-            assert!((out[1] - j1).abs() < 1e-10 * (1.0 / x).clamp(1e-2, 1.0), "{x}: {} {j1}", out[1]);
-            // The recurrence holds throughout.
-            let want = 13.0 / x * out[6] - out[5];
-            assert!((out[7] - want).abs() < 1e-9 * (out[5].abs() + 13.0 / x * out[6].abs()).max(1e-300));
-        }
     }
 
     #[test]
