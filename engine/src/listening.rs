@@ -19,7 +19,8 @@
 pub(crate) mod rings;
 
 use std::f64::consts::{PI, TAU};
-use std::sync::Arc;
+
+use overhear_kept::Shared;
 
 use crate::air::{DENSITY, SPEED_OF_SOUND};
 use crate::math::quadrature::{self, GaussLegendre};
@@ -120,7 +121,7 @@ pub struct Radiator<'a> {
 pub struct Rayleigh {
     radius: f64,
     point: ListeningPoint,
-    rule: Arc<GaussLegendre>,
+    rule: Shared<GaussLegendre>,
 }
 
 impl Rayleigh {

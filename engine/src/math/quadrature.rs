@@ -5,9 +5,9 @@
 //!
 //! Source: Abramowitz & Stegun, 25.4.29 and 22.16.6. Checked up to 512 nodes.
 
-use std::collections::BTreeMap;
 use std::f64::consts::PI;
-use std::sync::{Arc, Mutex, PoisonError};
+
+use overhear_kept::{Numbered, Shared};
 
 /// Nodes and weights on an interval.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,11 +47,9 @@ impl GaussLegendre {
 
 /// The rule of `n` nodes on `0..1`, found once in a process: thousands of modes want the same few hundred rules, and
 /// finding their nodes takes longer than what is integrated with them (*measured*: a tenth of building a kit).
-pub fn shared_unit(n: usize) -> Arc<GaussLegendre> {
-    static RULES: Mutex<BTreeMap<usize, Arc<GaussLegendre>>> = Mutex::new(BTreeMap::new());
-    // Whole after a panic elsewhere: rules are only added.
-    let mut rules = RULES.lock().unwrap_or_else(PoisonError::into_inner);
-    rules.entry(n).or_insert_with(|| Arc::new(GaussLegendre::unit(n))).clone()
+pub fn shared_unit(n: usize) -> Shared<GaussLegendre> {
+    static RULES: Numbered<GaussLegendre> = Numbered::new();
+    RULES.get(n, || GaussLegendre::unit(n))
 }
 
 /// The `i`-th node of `n` from the right end of `-1..1`, and its weight.

@@ -28,9 +28,9 @@
 //! Limits: plane disc; the dome and the bell are neglected, as is the air's mass in the frequencies.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
-use std::sync::Arc;
 
 use nalgebra::{Complex, DMatrix, DVector};
+use overhear_kept::Shared;
 use pulp::{Arch, Simd, WithSimd};
 
 use serde::{Deserialize, Serialize};
@@ -59,7 +59,7 @@ pub struct Radiated {
 pub struct FreeDisc {
     radius: f64,
     points: [ListeningPoint; 2],
-    rule: Arc<GaussLegendre>,
+    rule: Shared<GaussLegendre>,
 }
 
 /// Functions beyond those that a shape of the mode's fineness needs. *Measured*: more change nothing by 1 %.
