@@ -16,8 +16,7 @@ use nice_plug::editor::{HostMethods, SpawnedEditor};
 use nice_plug::prelude::*;
 use nice_plug_egui::baseview::{HandlerError, WindowSize};
 use nice_plug_egui::{
-    EguiEditor, EguiEditorHandle, EguiEditorState, EguiNiceSettings, Frame, NiceEguiApp, RepaintNotifier,
-    create_egui_editor,
+    EguiEditor, EguiEditorState, EguiNiceSettings, Frame, NiceEguiApp, RepaintNotifier, create_egui_editor,
 };
 
 use crate::NAME;
@@ -32,10 +31,12 @@ mod playing;
 mod presets;
 mod surface;
 mod theme;
+mod window;
 
 use panels::Panels;
 use playing::PlayingPanel;
 use presets::PresetBar;
+use window::Farewell;
 
 /// From one frame to the next while the kit plays: 60 a second.
 const FRAME_INTERVAL: Duration = Duration::from_micros(16_667);
@@ -81,12 +82,12 @@ impl OverhearEditor {
         window.clone()
     }
 
-    fn egui_editor(&self, window: Arc<EguiEditorState>) -> Option<EguiEditor<App>> {
+    fn egui_editor(&self, window: Arc<EguiEditorState>, farewell: Farewell) -> Option<EguiEditor<App>> {
         let settings = EguiNiceSettings::new()
             .with_tile(NAME)
             .with_resize_hint(resize_hint())
             .with_repaint_poll_interval(NEVER);
-        create_egui_editor(window, RepaintNotifier::new(), settings, App::new(self.sources.clone()))
+        create_egui_editor(window, RepaintNotifier::new(), settings, App::new(self.sources.clone(), farewell))
     }
 }
 
@@ -101,7 +102,7 @@ fn resize_hint() -> ResizeHint {
 }
 
 impl Editor for OverhearEditor {
-    type Handle = EguiEditorHandle;
+    type Handle = window::Handle;
 
     fn spawn(
         &self,
@@ -110,10 +111,12 @@ impl Editor for OverhearEditor {
         fallback_scale_factor: Option<f64>,
         gui_context: GuiContext,
         host: Option<HostMethods>,
-    ) -> Result<SpawnedEditor<EguiEditorHandle>, Box<dyn Error>> {
-        let editor = self.egui_editor(self.window()).ok_or("no editor")?;
+    ) -> Result<SpawnedEditor<window::Handle>, Box<dyn Error>> {
+        let (farewell, ended) = Farewell::new();
+        let editor = self.egui_editor(self.window(), farewell).ok_or("no editor")?;
         editor
             .spawn(parent, wait_for_parent, fallback_scale_factor, gui_context, host)
+            .map(|spawned| window::closing_whole(spawned, ended))
             .inspect_err(|error| nice_error!("The window cannot open, the kit plays on: {error}"))
     }
 
@@ -130,6 +133,7 @@ impl Editor for OverhearEditor {
 /// One window's content.
 struct App {
     sources: Sources,
+    farewell: Farewell,
     gui: Option<GuiContext>,
     panels: Panels,
     presets: PresetBar,
@@ -139,9 +143,10 @@ struct App {
 }
 
 impl App {
-    fn new(sources: Sources) -> App {
+    fn new(sources: Sources, farewell: Farewell) -> App {
         App {
             sources,
+            farewell,
             gui: None,
             panels: Panels::default(),
             presets: PresetBar::new(Library::default()),
@@ -158,6 +163,7 @@ impl NiceEguiApp for App {
         gui: GuiContext,
         frame: &mut Frame,
     ) -> Result<(), HandlerError> {
+        self.farewell.carry();
         theme::apply(&context);
         frame.set_clear_color(theme::BACKGROUND.into());
         self.gui = Some(gui);

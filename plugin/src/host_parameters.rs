@@ -1,8 +1,8 @@
-//! The table of parameters as the framework wants it, and what else a project stores.
+//! The table of parameters as the framework wants it, the host's own bypass, and what else a project stores.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use crossbeam::atomic::AtomicCell;
 use nice_plug::params::persist::{deserialize_field, serialize_field};
@@ -11,7 +11,8 @@ use nice_plug::prelude::*;
 use crate::deadline::Deadlines;
 use crate::midi::assignments::{Assignment, Assignments, NOTES};
 use crate::midi::maps::NoteMap;
-use crate::parameters::{PARAMETERS, Parameter, find};
+use crate::parameters::{BYPASS_GROUP, BYPASS_ID, Drives, Manner, PARAMETERS, Parameter};
+use crate::presets::{Library, Program, Programs};
 use crate::state;
 
 /// Logical size of the editor's window, pixels: width, height.
@@ -26,12 +27,16 @@ pub const SMALLEST_WINDOW: WindowSize = (760, 500);
 /// Largest window a state is believed: a broken one must not open a window nobody can close.
 const LARGEST_WINDOW: WindowSize = (7680, 4320);
 
-/// Every parameter of the table, and the window's size.
+/// Every parameter of the table, the bypass, and the window's size.
 pub struct HostParameters {
     /// `[parameter]`, in the order of [`PARAMETERS`]. Boxed, as the framework keeps pointers.
     values: Box<[FloatParam]>,
+    /// Boxed for the same reason.
+    bypass: Box<BoolParam>,
     window: AtomicCell<WindowSize>,
     assignments: Arc<Assignments>,
+    /// What program changes call; read when first needed, off the audio thread.
+    programs: OnceLock<Programs>,
     /// No parameter, but what host, editor and audio thread share is here.
     deadlines: Deadlines,
 }
@@ -40,8 +45,10 @@ impl Default for HostParameters {
     fn default() -> Self {
         HostParameters {
             values: PARAMETERS.iter().map(host_parameter).collect(),
+            bypass: Box::new(BoolParam::new("Bypass", false).make_bypass()),
             window: AtomicCell::new(DEFAULT_WINDOW),
             assignments: Arc::default(),
+            programs: OnceLock::new(),
             deadlines: Deadlines::default(),
         }
     }
@@ -67,9 +74,7 @@ pub fn take_latest() -> Option<Arc<HostParameters>> {
 impl HostParameters {
     /// Every note that sounds, with its name.
     pub fn note_names(&self) -> Vec<(u8, &'static str)> {
-        let map = find("note_map").ok().and_then(|(index, _)| self.values.get(index));
-        let map = map.map_or(0, |value| value.unmodulated_plain_value() as usize);
-        let map = NoteMap::ALL.get(map).copied().unwrap_or_default();
+        let map = NoteMap::ALL.get(self.manner(Manner::Map) as usize).copied().unwrap_or_default();
         let name = |note: u8| match self.assignments.of(note) {
             Assignment::Mapped => map.name(note),
             Assignment::Silent => None,
@@ -78,9 +83,36 @@ impl HostParameters {
         (0..NOTES as u8).filter_map(|note| Some((note, name(note)?))).collect()
     }
 
+    /// Value of the parameter that moves this.
+    fn manner(&self, manner: Manner) -> f32 {
+        let index = PARAMETERS.iter().position(|parameter| parameter.drives == Drives::Playing(manner));
+        index.and_then(|index| self.values.get(index)).map_or(0.0, |value| value.unmodulated_plain_value())
+    }
+
+    /// Reads the presets that program changes call, once. Not for the audio thread.
+    pub fn read_programs(&self) {
+        self.programs.get_or_init(|| Programs::of(&Library::default()));
+    }
+
+    /// The program that a program change on a channel calls, if the parameters let it.
+    ///
+    /// # Real-time
+    /// Look-ups; no allocation, no lock.
+    pub fn program(&self, number: u8, channel: u8) -> Option<&Program> {
+        let only = self.manner(Manner::Channel);
+        let heard = only == 0.0 || only == f32::from(channel) + 1.0;
+        let follows = self.manner(Manner::FollowsPrograms) >= 0.5;
+        self.programs.get().filter(|_| heard && follows)?.get(number)
+    }
+
     /// The parameters, in the order of [`PARAMETERS`].
     pub fn values(&self) -> &[FloatParam] {
         &self.values
+    }
+
+    /// Whether the host bypasses the instrument.
+    pub fn is_bypassed(&self) -> bool {
+        self.bypass.value()
     }
 
     /// The user's assignments of notes.
@@ -125,6 +157,7 @@ unsafe impl Params for HostParameters {
     fn param_map(&self) -> Vec<(String, ParamPtr, String)> {
         std::iter::zip(&PARAMETERS, &self.values)
             .map(|(parameter, value)| (parameter.id.to_owned(), value.as_ptr(), parameter.group.to_owned()))
+            .chain([(BYPASS_ID.to_owned(), self.bypass.as_ptr(), BYPASS_GROUP.to_owned())])
             .collect()
     }
 
@@ -158,7 +191,8 @@ mod tests {
     fn the_host_sees_the_table_in_its_order() {
         let parameters = HostParameters::default();
         let map = parameters.param_map();
-        assert_eq!(map.len(), PARAMETERS.len());
+        assert_eq!(map.len(), PARAMETERS.len() + 1);
+        assert_eq!(map[PARAMETERS.len()].0, BYPASS_ID);
         for ((id, _, group), parameter) in map.iter().zip(&PARAMETERS) {
             assert_eq!((id.as_str(), group.as_str()), (parameter.id, parameter.group));
         }

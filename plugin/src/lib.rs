@@ -12,6 +12,7 @@
 #[cfg(feature = "framework")]
 pub mod builder;
 pub mod building;
+pub mod bypass;
 pub mod deadline;
 #[cfg(feature = "framework")]
 pub mod editor;

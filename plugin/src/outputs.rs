@@ -120,9 +120,14 @@ impl<'a> Buffers<'a> {
         (cut(&mut self.main, from, to), self.pieces.each_mut().map(|pair| cut(pair, from, to)))
     }
 
+    /// Every channel there is.
+    pub fn channels(&mut self) -> impl Iterator<Item = &mut [f32]> {
+        self.main.iter_mut().chain(self.pieces.iter_mut().flatten()).map(|channel| &mut **channel)
+    }
+
     /// Silence on every output.
     pub fn silence(&mut self) {
-        self.main.iter_mut().chain(self.pieces.iter_mut().flatten()).for_each(|channel| channel.fill(0.0));
+        self.channels().for_each(|channel| channel.fill(0.0));
     }
 }
 

@@ -23,6 +23,19 @@ pub use document::document;
 pub use error::ParameterError;
 pub use table::PARAMETERS;
 
+/// Id of the host's bypass. Frozen. No parameter of the table: presets and command lines have nothing to bypass.
+pub const BYPASS_ID: &str = "bypass";
+
+/// Group in which hosts list the bypass.
+pub const BYPASS_GROUP: &str = "Kit";
+
+/// Number by which hosts know a parameter's id: the hash of the framework.
+pub fn host_id(id: &str) -> u32 {
+    let hash = id.bytes().fold(0_u32, |hash, byte| hash.wrapping_mul(31).wrapping_add(u32::from(byte)));
+    // The highest bit belongs to the host in VST3.
+    hash & !(1 << 31)
+}
+
 /// What a parameter moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Drives {
@@ -57,6 +70,8 @@ pub enum Manner {
     Chokes,
     /// Whether controllers move the place of strokes.
     FollowsPosition,
+    /// Whether program changes load presets.
+    FollowsPrograms,
     /// Added to the place of strokes on a piece, share of the radius.
     Offset(PieceId),
     /// What is swung at a piece: 0 for what the map says, then by its place in [`Striker::ALL`] from 1 on.
@@ -235,7 +250,7 @@ mod tests {
     use overhear_engine::piece::Piece;
 
     /// Changing this list breaks every project that was ever saved.
-    const FROZEN_IDS: [&str; 79] = [
+    const FROZEN_IDS: [&str; 80] = [
         "kktune", "kkmuff", "kklevl", "sntune", "snmuff", "snlevl", "rttune", "rtmuff", "rtlevl", "fttune",
         "ftmuff", "ftlevl", "crtune", "crmuff", "crlevl", "rdtune", "rdmuff", "rdlevl", "sptune", "spmuff",
         "splevl", "master", "dynam", "snprel", "snwire", "tptune", "tpmuff", "tplevl", "kkpan", "snpan",
@@ -243,8 +258,14 @@ mod tests {
         "crplac", "rdplac", "spplac", "tpplac", "kkstik", "snstik", "rtstik", "ftstik", "crstik", "rdstik",
         "spstik", "tpstik", "velcur", "humpla", "humspd", "notmap", "midchn", "chokes", "poscc", "qualit",
         "offqua", "kkreso", "snreso", "rtreso", "ftreso", "cllevl", "ohlevl", "rmlevl", "hear", "sympat",
-        "clip", "hhtune", "hhmuff", "hhlevl", "hhpan", "hhplac", "hhstik", "hhpedl", "workrs",
+        "clip", "hhtune", "hhmuff", "hhlevl", "hhpan", "hhplac", "hhstik", "hhpedl", "workrs", "progch",
     ];
+
+    #[test]
+    fn ids_hash_as_the_framework_documents() {
+        assert_eq!((host_id(""), host_id("a"), host_id("ab")), (0, 97, 97 * 31 + 98));
+        assert_eq!(host_id("kktune") >> 31, 0);
+    }
 
     #[test]
     fn ids_and_their_order_are_frozen() {

@@ -21,8 +21,15 @@ use crate::midi::maps::NoteMap;
 use crate::midi::playing::{ChokeRule, Grip, Playing};
 use crate::midi_map::Foot;
 use crate::parameters::{Drives, Manner, PARAMETERS};
+use crate::presets::Program;
 
 pub use crate::midi::playing::velocity_from_midi;
+
+/// Pieces of the kit.
+const PIECES: usize = PieceId::KIT.len();
+
+/// Most semitones of a bend, either way; the pieces' own ranges are narrower.
+const MOST_BEND: f32 = 48.0;
 
 /// A kit and who plays it.
 pub struct Performer {
@@ -32,6 +39,8 @@ pub struct Performer {
     /// Plain values, `[parameter]`.
     values: [f32; PARAMETERS.len()],
     playing: Playing,
+    /// Semitones by which notes bend the pitch of what they struck, `[piece]`.
+    bends: [f64; PIECES],
     /// Whether anything was played or rendered since the start or the latest reset.
     started: bool,
 }
@@ -58,6 +67,7 @@ impl Performer {
             asked: [f32::NAN; PARAMETERS.len()],
             values: [f32::NAN; PARAMETERS.len()],
             playing: Playing::new(assignments),
+            bends: [0.0; PIECES],
             started: false,
         };
         for (index, parameter) in PARAMETERS.iter().enumerate() {
@@ -121,6 +131,8 @@ impl Performer {
             return foot.is_some();
         };
         self.start();
+        // A bend belongs to the note that made it.
+        self.bend_piece(played.piece, 0.0);
         flushed(|| {
             if played.releases {
                 self.kit.choke(played.piece, 0.0);
@@ -128,6 +140,46 @@ impl Performer {
             self.kit.strike(played.piece, &played.strike);
         });
         true
+    }
+
+    /// Where the next note's stroke lands, 0 (centre) to 1 (rim), if it has a place to choose; `None` where controllers and
+    /// the map say.
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn aim(&mut self, place: Option<f32>) {
+        self.playing.aim(place);
+    }
+
+    /// Bends the pitch of the piece that a note strikes, semitones, within the piece's range and until its next stroke.
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn bend(&mut self, note: u8, semitones: f32, channel: u8) {
+        if let Some(piece) = self.playing.bent(note, channel).filter(|_| !semitones.is_nan()) {
+            self.bend_piece(piece, f64::from(semitones.clamp(-MOST_BEND, MOST_BEND)));
+        }
+    }
+
+    fn bend_piece(&mut self, piece: PieceId, semitones: f64) {
+        let bend = piece.slot().and_then(|slot| self.bends.get_mut(slot));
+        if bend.is_some_and(|bend| std::mem::replace(bend, semitones) != semitones) {
+            self.tune(piece);
+        }
+    }
+
+    /// Brings a piece to the pitch that its parameter and its bend come to.
+    fn tune(&mut self, piece: PieceId) {
+        let bend = piece.slot().map_or(0.0, |slot| self.bends[slot]);
+        for (parameter, value) in PARAMETERS.iter().zip(self.values) {
+            let value = f64::from(value);
+            let tuning = match parameter.drives {
+                Drives::Control(Control::Tuning(of)) if of == piece => value * libm::exp2(bend / 12.0),
+                Drives::Semitones(of) if of == piece => libm::exp2((value + bend) / 12.0),
+                _ => continue,
+            };
+            flushed(|| self.kit.set(Control::Tuning(piece), tuning));
+        }
     }
 
     /// Moves the hi-hat's pedal for a note.
@@ -181,6 +233,22 @@ impl Performer {
         }
     }
 
+    /// Loads a preset for a program change, unless the parameters or the channel say otherwise.
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn program_change(&mut self, program: &Program, channel: u8) {
+        if !self.playing.changes_program(channel) {
+            return;
+        }
+        for &(index, value) in &program.values {
+            self.set_parameter(index, value);
+        }
+        if let Some(notes) = &program.notes {
+            self.playing.assign(notes);
+        }
+    }
+
     fn grip(&mut self, grip: Option<Grip>) {
         if let Some(Grip { piece, strength }) = grip {
             self.start();
@@ -209,12 +277,9 @@ impl Performer {
         self.values[index] = value;
         let value = f64::from(value);
         match parameter.drives {
+            Drives::Control(Control::Tuning(piece)) | Drives::Semitones(piece) => self.tune(piece),
             Drives::Control(control) => flushed(|| self.kit.set(control, value)),
             Drives::Percent(control) => flushed(|| self.kit.set(control, value / 100.0)),
-            Drives::Semitones(piece) => {
-                let ratio = libm::exp2(value / 12.0);
-                flushed(|| self.kit.set(Control::Tuning(piece), ratio));
-            }
             Drives::Playing(manner) => self.set_manner(manner, value),
             // The builder reads it; new pieces will arrive.
             Drives::Building(_) => {}
@@ -233,6 +298,7 @@ impl Performer {
             Manner::Channel => style.channel = place.checked_sub(1).map(|channel| channel as u8),
             Manner::Chokes => style.chokes = ChokeRule::ALL.get(place).copied().unwrap_or_default(),
             Manner::FollowsPosition => style.follows_position = value >= 0.5,
+            Manner::FollowsPrograms => style.follows_programs = value >= 0.5,
             Manner::Offset(piece) => {
                 if let Some(slot) = piece.slot() {
                     style.offsets[slot] = value;
@@ -292,6 +358,7 @@ impl Performer {
             let value = pedal.map_or(0.0, |index| f64::from(self.values[index]));
             flushed(|| self.kit.set(Control::Pedal, value));
         }
+        PieceId::KIT.into_iter().for_each(|piece| self.bend_piece(piece, 0.0));
         flushed(|| {
             // Whatever hand was on a cymbal is gone with the note it belonged to.
             PieceId::KIT.into_iter().for_each(|piece| self.kit.choke(piece, 0.0));

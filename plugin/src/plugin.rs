@@ -5,7 +5,7 @@
 //! [builder](crate::builder)'s thread; the editor sees [snapshots](crate::monitor) only.
 //!
 //! The framework calls `process` once per slice between parameter changes, so that values moved
-//! here at its start are sample-accurate. Notes do not cut slices and are met here, each at its
+//! here at its start are sample-accurate. Notes do not cut slices and are met in [`events`], each at its
 //! sample; one may lie right behind the slice.
 
 use std::marker::PhantomData;
@@ -14,11 +14,11 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use nice_plug::midi::{Channel, Key};
 use nice_plug::prelude::*;
 
 use crate::builder::{Builder, Delivery, Outcome};
 use crate::building::{BuildPlan, Pace};
+use crate::bypass::Bypass;
 use crate::editor::OverhearEditor;
 use crate::host_parameters::{self, HostParameters};
 use crate::monitor::{self, Publisher, Viewer};
@@ -26,6 +26,10 @@ use crate::outputs::{Apart, Buffers, Mix, Outputs};
 use crate::parameters::PARAMETERS;
 use crate::performer::Performer;
 use crate::state;
+
+mod events;
+
+use events::play;
 
 /// How long activation waits for the pieces.
 ///
@@ -60,6 +64,7 @@ struct Stage {
     performer: Performer,
     delivery: Delivery,
     sample_rate: f32,
+    bypass: Bypass,
     /// Set by a panic in the engine: silent from then on, until the next activation.
     broken: bool,
 }
@@ -126,13 +131,16 @@ impl<O: Outputs> Plugin for Instrument<O> {
         let offline = config.process_mode == ProcessMode::Offline;
         let awaited = (!offline).then_some(f64::from(config.sample_rate));
         self.parameters.deadlines().expect(awaited);
+        self.parameters.read_programs();
         self.prepare(config.sample_rate, offline);
         // A rate that the engine does not know is no reason to lose the project: it stays silent.
         true
     }
 
     fn reset(&mut self) {
+        let bypassed = self.parameters.is_bypassed();
         if let Some(stage) = &mut self.stage {
+            stage.bypass.settle(bypassed);
             stage.guarded(|stage| stage.performer.reset());
         }
     }
@@ -146,10 +154,12 @@ impl<O: Outputs> Plugin for Instrument<O> {
         let Some(mut buffers) = Buffers::new(buffer.as_slice(), aux.outputs) else {
             return ProcessStatus::Error("Overhear plays in stereo only");
         };
+        let bypassed = self.parameters.is_bypassed();
         let played = self.stage.as_mut().is_some_and(|stage| {
             stage.guarded(|stage| {
                 stage.follow(&self.parameters);
-                play(&mut stage.performer, &mut buffers, || context.next_event());
+                play(&mut stage.performer, &mut buffers, &self.parameters, || context.next_event());
+                stage.bypass.apply(bypassed, buffers.channels());
                 self.publisher.rendered(buffers.len(), &mut stage.performer);
             })
         });
@@ -190,7 +200,8 @@ impl<O: Outputs> Instrument<O> {
         }
         if let Some(delivery) = ordered {
             let performer = Performer::with_assignments(rate, self.parameters.assignments());
-            self.stage = Some(Stage { performer, delivery, sample_rate, broken: false });
+            let bypass = Bypass::new(sample_rate, self.parameters.is_bypassed());
+            self.stage = Some(Stage { performer, delivery, sample_rate, bypass, broken: false });
             self.publisher.set_sample_rate(rate);
         }
         self.follow();
@@ -226,85 +237,6 @@ impl Stage {
     fn guarded(&mut self, engine: impl FnOnce(&mut Stage)) -> bool {
         self.broken = self.broken || catch_unwind(AssertUnwindSafe(|| engine(self))).is_err();
         !self.broken
-    }
-}
-
-/// Renders a slice with its events, each at its sample; late ones at once, none lost.
-fn play<S>(
-    performer: &mut Performer,
-    buffers: &mut Buffers<'_>,
-    mut next_event: impl FnMut() -> Option<NoteEvent<S>>,
-) {
-    let samples = buffers.len();
-    let mut now = 0;
-    let mut render_until = |performer: &mut Performer, until: usize| {
-        if until > now {
-            let (main, mut pieces) = buffers.stretch(now, until);
-            performer.render_outputs(main, &mut pieces);
-            now = until;
-        }
-    };
-    while let Some(event) = next_event() {
-        // Events that change nothing do not cut: the engine renders whole stretches at a lower cost.
-        if let Some(event) = Message::of(&event) {
-            render_until(performer, samples.min(event.timing as usize));
-            event.tell(performer);
-        }
-    }
-    render_until(performer, samples);
-}
-
-/// An event that means something to the performer.
-struct Message {
-    /// Sample in the slice, or behind it.
-    timing: u32,
-    channel: u8,
-    /// Note or controller.
-    number: u8,
-    what: What,
-}
-
-enum What {
-    NoteOn(f32),
-    NoteOff,
-    Choke,
-    Pressure(f32),
-    Controller(f32),
-}
-
-impl Message {
-    fn of<S>(event: &NoteEvent<S>) -> Option<Message> {
-        let note = |timing: u32, channel: Channel, key: Key, what: What| {
-            let number = key.number()?;
-            Some(Message { timing, channel: channel.number().unwrap_or(0), number, what })
-        };
-        match *event {
-            NoteEvent::NoteOn { timing, channel, key, velocity, .. } => {
-                note(timing, channel, key, What::NoteOn(velocity))
-            }
-            NoteEvent::NoteOff { timing, channel, key, .. } => note(timing, channel, key, What::NoteOff),
-            NoteEvent::Choke { timing, channel, key, .. } => note(timing, channel, key, What::Choke),
-            NoteEvent::PolyPressure { timing, channel, key, pressure, .. } => {
-                note(timing, channel, key, What::Pressure(pressure))
-            }
-            NoteEvent::MidiCC { timing, channel, cc, value } => {
-                Some(Message { timing, channel, number: cc, what: What::Controller(value) })
-            }
-            _ => None,
-        }
-    }
-
-    fn tell(&self, performer: &mut Performer) {
-        let Message { channel, number, .. } = *self;
-        match self.what {
-            What::NoteOn(velocity) => {
-                performer.note_on(number, velocity, channel);
-            }
-            What::NoteOff => performer.note_off(number, channel),
-            What::Choke => performer.choke(number, channel),
-            What::Pressure(pressure) => performer.pressure(number, pressure, channel),
-            What::Controller(value) => performer.control_change(number, value, channel),
-        }
     }
 }
 

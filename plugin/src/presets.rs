@@ -20,6 +20,7 @@
 mod error;
 mod file;
 mod library;
+mod programs;
 
 use std::collections::BTreeMap;
 
@@ -28,6 +29,7 @@ use crate::parameters::{Drives, Manner, PARAMETERS, Parameter};
 
 pub use error::PresetError;
 pub use library::{Entry, Library, Origin, load_file};
+pub use programs::{Program, Programs};
 
 /// Number of the format that is written and read.
 pub const FORMAT: i64 = 1;
@@ -79,9 +81,9 @@ impl Preset {
 
 /// Whether a parameter belongs to the player's set-up rather than to the sound.
 fn is_set_up(parameter: &Parameter) -> bool {
-    use Manner::{Channel, Chokes, Curve, FollowsPosition, Map};
+    use Manner::{Channel, Chokes, Curve, FollowsPosition, FollowsPrograms, Map};
     match parameter.drives {
-        Drives::Playing(Map | Channel | Chokes | FollowsPosition | Curve) => true,
+        Drives::Playing(Map | Channel | Chokes | FollowsPosition | FollowsPrograms | Curve) => true,
         Drives::Building(construction) => construction.is_effort(),
         _ => false,
     }

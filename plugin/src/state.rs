@@ -10,7 +10,7 @@ use nice_plug::plugin::{ParamValue, PluginState};
 use nice_plug::prelude::*;
 
 use crate::midi::assignments::{Assignment, NOTES};
-use crate::parameters::{PARAMETERS, Parameter};
+use crate::parameters::{BYPASS_ID, PARAMETERS, Parameter};
 
 /// Version of the meaning of what is stored; counts up when a migration is needed.
 pub const SCHEMA: u32 = 1;
@@ -62,7 +62,7 @@ pub fn put_in_order(state: &mut PluginState) {
     }
     let stored = std::mem::take(&mut state.params);
     for id in stored.keys() {
-        if !PARAMETERS.iter().any(|parameter| parameter.id == id) {
+        if id != BYPASS_ID && !PARAMETERS.iter().any(|parameter| parameter.id == id) {
             nice_warn!("The state has a parameter {id:?}, which is not known: ignored");
         }
     }
@@ -72,7 +72,20 @@ pub fn put_in_order(state: &mut PluginState) {
             let value = value_of(parameter, stored.get(parameter.id));
             (parameter.id.to_owned(), ParamValue::F32(value))
         })
+        .chain([(BYPASS_ID.to_owned(), ParamValue::Bool(bypassed(stored.get(BYPASS_ID))))])
         .collect();
+}
+
+/// Whether a state is one of a bypassed instance. A host that does not store its bypass leaves it off.
+fn bypassed(stored: Option<&ParamValue>) -> bool {
+    match stored {
+        None => false,
+        Some(ParamValue::Bool(bypassed)) => *bypassed,
+        Some(other) => {
+            nice_warn!("The state has {BYPASS_ID} as {other:?}, neither true nor false: set to false");
+            false
+        }
+    }
 }
 
 fn value_of(parameter: &Parameter, stored: Option<&ParamValue>) -> f32 {
@@ -102,6 +115,7 @@ mod tests {
         put_in_order(&mut state);
         let plain = |(id, value)| match value {
             ParamValue::F32(value) => (id, value),
+            ParamValue::Bool(value) => (id, f32::from(value)),
             other => panic!("{id} is {other:?}"),
         };
         state.params.into_iter().map(plain).collect()
@@ -110,7 +124,8 @@ mod tests {
     #[test]
     fn a_state_without_parameters_is_all_defaults() {
         let values = ordered(&[]);
-        assert_eq!(values.len(), PARAMETERS.len());
+        assert_eq!(values.len(), PARAMETERS.len() + 1);
+        assert_eq!(values[BYPASS_ID], 0.0);
         assert!(PARAMETERS.iter().all(|parameter| values[parameter.id] == parameter.default));
     }
 
@@ -128,10 +143,13 @@ mod tests {
             ("kklevl", ParamValue::String("loud".into())),
             ("sntune", ParamValue::F32(f32::NEG_INFINITY)),
             ("nobody", ParamValue::F32(1.0)),
+            (BYPASS_ID, ParamValue::F32(1.0)),
         ]);
         assert_eq!((values["kktune"], values["snmuff"]), (90.0, 0.0));
         assert_eq!((values["kklevl"], values["sntune"]), (0.0, 140.0));
         assert!(!values.contains_key("nobody"));
+        assert_eq!(values[BYPASS_ID], 0.0);
+        assert_eq!(ordered(&[(BYPASS_ID, ParamValue::Bool(true))])[BYPASS_ID], 1.0);
     }
 
     #[test]
@@ -177,7 +195,7 @@ mod tests {
             let Ok(mut state) = serde_json::from_slice::<PluginState>(&mutated) else { continue };
             read += 1;
             put_in_order(&mut state);
-            assert_eq!(state.params.len(), PARAMETERS.len());
+            assert_eq!(state.params.len(), PARAMETERS.len() + 1);
             for parameter in &PARAMETERS {
                 let ParamValue::F32(value) = state.params[parameter.id] else { panic!("{}", parameter.id) };
                 assert!((parameter.min..=parameter.max).contains(&value), "{}: {value}", parameter.id);

@@ -1,8 +1,10 @@
 //! Anything at all: events, presets and songs that nobody would write.
 //!
 //! The sequences come from fixed seeds, so that what fails once fails again. Short runs are part of every test run; the
-//! long ones are ignored: `cargo test --package overhear-tests --test fuzz -- --ignored`.
+//! long ones are ignored: `cargo test --package overhear-tests --features traps --test fuzz -- --ignored`. What plays is
+//! watched by an allocator that counts.
 
+use assert_no_alloc::{AllocDisabler, assert_no_alloc, violation_count};
 use overhear::parameters::PARAMETERS;
 use overhear::performer::Performer;
 use overhear::presets::{FACTORY, Preset};
@@ -10,6 +12,9 @@ use overhear_engine::piece::PieceId;
 use overhear_engine::snapshot::KitSnapshot;
 use overhear_tests::Chance;
 use xtask::song::Song;
+
+#[global_allocator]
+static ALLOCATOR: AllocDisabler = AllocDisabler;
 
 /// Sample rates that hosts use, Hz.
 const RATES: [f64; 6] = [22_050.0, 44_100.0, 48_000.0, 88_200.0, 96_000.0, 192_000.0];
@@ -42,30 +47,33 @@ fn act(chance: &mut Chance, performer: &mut Performer) {
         550..570 => performer.choke(number, channel),
         570..620 => performer.pressure(number, odd, channel),
         620..700 => performer.control_change(number % 128, odd, channel),
-        700..997 => {
+        700..990 => {
             let index = chance.below(PARAMETERS.len() + 1);
             performer.set_parameter(index, value(chance, index));
         }
+        990..993 => performer.aim(Some(odd)),
+        993..997 => performer.bend(number, 40.0 * odd, channel),
         997..999 => performer.snapshot(&mut KitSnapshot::default()),
         _ => performer.reset(),
     }
 }
 
-/// Plays random events at one rate, then lets everything ring out.
-fn play(seed: u64, rate: f64, events: usize) {
+/// Plays random events at one rate, so many to a buffer on average, then lets everything ring out.
+fn play(seed: u64, rate: f64, events: usize, to_a_buffer: usize) {
     let mut chance = Chance::new(seed);
     let mut performer = Performer::new(rate);
     performer.install_kit(rate).unwrap();
     let mut sound = [vec![0.0; 1024], vec![0.0; 1024]];
     for event in 0..events {
-        act(&mut chance, &mut performer);
-        if chance.below(4) > 0 {
+        assert_no_alloc(|| act(&mut chance, &mut performer));
+        if chance.below(to_a_buffer) > 0 {
             continue;
         }
         let longest = chance.of(&[1, 8, 33, 64, 257, 1024]);
         let frames = 1 + chance.below(longest);
         let [left, right] = &mut sound;
-        performer.render(&mut left[..frames], &mut right[..frames]);
+        assert_no_alloc(|| performer.render(&mut left[..frames], &mut right[..frames]));
+        assert_eq!(violation_count(), 0, "seed {seed}, {rate} Hz, event {event}: allocated");
         let sane = |sample: &f32| sample.is_finite() && sample.abs() < LOUDEST;
         assert!(left.iter().chain(&*right).all(sane), "seed {seed}, {rate} Hz, event {event}");
     }
@@ -103,7 +111,7 @@ fn ring_out(performer: &mut Performer, rate: f64, what: &str) {
 #[test]
 fn twelve_thousand_random_events_at_every_rate_stay_finite_and_fall_asleep() {
     for (seed, rate) in RATES.into_iter().enumerate() {
-        play(1 + seed as u64, rate, 2_000);
+        play(1 + seed as u64, rate, 2_000, 4);
     }
 }
 
@@ -111,7 +119,8 @@ fn twelve_thousand_random_events_at_every_rate_stay_finite_and_fall_asleep() {
 #[ignore = "takes an hour; run before a release"]
 fn a_million_random_events_stay_finite_and_fall_asleep() {
     for seed in 0..100 {
-        play(1_000 + seed, RATES[seed as usize % RATES.len()], 10_000);
+        play(1_000 + seed, RATES[seed as usize % RATES.len()], 10_000, 16);
+        println!("{} of 1,000,000 events", (seed + 1) * 10_000);
     }
 }
 
@@ -197,5 +206,5 @@ fn every_piece_is_among_what_random_notes_strike() {
 
 #[test]
 fn the_snare_falls_asleep_with_its_wires_on() {
-    play(5, 96_000.0, 2_000);
+    play(5, 96_000.0, 2_000, 4);
 }

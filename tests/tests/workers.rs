@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use assert_no_alloc::{AllocDisabler, assert_no_alloc, reset_violation_count, violation_count};
 use overhear_crew::{Patience, Workers};
@@ -135,24 +135,35 @@ fn workers_and_buffers_change_no_sample_of_ten_seconds() {
     }
 }
 
-/// Strikes everything with such a crew and plays half a second.
-fn play_with(render: fn(&mut Post)) -> (KitSnapshot, f32) {
+/// Longest that a test waits for the system to let workers work, were this machine doing nothing else.
+const LONG: Duration = Duration::from_secs(60);
+
+/// Strikes everything with such a crew and plays until `done`, then until nobody is away.
+fn play_with(patience: Patience, render: fn(&mut Post), done: impl Fn() -> bool) -> (KitSnapshot, f32) {
     const RATE: f64 = RATES[0];
     let mut kit = kit(RATE);
-    kit.hire(Some(Box::new(Workers::new(2, Patience::RealTime, render).expect("threads"))));
-    for id in PieceId::KIT {
-        kit.strike(id, &stroke(Striker::Stick, 4.0, 0.35, 0.0));
+    kit.hire(Some(Box::new(Workers::new(2, patience, render).expect("threads"))));
+    let (mut left, mut right) = (vec![0.0; 4_410], vec![0.0; 4_410]);
+    let (begun, mut loudest, mut snapshot) = (Instant::now(), 0.0_f32, KitSnapshot::default());
+    // How much of the work a worker gets is for the system to say.
+    while !done() {
+        assert!(begun.elapsed() < LONG, "the workers had nothing to do");
+        for id in PieceId::KIT {
+            kit.strike(id, &stroke(Striker::Stick, 4.0, 0.35, 0.0));
+        }
+        kit.render(&mut left, &mut right);
+        assert!(left.iter().chain(&right).all(|x| x.is_finite()));
+        loudest = left[64..].iter().fold(loudest, |peak, x| peak.max(x.abs()));
     }
-    let (mut left, mut right) = (vec![0.0; 22_050], vec![0.0; 22_050]);
-    kit.render(&mut left, &mut right);
-    // Whoever was away is back.
-    thread::sleep(Duration::from_millis(400));
-    kit.render(&mut left[..64], &mut right[..64]);
-    let mut snapshot = KitSnapshot::default();
-    kit.snapshot(&mut snapshot);
-    assert!(left.iter().chain(&right).all(|x| x.is_finite()));
-    let last = left[64..].iter().fold(0.0_f32, |peak, x| peak.max(x.abs()));
-    (snapshot, last)
+    loop {
+        kit.render(&mut left[..64], &mut right[..64]);
+        kit.snapshot(&mut snapshot);
+        if snapshot.pieces.iter().all(|piece| piece.ready) {
+            return (snapshot, loudest);
+        }
+        assert!(begun.elapsed() < LONG, "a piece has not come back");
+        thread::sleep(Duration::from_millis(10));
+    }
 }
 
 fn on_a_worker() -> bool {
@@ -161,31 +172,30 @@ fn on_a_worker() -> bool {
 
 #[test]
 fn a_worker_that_stalls_holds_nobody_up_and_is_counted() {
-    static STALLED: AtomicU32 = AtomicU32::new(0);
-    let (snapshot, loudest) = play_with(|post| {
-        if on_a_worker() && STALLED.fetch_add(1, Ordering::Relaxed) == 20 {
-            thread::sleep(Duration::from_millis(300));
+    static CALLS: AtomicU32 = AtomicU32::new(0);
+    let stall = |post: &mut Post| {
+        if on_a_worker() && CALLS.fetch_add(1, Ordering::Relaxed) == 20 {
+            thread::sleep(Duration::from_secs(1));
         }
         post.render();
-    });
-    assert!(STALLED.load(Ordering::Relaxed) > 20, "the workers had nothing to do");
+    };
+    let (snapshot, loudest) = play_with(Patience::RealTime, stall, || CALLS.load(Ordering::Relaxed) > 20);
     assert!(snapshot.missed_runs > 0 && loudest > 0.01, "{} runs", snapshot.missed_runs);
-    // The one that stalled has come back.
-    assert!(snapshot.pieces.iter().all(|piece| piece.ready && piece.quarantines == 0));
+    assert!(snapshot.pieces.iter().all(|piece| piece.quarantines == 0));
 }
 
 #[test]
 fn a_worker_that_panics_gives_its_piece_back() {
-    static PANICKED: AtomicU32 = AtomicU32::new(0);
-    let (snapshot, loudest) = play_with(|post| {
-        if on_a_worker() && PANICKED.fetch_add(1, Ordering::Relaxed) == 20 {
+    static CALLS: AtomicU32 = AtomicU32::new(0);
+    let panic = |post: &mut Post| {
+        if on_a_worker() && CALLS.fetch_add(1, Ordering::Relaxed) == 20 {
             panic!("as the test wants it");
         }
         post.render();
-    });
-    assert!(PANICKED.load(Ordering::Relaxed) > 20, "the workers had nothing to do");
-    assert!((1..100).contains(&snapshot.missed_runs) && loudest > 0.01, "{} runs", snapshot.missed_runs);
-    assert!(snapshot.pieces.iter().all(|piece| piece.ready));
+    };
+    // Patient, so that no other run is missed however busy the machine is.
+    let (snapshot, loudest) = play_with(Patience::Offline, panic, || CALLS.load(Ordering::Relaxed) > 20);
+    assert!(snapshot.missed_runs == 1 && loudest > 0.01, "{} runs", snapshot.missed_runs);
 }
 
 /// A kit with workers under many strokes.

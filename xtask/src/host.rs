@@ -21,7 +21,7 @@ use crate::bad_input;
 
 pub use event::{Event, What};
 pub use handlers::Requests;
-pub use instance::{AudioPort, Instance, NotePort, ParameterInfo, parameter_id};
+pub use instance::{AudioPort, Instance, NotePort, ParameterInfo};
 pub use processor::Processor;
 
 /// What a plugin says of itself.

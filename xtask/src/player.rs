@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result};
 use overhear::building::{BuildPlan, Pace};
-use overhear::parameters::PARAMETERS;
+use overhear::parameters::{PARAMETERS, host_id};
 use overhear::performer::{Performer, velocity_from_midi};
 use overhear_engine::piece::{BuildOptions, Piece, PieceId};
 
@@ -87,7 +87,7 @@ impl Source {
                     .iter()
                     .map(|&(index, value)| {
                         let parameter = &PARAMETERS[index];
-                        let id = host::parameter_id(parameter.id);
+                        let id = host_id(parameter.id);
                         if known.iter().all(|info| info.id != id) {
                             return Err(bad_input!(
                                 "`{}` has no parameter {}",

@@ -40,6 +40,11 @@ pub fn run() -> Result<()> {
     let mut clippy = workspace::cargo();
     clippy.args(["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]);
     check(&mut tally, "lints", &mut clippy);
+    // By themselves: their allocator and the framework's exclude each other.
+    let traps = ["--package", "overhear-tests", "--features", "traps", "--test", "process", "--test", "fuzz"];
+    let mut clippy = workspace::cargo();
+    clippy.arg("clippy").args(traps).args(["--", "-D", "warnings"]);
+    check(&mut tally, "lints of real-time tests", &mut clippy);
     let mut doc = workspace::cargo();
     doc.args(["doc", "--workspace", "--no-deps"]).env("RUSTDOCFLAGS", "-D warnings");
     check(&mut tally, "documentation", &mut doc);
@@ -63,12 +68,11 @@ pub fn run() -> Result<()> {
     let mut long = workspace::cargo();
     long.args(["test", "--package", "overhear-tests", "--test", "cymbals", "--", "--ignored"]);
     tests(&mut tally, "long tests of cymbals", &mut long);
-    // By itself: its allocator and the framework's exclude each other.
-    let traps = ["--package", "overhear-tests", "--features", "traps", "--test", "process"];
     let mut process = workspace::cargo();
     tests(&mut tally, "real-time tests of process", process.arg("test").args(traps));
     let mut release = workspace::cargo();
-    release.args(["test", "--release"]).args(traps).args(["--test", "realtime"]);
+    release.args(["test", "--release", "--package", "overhear-tests", "--features", "traps"]);
+    release.args(["--test", "process", "--test", "realtime"]);
     tests(&mut tally, "real-time tests in release", &mut release);
     drop(display);
 

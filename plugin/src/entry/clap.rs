@@ -1,6 +1,7 @@
 //! The CLAP entry: both instruments, each behind a guard.
 //!
-//! A guard is a copy of the framework's plugin table with four functions of its own. `plugin_data` stays the
+//! A guard is a copy of the framework's plugin table with four functions of its own: it times, names notes, completes
+//! outputs and writes program changes out. `plugin_data` stays the
 //! framework's, so that all it gets called with means to it what it did; the guard itself is found through the
 //! table's address, whose first field it is.
 
@@ -22,9 +23,12 @@ use nice_plug::prelude::*;
 use nice_plug::wrapper::clap::{PluginDescriptor, Wrapper};
 use nice_plug::wrapper::setup_logger;
 
+use self::programs::ProgramChanges;
 use super::scratch::{CHANNELS, Scratch};
 use crate::host_parameters::{self, HostParameters};
 use crate::plugin::{Overhear, OverhearMulti};
+
+mod programs;
 
 /// What hosts look up by name.
 #[allow(non_upper_case_globals, missing_docs)]
@@ -116,8 +120,9 @@ struct Guard {
     outputs: UnsafeCell<Outputs>,
 }
 
-/// Scratch, and the ports made of it for one call.
+/// Scratch and the ports made of it for one call, and the events of one.
 struct Outputs {
+    programs: ProgramChanges,
     scratch: Scratch,
     /// `[port]`, filled in for a call that needs completing.
     ports: Vec<clap_audio_buffer>,
@@ -139,7 +144,8 @@ unsafe fn guarded<P: ClapPlugin>(host: *const clap_host) -> *const clap_plugin {
         get_extension: Some(get_extension),
         ..framework
     };
-    let outputs = Outputs { scratch: Scratch::new(ports), ports: Vec::with_capacity(ports) };
+    let (programs, scratch) = (ProgramChanges::new(), Scratch::new(ports));
+    let outputs = Outputs { programs, scratch, ports: Vec::with_capacity(ports) };
     let parameters = host_parameters::take_latest();
     let guard = Guard { table, framework, parameters, outputs: UnsafeCell::new(outputs) };
     Box::into_raw(Box::new(guard)).cast()
@@ -195,12 +201,38 @@ unsafe extern "C" fn process(plugin: *const clap_plugin, call: *const clap_proce
     unsafe {
         let guard = guard(plugin);
         let Some(framework) = guard.framework.process else { return CLAP_PROCESS_ERROR };
-        let Some(&given) = call.as_ref() else { return CLAP_PROCESS_ERROR };
-        let Outputs { scratch, ports } = &mut *guard.outputs.get();
-        if is_complete(&given, scratch.ports()) {
-            return framework(plugin, call);
+        let Some(&(mut given)) = call.as_ref() else { return CLAP_PROCESS_ERROR };
+        let Outputs { programs, scratch, ports } = &mut *guard.outputs.get();
+        let events = given.in_events.as_ref().zip(guard.parameters.as_deref());
+        let written = events.and_then(|(events, parameters)| programs.written_out(events, parameters));
+        if let Some(events) = &written {
+            given.in_events = events;
         }
-        let completed = scratch.complete(given.frames_count as usize, |port| match port_of(&given, port) {
+        let status = complete(plugin, &given, framework, scratch, ports);
+        if written.is_some() {
+            programs.tell(given.out_events, given.frames_count);
+        }
+        status
+    }
+}
+
+/// What the host calls the framework's `process` with, with every output it left out.
+///
+/// # Safety
+/// As for [`process`].
+unsafe fn complete(
+    plugin: *const clap_plugin,
+    given: &clap_process,
+    framework: unsafe extern "C" fn(*const clap_plugin, *const clap_process) -> clap_process_status,
+    scratch: &mut Scratch,
+    ports: &mut Vec<clap_audio_buffer>,
+) -> clap_process_status {
+    // SAFETY: as promised.
+    unsafe {
+        if is_complete(given, scratch.ports()) {
+            return framework(plugin, given);
+        }
+        let completed = scratch.complete(given.frames_count as usize, |port| match port_of(given, port) {
             Some(port) => (port.data32, port.channel_count as usize),
             None => (ptr::null_mut(), 0),
         });
@@ -216,7 +248,7 @@ unsafe extern "C" fn process(plugin: *const clap_plugin, call: *const clap_proce
         let whole = clap_process {
             audio_outputs: ports.as_mut_ptr(),
             audio_outputs_count: ports.len() as u32,
-            ..given
+            ..*given
         };
         framework(plugin, &whole)
     }

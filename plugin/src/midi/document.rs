@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use super::maps::NoteMap;
 use super::playing::{FINE_VELOCITY_CONTROLLER, PEDAL_CONTROLLER, position_controller};
 use crate::midi_map::{BEYOND, MAP, Meaning, Row};
+use crate::presets::FACTORY;
 use overhear_engine::piece::PieceId;
 
 /// The page, in Markdown. `cargo xtask docs` writes it; a test compares.
@@ -31,6 +32,7 @@ pub fn document() -> String {
         }
     }
     page.push_str(&controllers());
+    page.push_str(&programs());
     page
 }
 
@@ -44,6 +46,22 @@ fn reference_row(row: &Row) -> String {
         Meaning::Steps(_) => format!("| {note} | {name} | hi-hat | the pedal | a foot |\n"),
         Meaning::Silent(reason) => format!("| {note} | {name} | silent: {reason} | | |\n"),
     }
+}
+
+fn programs() -> String {
+    let mut text = String::from("\n## Program changes\n\n| program | preset |\n|---|---|\n");
+    for (number, (name, _)) in FACTORY.iter().enumerate() {
+        let _ = writeln!(text, "| {number} | {name} |");
+    }
+    let _ = writeln!(
+        text,
+        "| from {} | your own presets by name, as `cargo xtask presets list` shows them |\n\n\
+         Numbers count from 0. A program change moves every parameter that the preset sets at its sample, unless \
+         `program_changes` is off or the channel is not heard; the host is told. Your own presets are numbered when \
+         an instance is first activated. CLAP hosts only: VST3 has no program changes among its events.",
+        FACTORY.len()
+    );
+    text
 }
 
 fn controllers() -> String {
@@ -69,7 +87,10 @@ fn controllers() -> String {
     text.push_str(
         "| poly pressure | a hand on the cymbal of that note, as firmly as the pressure, if `chokes` says so |\n\
          | note off | a hand on the cymbal until its next stroke, if `chokes` says so |\n\
-         | choke (CLAP) | the same, always |\n\n\
+         | choke (CLAP) | the same, always |\n\
+         | brightness of a note | place of its stroke, as with the controllers above, when it comes with the note |\n\
+         | tuning of a note | bends what the note strikes by so many semitones, within the piece's range and until its \
+         next stroke |\n\n\
          Controllers move strokes with a tip on a head or a bow; cross-sticks, rimshots, bells and edges stay \
          where they are. They hold until the next value or until the host resets the plugin.\n",
     );

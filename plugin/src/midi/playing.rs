@@ -4,6 +4,7 @@
 //! controllers, the position and striker parameters and unevenness of the hand are added to what the map says.
 //! Nothing here touches the engine: what comes out is a [`Played`] note or a [`Grip`] for the performer to pass on.
 
+use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -125,6 +126,8 @@ pub struct Style {
     pub chokes: ChokeRule,
     /// Whether controllers 16 to 19 move the place of strokes.
     pub follows_position: bool,
+    /// Whether program changes load presets.
+    pub follows_programs: bool,
     /// Added to the place of every stroke, share of the radius, `[piece]`.
     pub offsets: [f64; PIECES],
     /// What is swung instead of what the map says, `[piece]`.
@@ -142,6 +145,7 @@ impl Default for Style {
             channel: None,
             chokes: ChokeRule::default(),
             follows_position: true,
+            follows_programs: true,
             offsets: [0.0; PIECES],
             strikers: [None; PIECES],
         }
@@ -153,6 +157,8 @@ impl Default for Style {
 struct PlayingState {
     /// Latest values of the position controllers, 0 to 1.
     positions: [Option<f64>; 4],
+    /// Where the next stroke lands, 0 to 1, if its note says.
+    aim: Option<f64>,
     /// Velocity to add to the next note, `[channel]`.
     fine: [f32; CHANNELS],
     /// Gripped by the end of a note, until the next stroke, `[piece]`.
@@ -166,6 +172,7 @@ struct PlayingState {
 impl PlayingState {
     const REST: PlayingState = PlayingState {
         positions: [None; 4],
+        aim: None,
         fine: [0.0; CHANNELS],
         gripped: [false; PIECES],
         pedal: false,
@@ -205,6 +212,7 @@ impl Playing {
     pub fn note_on(&mut self, note: u8, velocity: f32, channel: u8) -> Option<Played> {
         // Written so that a velocity that is not a number is silent as well.
         let sounds = velocity > 0.0;
+        let aim = self.state.aim.take();
         if !sounds || !self.hears(channel) {
             return None;
         }
@@ -214,7 +222,7 @@ impl Playing {
         let slot = stroke.piece.slot()?;
         self.state.strokes = self.state.strokes.wrapping_add(1);
         let speed = stick_speed(velocity + fine, self.style.dynamics, self.style.curve);
-        let aimed = self.aimed(stroke) + self.style.offsets[slot];
+        let aimed = self.aimed(stroke, aim) + self.style.offsets[slot];
         let (radius, angle) = self.placed(aimed.clamp(0.0, 1.0), stroke.angle);
         let strike = Strike {
             speed: speed * self.uneven_speed(),
@@ -224,6 +232,19 @@ impl Playing {
         };
         let releases = std::mem::take(&mut self.state.gripped[slot]);
         Some(Played { piece: stroke.piece, strike, releases })
+    }
+
+    /// Where the next note's stroke lands, 0 (centre) to 1 (rim), if it has a place to choose.
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn aim(&mut self, place: Option<f32>) {
+        self.state.aim = place.filter(|place| !place.is_nan()).map(|place| f64::from(place.clamp(0.0, 1.0)));
+    }
+
+    /// The piece whose pitch a note on a channel bends.
+    pub fn bent(&self, note: u8, channel: u8) -> Option<PieceId> {
+        Some(self.stroke(note).filter(|_| self.hears(channel))?.piece)
     }
 
     /// What a note of a velocity (0 to 1) does with the hi-hat's pedal, if it does, and the speed of the foot, m/s.
@@ -314,6 +335,19 @@ impl Playing {
         }
     }
 
+    /// Whether a program change on a channel loads a preset.
+    pub fn changes_program(&self, channel: u8) -> bool {
+        self.style.follows_programs && self.hears(channel)
+    }
+
+    /// Puts these assignments in place of the user's.
+    ///
+    /// # Real-time
+    /// A store for each note; no allocation, no lock.
+    pub fn assign(&self, notes: &BTreeMap<u8, Assignment>) {
+        self.assignments.replace(notes);
+    }
+
     /// The stroke of a note, if it sounds.
     pub fn stroke(&self, note: u8) -> Option<&'static midi_map::Stroke> {
         match self.assignments.of(note) {
@@ -332,14 +366,14 @@ impl Playing {
         (!piece.is_drum()).then_some(piece)
     }
 
-    /// Distance from the centre: where the controller says, once it has said anything, or the map.
+    /// Distance from the centre: where the note itself says, or the controller, once it has said anything, or the map.
     ///
     /// Strokes on a bell or on an edge are what they are wherever the hand is.
-    fn aimed(&self, stroke: &midi_map::Stroke) -> f64 {
-        let moves = self.style.follows_position && stroke.moves_with_hand();
-        let position = position_controller(stroke.piece)
-            .filter(|_| moves)
+    fn aimed(&self, stroke: &midi_map::Stroke, aim: Option<f64>) -> f64 {
+        let controlled = position_controller(stroke.piece)
+            .filter(|_| self.style.follows_position)
             .and_then(|controller| self.state.positions[usize::from(controller - FIRST_POSITION_CONTROLLER)]);
+        let position = aim.or(controlled).filter(|_| stroke.moves_with_hand());
         position.map_or(stroke.radius, |place| {
             let (inner, outer) = stroke.reach();
             inner + (outer - inner) * place

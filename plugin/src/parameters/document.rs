@@ -87,6 +87,7 @@ fn playing(manner: Manner) -> &'static str {
         Manner::Channel => "The only MIDI channel heard.",
         Manner::Chokes => "What lets a hand grip a cymbal: pressure on a note, its end, or both.",
         Manner::FollowsPosition => "Whether controllers 16 to 19 say where strokes land.",
+        Manner::FollowsPrograms => "Whether program changes load presets; see `docs/midi.md`.",
         Manner::Offset(_) => "Moves strokes outward (above 0) or to the centre, by a share of the radius.",
         Manner::Striker(_) => "What is swung at the piece, if not what the note says.",
     }

@@ -8,7 +8,7 @@ use crate::midi::maps::NoteMap;
 use crate::midi::playing::ChokeRule;
 
 /// Every parameter, in the order hosts see. Frozen: append only.
-pub static PARAMETERS: [Parameter; 79] = {
+pub static PARAMETERS: [Parameter; 80] = {
     use PieceId::*;
     [
         drum_tune(Kick, "Kick", "kktune", "kick_tune", [35.0, 55.0, 90.0]),
@@ -247,6 +247,13 @@ pub static PARAMETERS: [Parameter; 79] = {
             max: overhear_crew::MOST as f32,
             centre: 0.5 * overhear_crew::MOST as f32,
             ..built(Construction::Workers, &[])
+        },
+        Parameter {
+            id: "progch",
+            name: "program_changes",
+            label: "Program changes",
+            default: 1.0,
+            ..choice(Manner::FollowsPrograms, &["off", "on"])
         },
     ]
 };

@@ -1,4 +1,5 @@
 use super::*;
+use crate::parameters::find;
 
 const RATE: f64 = 48_000.0;
 
@@ -123,4 +124,32 @@ fn the_cut_into_buffers_does_not_change_a_sample() {
     for sizes in [&[1][..], &[17], &[64], &[512], &[1, 255, 3, 1024, 31, 33]] {
         assert!(play(sizes) == whole, "buffers of {sizes:?}");
     }
+}
+
+#[test]
+fn a_bend_is_the_tuning_so_many_semitones_away_until_the_next_stroke() {
+    let (index, parameter) = find("rack_tom_tune").unwrap();
+    let bent = parameter.snap(parameter.default * 2_f32.powf(0.25));
+    let play = |act: &dyn Fn(&mut Performer)| {
+        let mut performer = Performer::new(RATE);
+        performer.install_kit(RATE).unwrap();
+        let mut sound = vec![0.0; 4_800];
+        performer.note_on(48, 0.8, 9);
+        act(&mut performer);
+        performer.render(&mut sound, &mut vec![0.0; 4_800]);
+        sound
+    };
+    let semitones = 12.0 * (bent / parameter.default).log2();
+    let by_bend = play(&|performer| performer.bend(48, semitones, 9));
+    let by_parameter = play(&|performer| performer.set_parameter(index, bent));
+    let away = by_bend.iter().zip(&by_parameter).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+    let peak = by_bend.iter().fold(0.0_f32, |peak, x| peak.max(x.abs()));
+    assert!(away < 1e-3 * peak, "{away} of {peak}");
+    let plain = play(&|_| {});
+    assert!(by_bend != plain);
+    let taken_back = play(&|performer| {
+        performer.bend(48, semitones, 9);
+        performer.bend(48, 0.0, 9);
+    });
+    assert!(taken_back == plain);
 }

@@ -24,6 +24,15 @@ fn other(timing: u32) -> NoteEvent<()> {
     }
 }
 
+fn expression(timing: u32, place: Option<f32>, tuning: f32) -> NoteEvent<()> {
+    let (voice_id, channel) = (nice_plug::midi::VoiceID::Wildcard, nice_plug::midi::Channel::Number(9));
+    let key = nice_plug::midi::Key::Number(38);
+    match place {
+        Some(brightness) => NoteEvent::PolyBrightness { timing, voice_id, channel, key, brightness },
+        None => NoteEvent::PolyTuning { timing, voice_id, channel, key, tuning },
+    }
+}
+
 /// Plays events through an instance's own glue: a stretch for each slice length.
 fn played(slices: &[(usize, Vec<NoteEvent<()>>)]) -> Vec<f32> {
     let mut performer = Performer::new(RATE);
@@ -34,7 +43,7 @@ fn played(slices: &[(usize, Vec<NoteEvent<()>>)]) -> Vec<f32> {
         let mut events = events.iter().copied();
         let mut main = [left.as_mut_slice(), right.as_mut_slice()];
         let mut buffers = Buffers::new(&mut main, &mut []).unwrap();
-        play(&mut performer, &mut buffers, || events.next());
+        play(&mut performer, &mut buffers, &HostParameters::default(), || events.next());
         sound.extend(left);
     }
     sound
@@ -56,13 +65,46 @@ fn notes_are_met_at_their_sample_among_other_events() {
 }
 
 #[test]
+fn a_note_takes_the_place_and_the_pitch_that_come_with_it() {
+    let plain = played(&[(4_000, vec![note(10), note(2_000)])]);
+    let controlled = |value: f32| NoteEvent::MidiCC { timing: 5, channel: 9, cc: 16, value };
+    let moved = played(&[(4_000, vec![note(10), expression(10, Some(0.9), 0.0), note(2_000)])]);
+    assert!(moved[..10] == plain[..10] && moved[10..2_000] != plain[10..2_000]);
+    let by_controller = played(&[(4_000, vec![controlled(0.9), note(10), note(2_000)])]);
+    assert!(moved[..2_000] == by_controller[..2_000]);
+    assert!(moved[2_000..] != by_controller[2_000..], "the next note is where the map says");
+    let late = played(&[(4_000, vec![note(10), expression(11, Some(0.9), 0.0), note(2_000)])]);
+    assert!(late == plain, "it has landed");
+
+    let bent = played(&[(4_000, vec![note(10), expression(10, None, 3.0), expression(3_000, None, 1.0)])]);
+    assert!(bent[..10] == plain[..10] && bent[10..2_000] != plain[10..2_000]);
+    let later = played(&[(4_000, vec![note(10), expression(10, None, 3.0)])]);
+    assert!(bent[..3_000] == later[..3_000] && bent[3_000..] != later[3_000..]);
+    let odd = played(&[(4_000, vec![note(10), expression(10, None, f32::NAN), note(2_000)])]);
+    assert!(odd == plain);
+}
+
+#[test]
+fn more_notes_at_a_sample_than_can_wait_are_all_struck() {
+    let mut performer = Performer::new(RATE);
+    let (mut left, mut right) = ([0.0; 64], [0.0; 64]);
+    let mut events = (0..40).map(|_| note(3));
+    let mut main = [left.as_mut_slice(), right.as_mut_slice()];
+    let mut buffers = Buffers::new(&mut main, &mut []).unwrap();
+    play(&mut performer, &mut buffers, &HostParameters::default(), || events.next());
+    let mut snapshot = KitSnapshot::default();
+    performer.snapshot(&mut snapshot);
+    assert_eq!(snapshot.dropped_strikes, 40);
+}
+
+#[test]
 fn notes_out_of_order_and_beyond_the_slice_are_not_lost() {
     let mut performer = Performer::new(RATE);
     let (mut left, mut right) = ([0.0; 64], [0.0; 64]);
     let mut events = [note(60), note(10), note(u32::MAX)].into_iter();
     let mut main = [left.as_mut_slice(), right.as_mut_slice()];
     let mut buffers = Buffers::new(&mut main, &mut []).unwrap();
-    play(&mut performer, &mut buffers, || events.next());
+    play(&mut performer, &mut buffers, &HostParameters::default(), || events.next());
     let mut snapshot = KitSnapshot::default();
     performer.snapshot(&mut snapshot);
     assert_eq!((snapshot.dropped_strikes, snapshot.clock), (3, 64));

@@ -1,7 +1,7 @@
 //! What the plugin says of itself.
 
-use overhear::parameters::PARAMETERS;
-use xtask::host::{Bundle, parameter_id};
+use overhear::parameters::{BYPASS_ID, PARAMETERS, host_id};
+use xtask::host::Bundle;
 use xtask::workspace::Format;
 
 use crate::{alone, bundle_path, instance};
@@ -26,9 +26,10 @@ fn it_is_a_drum_instrument_with_one_stereo_output() {
 fn its_parameters_are_the_table_in_its_order() {
     let _turn = alone();
     let found = instance().parameters().unwrap();
-    assert_eq!(found.len(), PARAMETERS.len());
+    assert_eq!(found.len(), PARAMETERS.len() + 1);
+    assert_eq!(found[PARAMETERS.len()].id, host_id(BYPASS_ID));
     for (found, parameter) in found.iter().zip(&PARAMETERS) {
-        assert_eq!(found.id, parameter_id(parameter.id), "{}", parameter.name);
+        assert_eq!(found.id, host_id(parameter.id), "{}", parameter.name);
         let default = f64::from(parameter.normalized(parameter.default));
         assert!((found.default - default).abs() < 1e-6, "{}", parameter.name);
         assert_eq!(found.value, found.default, "{}", parameter.name);
@@ -40,7 +41,7 @@ fn values_are_shown_in_units_and_read_back() {
     let _turn = alone();
     let mut instance = instance();
     for parameter in &PARAMETERS {
-        let id = parameter_id(parameter.id);
+        let id = host_id(parameter.id);
         for plain in [parameter.min, parameter.default, parameter.max] {
             let value = f64::from(parameter.normalized(plain));
             let shown = instance.value_text(id, value).unwrap();

@@ -2,6 +2,7 @@
 
 use std::thread;
 
+use overhear::parameters::{BYPASS_ID, host_id};
 use xtask::host::{Event, What};
 use xtask::player::Blocks;
 
@@ -116,4 +117,50 @@ fn more_events_than_any_song_has_are_survived() {
         })
         .unwrap();
     assert!(finite);
+}
+
+#[test]
+fn bypassed_it_fades_out_strikes_nothing_and_comes_back() {
+    const FRAMES: usize = 9_600;
+    const ON: usize = 2_400;
+    const OFF: usize = 7_200;
+    let _turn = alone();
+    let (first, lost, last) = (0, ON + 1_000, OFF + 1_000);
+    let strike = |offset: usize| (offset, What::NoteOn { channel: 9, key: 38, velocity: 0.8 });
+    let bypass = |offset: usize, value: f64| (offset, What::Parameter { id: host_id(BYPASS_ID), value });
+    let play = |score: &[(usize, What)], block: usize| {
+        let mut sound = [vec![0.0; FRAMES], vec![0.0; FRAMES]];
+        instance()
+            .run(RATE, 1..=block as u32, |processor| {
+                for from in (0..FRAMES).step_by(block) {
+                    let to = (from + block).min(FRAMES);
+                    let within = score.iter().filter(|(at, _)| (from..to).contains(at));
+                    let events: Vec<_> =
+                        within.map(|&(at, what)| Event { offset: (at - from) as u32, what }).collect();
+                    let [left, right] = &mut sound;
+                    processor.process(&events, &mut left[from..to], &mut right[from..to])?;
+                }
+                Ok(())
+            })
+            .unwrap();
+        sound
+    };
+    let score = [strike(first), bypass(ON, 1.0), strike(lost), bypass(OFF, 0.0), strike(last)];
+    let sound = play(&score, FRAMES);
+    for block in [64, 777] {
+        assert_same(&play(&score, block), &sound, &format!("buffers of {block}"));
+    }
+    // As the kit is without the lost stroke, but for the silence and the fades.
+    let plain = play(&[strike(first), strike(last)], FRAMES);
+    let fade = 480;
+    for (found, plain) in sound.iter().zip(&plain) {
+        assert!(found[..ON] == plain[..ON] && found[OFF + fade..] == plain[OFF + fade..]);
+        assert!(found[ON + fade..OFF].iter().all(|sample| *sample == 0.0));
+        let fades = [ON..ON + fade, OFF..OFF + fade].into_iter().flatten();
+        assert!(fades.into_iter().all(|at| found[at].abs() <= plain[at].abs()));
+    }
+    assert!(
+        peak(&[plain[0][ON..OFF].to_vec(), plain[1][ON..OFF].to_vec()]) > 1e-3,
+        "there was something to hide"
+    );
 }

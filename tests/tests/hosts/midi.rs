@@ -2,9 +2,10 @@
 
 use overhear::midi::maps::NoteMap;
 use overhear::midi_map;
-use overhear::parameters::{PARAMETERS, find};
+use overhear::parameters::{PARAMETERS, Parameter, find, host_id};
 use overhear::performer::Performer;
-use xtask::host::{Event, Instance, What, parameter_id};
+use overhear::presets::{FACTORY, Preset};
+use xtask::host::{Event, Instance, What};
 
 use crate::score::{Sound, assert_same, peak};
 use crate::{alone, instance};
@@ -15,12 +16,17 @@ const FRAMES: usize = 12_000;
 
 /// Plays events in one long buffer.
 fn play(instance: &mut Instance, events: &[(u32, What)]) -> Sound {
+    play_and_tell(instance, events).0
+}
+
+/// And the parameters that the instance said it has moved.
+fn play_and_tell(instance: &mut Instance, events: &[(u32, What)]) -> (Sound, Vec<(u32, f64)>) {
     let events: Vec<_> = events.iter().map(|&(offset, what)| Event { offset, what }).collect();
     instance
         .run(RATE, 1..=FRAMES as u32, |processor| {
             let (mut left, mut right) = (vec![0.0; FRAMES], vec![0.0; FRAMES]);
             processor.process(&events, &mut left, &mut right)?;
-            Ok([left, right])
+            Ok(([left, right], processor.moved()))
         })
         .unwrap()
 }
@@ -32,7 +38,7 @@ fn on(key: u8) -> What {
 fn set(instance: &mut Instance, name: &str, value: f32) {
     let parameter = &PARAMETERS[find(name).unwrap().0];
     let value = f64::from(parameter.normalized(value));
-    instance.set_parameters(&[(parameter_id(parameter.id), value)]).unwrap();
+    instance.set_parameters(&[(host_id(parameter.id), value)]).unwrap();
 }
 
 fn energy(sound: &Sound, from: usize) -> f32 {
@@ -165,4 +171,44 @@ fn cymbals_are_choked_as_the_rule_says_and_drums_never() {
     let drum = play(&mut instance, &[(0, on(36))]);
     let gripped = play(&mut instance, &[(0, on(36)), (2_400, What::Midi([0xA9, 36, 127]))]);
     assert_same(&gripped, &drum, "a drum under a hand");
+}
+
+#[test]
+fn a_program_change_loads_its_preset_at_its_sample_and_tells_the_host() {
+    let _turn = alone();
+    let number = FACTORY.iter().position(|(name, _)| *name == "jazz").unwrap();
+    let preset = Preset::parse("jazz", FACTORY[number].1).unwrap();
+    let change = |channel: u8| What::Midi([0xC0 | channel, number as u8, 0]);
+    let strokes = [(0, on(38)), (6_000, on(38))];
+    let plain = play(&mut instance(), &strokes);
+
+    let mut changed = instance();
+    let (sound, moved) = play_and_tell(&mut changed, &[strokes[0], (5_000, change(9)), strokes[1]]);
+    assert!(sound[0][..5_000] == plain[0][..5_000] && sound[0][6_000..] != plain[0][6_000..]);
+    let found = changed.parameters().unwrap();
+    for (index, parameter) in PARAMETERS.iter().enumerate() {
+        let wanted = f64::from(parameter.normalized(preset.value(index).unwrap_or(parameter.default)));
+        assert!((found[index].value - wanted).abs() < 1e-6, "{}", parameter.name);
+    }
+    let asked = |(index, parameter): (usize, &Parameter)| {
+        Some((host_id(parameter.id), f64::from(parameter.normalized(preset.value(index)?))))
+    };
+    assert_eq!(moved, PARAMETERS.iter().enumerate().filter_map(asked).collect::<Vec<_>>());
+
+    // As a host that moves the same parameters itself.
+    let mut by_hand = vec![strokes[0]];
+    by_hand.extend(moved.iter().map(|&(id, value)| (5_000, What::Parameter { id, value })));
+    by_hand.push(strokes[1]);
+    assert_same(&play(&mut instance(), &by_hand), &sound, "moved by the host");
+
+    let ignored = |settings: &[(&str, f32)], what: What| {
+        let mut instance = instance();
+        settings.iter().for_each(|&(name, value)| set(&mut instance, name, value));
+        let (sound, moved) = play_and_tell(&mut instance, &[strokes[0], (5_000, what), strokes[1]]);
+        assert_same(&sound, &plain, &format!("{what:?} with {settings:?}"));
+        assert!(moved.is_empty());
+    };
+    ignored(&[("program_changes", 0.0)], change(9));
+    ignored(&[("midi_channel", 10.0)], change(8));
+    ignored(&[], What::Midi([0xC9, 127, 0]));
 }

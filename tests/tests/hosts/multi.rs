@@ -1,8 +1,8 @@
 //! The instrument with an output for every piece.
 
-use overhear::parameters::find;
+use overhear::parameters::{find, host_id};
 use overhear_engine::piece::PieceId;
-use xtask::host::{Bundle, Event, Instance, What, parameter_id};
+use xtask::host::{Bundle, Event, Instance, What};
 use xtask::player::Blocks;
 use xtask::workspace::Format;
 
@@ -52,7 +52,7 @@ fn every_piece_is_at_its_own_output_and_all_are_the_mix() {
     // The mix has the overheads and the room besides, and pieces that hear each other all sound.
     let off = ["overheads_level", "room_level", "hearing"].map(|name| {
         let (_, parameter) = find(name).unwrap();
-        (parameter_id(parameter.id), f64::from(parameter.normalized(parameter.min)))
+        (host_id(parameter.id), f64::from(parameter.normalized(parameter.min)))
     });
     instance.set_parameters(&off).unwrap();
     let sound = struck(&mut instance, 1 + PieceId::KIT.len());

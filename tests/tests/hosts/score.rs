@@ -1,8 +1,8 @@
 //! A short score that uses everything, and ways to play it.
 
-use overhear::parameters::{PARAMETERS, find};
+use overhear::parameters::{PARAMETERS, find, host_id};
 use overhear::performer::{Performer, velocity_from_midi};
-use xtask::host::{Event, Instance, What, parameter_id};
+use xtask::host::{Event, Instance, What};
 use xtask::player::Blocks;
 
 /// Something that happens at a sample.
@@ -86,7 +86,7 @@ fn event(happening: Happening, offset: u64) -> Event {
         }
         Happening::Parameter(index, value) => {
             let parameter = &PARAMETERS[index];
-            What::Parameter { id: parameter_id(parameter.id), value: f64::from(parameter.normalized(value)) }
+            What::Parameter { id: host_id(parameter.id), value: f64::from(parameter.normalized(value)) }
         }
     };
     Event { offset: offset as u32, what }

@@ -1,7 +1,7 @@
 //! What a project stores and gets back.
 
-use overhear::parameters::{PARAMETERS, find};
-use xtask::host::{Instance, parameter_id};
+use overhear::parameters::{PARAMETERS, find, host_id};
+use xtask::host::Instance;
 use xtask::player::Blocks;
 
 use crate::score::{Sound, assert_same, notes, through_plugin};
@@ -18,7 +18,7 @@ fn set(instance: &mut Instance, values: &[(&str, f32)]) {
         .iter()
         .map(|&(name, value)| {
             let parameter = &PARAMETERS[find(name).unwrap().0];
-            (parameter_id(parameter.id), f64::from(parameter.normalized(value)))
+            (host_id(parameter.id), f64::from(parameter.normalized(value)))
         })
         .collect();
     instance.set_parameters(&values).unwrap();

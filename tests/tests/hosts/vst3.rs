@@ -4,9 +4,8 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
 
-use overhear::parameters::{PARAMETERS, find};
+use overhear::parameters::{BYPASS_GROUP, PARAMETERS, find, host_id};
 use serde_json::{Value, json};
-use xtask::host::parameter_id;
 use xtask::player::Blocks;
 use xtask::workspace::Format;
 
@@ -39,10 +38,12 @@ impl Drop for Scratch {
 }
 
 /// Place of a parameter in DawDreamer's list: the host goes through the plugin's groups, in the order in which
-/// they first appear, and within each through its parameters.
+/// they first appear, and within each through its parameters. The bypass comes last in its group.
 fn listed(index: usize) -> usize {
-    let group = |of: usize| PARAMETERS.iter().position(|other| other.group == PARAMETERS[of].group);
-    (0..PARAMETERS.len()).filter(|&other| (group(other), other) < (group(index), index)).count()
+    let first = |group: &str| PARAMETERS.iter().position(|other| other.group == group);
+    let place = |of: usize| (first(PARAMETERS[of].group), of);
+    let before = (0..PARAMETERS.len()).filter(|&other| place(other) < place(index)).count();
+    before + usize::from(first(BYPASS_GROUP) < first(PARAMETERS[index].group))
 }
 
 /// Plays a score through the VST3 bundle, parameters `(index, plain value)` set before.
@@ -123,7 +124,7 @@ fn vst3_parameters_are_those_of_clap() {
         .iter()
         .map(|&(index, value)| {
             let parameter = &PARAMETERS[index];
-            (parameter_id(parameter.id), f64::from(parameter.normalized(value)))
+            (host_id(parameter.id), f64::from(parameter.normalized(value)))
         })
         .collect();
     clap.set_parameters(&set).unwrap();

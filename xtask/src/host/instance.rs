@@ -55,13 +55,6 @@ pub struct ParameterInfo {
     pub value: f64,
 }
 
-/// Id in the CLAP and VST3 formats of a parameter with a text id, as the framework hashes it.
-pub fn parameter_id(id: &str) -> u32 {
-    let hash = id.bytes().fold(0u32, |hash, byte| hash.wrapping_mul(31).wrapping_add(u32::from(byte)));
-    // The highest bit belongs to the host in VST3.
-    hash & !(1 << 31)
-}
-
 /// A plugin, not processing.
 pub struct Instance {
     plugin: PluginInstance<Host>,
@@ -343,18 +336,5 @@ impl Instance {
         if self.plugin.access_shared_handler(Shared::take_callback) {
             self.plugin.call_on_main_thread_callback();
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::parameter_id;
-
-    #[test]
-    fn ids_hash_as_the_framework_documents() {
-        assert_eq!(parameter_id(""), 0);
-        assert_eq!(parameter_id("a"), 97);
-        assert_eq!(parameter_id("ab"), 97 * 31 + 98);
-        assert_eq!(parameter_id("kktune") >> 31, 0);
     }
 }

@@ -1,6 +1,7 @@
 //! The audio side of an instance.
 
 use anyhow::{Result, anyhow, ensure};
+use clack_host::events::event_types::ParamValueEvent;
 use clack_host::events::io::{EventBuffer, InputEvents, OutputEvents};
 use clack_host::prelude::*;
 use clack_host::process::StartedPluginAudioProcessor;
@@ -78,6 +79,12 @@ impl Processor {
             .map_err(|error| anyhow!("the plugin fails to process: {error}"))?;
         self.steady_time += frames as u64;
         Ok(())
+    }
+
+    /// Parameters that the plugin said it has moved in the latest buffer: id and value.
+    pub fn moved(&self) -> Vec<(u32, f64)> {
+        let values = self.output.iter().filter_map(|event| event.as_event::<ParamValueEvent>());
+        values.filter_map(|event| Some((event.param_id()?.get(), event.value()))).collect()
     }
 
     /// Asks the plugin to forget all that sounds.

@@ -1,0 +1,184 @@
+//! What happens within a slice, told to the performer at its sample.
+//!
+//! Hosts send the expressions that a note begins with behind the note, at the same sample. So notes wait until that
+//! sample's events are through.
+
+use nice_plug::midi::{Channel, Key};
+use nice_plug::prelude::*;
+
+use crate::host_parameters::HostParameters;
+use crate::outputs::Buffers;
+use crate::performer::Performer;
+
+/// Notes of one sample that can wait; more than one has limbs and pads.
+const MOST_NOTES: usize = 16;
+
+/// Renders a slice with its events, each at its sample; late ones at once, none lost. Bypassed, notes strike nothing.
+///
+/// # Real-time
+/// No allocation, no lock.
+pub fn play<S>(
+    performer: &mut Performer,
+    buffers: &mut Buffers<'_>,
+    parameters: &HostParameters,
+    mut next_event: impl FnMut() -> Option<NoteEvent<S>>,
+) {
+    let (samples, bypassed) = (buffers.len(), parameters.is_bypassed());
+    let mut notes = Notes::default();
+    let mut now = 0;
+    let mut render_until = |performer: &mut Performer, notes: &mut Notes, until: usize| {
+        if until > now {
+            notes.strike(performer);
+            let (main, mut pieces) = buffers.stretch(now, until);
+            performer.render_outputs(main, &mut pieces);
+            now = until;
+        }
+    };
+    while let Some(event) = next_event() {
+        // Events that change nothing do not cut: the engine renders whole stretches at a lower cost.
+        let Some(event) = Message::of(&event) else { continue };
+        render_until(performer, &mut notes, samples.min(event.timing as usize));
+        match event.what {
+            What::NoteOn(_) if bypassed => {}
+            What::NoteOn(velocity) => notes.add(performer, event.number, event.channel, velocity),
+            What::Place(place) => notes.place(event.number, event.channel, place),
+            What::Bend(semitones) => notes.bend(performer, event.number, event.channel, semitones),
+            _ => {
+                notes.strike(performer);
+                event.tell(performer, parameters);
+            }
+        }
+    }
+    render_until(performer, &mut notes, samples);
+    notes.strike(performer);
+}
+
+/// A note that waits for its expressions.
+#[derive(Clone, Copy)]
+struct Note {
+    number: u8,
+    channel: u8,
+    velocity: f32,
+    place: Option<f32>,
+    bend: Option<f32>,
+}
+
+/// The notes of one sample.
+#[derive(Default)]
+struct Notes {
+    waiting: [Option<Note>; MOST_NOTES],
+    count: usize,
+}
+
+impl Notes {
+    fn add(&mut self, performer: &mut Performer, number: u8, channel: u8, velocity: f32) {
+        if self.count == MOST_NOTES {
+            self.strike(performer);
+        }
+        self.waiting[self.count] = Some(Note { number, channel, velocity, place: None, bend: None });
+        self.count += 1;
+    }
+
+    /// The latest note of this number and channel that waits.
+    fn latest(&mut self, number: u8, channel: u8) -> Option<&mut Note> {
+        let waiting = self.waiting[..self.count].iter_mut().rev().flatten();
+        waiting.into_iter().find(|note| (note.number, note.channel) == (number, channel))
+    }
+
+    /// A stroke lands where it is told to; once it has landed there is nothing to move.
+    fn place(&mut self, number: u8, channel: u8, place: f32) {
+        if let Some(note) = self.latest(number, channel) {
+            note.place = Some(place);
+        }
+    }
+
+    fn bend(&mut self, performer: &mut Performer, number: u8, channel: u8, semitones: f32) {
+        match self.latest(number, channel) {
+            Some(note) => note.bend = Some(semitones),
+            None => performer.bend(number, semitones, channel),
+        }
+    }
+
+    fn strike(&mut self, performer: &mut Performer) {
+        for note in self.waiting[..self.count].iter_mut().filter_map(Option::take) {
+            performer.aim(note.place);
+            performer.note_on(note.number, note.velocity, note.channel);
+            if let Some(semitones) = note.bend {
+                performer.bend(note.number, semitones, note.channel);
+            }
+        }
+        self.count = 0;
+    }
+}
+
+/// An event that means something to the performer.
+struct Message {
+    /// Sample in the slice, or behind it.
+    timing: u32,
+    channel: u8,
+    /// Note, controller or program.
+    number: u8,
+    what: What,
+}
+
+enum What {
+    NoteOn(f32),
+    NoteOff,
+    Choke,
+    Pressure(f32),
+    /// 0 the centre to 1 the rim.
+    Place(f32),
+    /// Semitones.
+    Bend(f32),
+    Controller(f32),
+    Program,
+}
+
+impl Message {
+    fn of<S>(event: &NoteEvent<S>) -> Option<Message> {
+        let note = |timing: u32, channel: Channel, key: Key, what: What| {
+            let number = key.number()?;
+            Some(Message { timing, channel: channel.number().unwrap_or(0), number, what })
+        };
+        match *event {
+            NoteEvent::NoteOn { timing, channel, key, velocity, .. } => {
+                note(timing, channel, key, What::NoteOn(velocity))
+            }
+            NoteEvent::NoteOff { timing, channel, key, .. } => note(timing, channel, key, What::NoteOff),
+            NoteEvent::Choke { timing, channel, key, .. } => note(timing, channel, key, What::Choke),
+            NoteEvent::PolyPressure { timing, channel, key, pressure, .. } => {
+                note(timing, channel, key, What::Pressure(pressure))
+            }
+            NoteEvent::PolyBrightness { timing, channel, key, brightness, .. } => {
+                note(timing, channel, key, What::Place(brightness))
+            }
+            NoteEvent::PolyTuning { timing, channel, key, tuning, .. } => {
+                note(timing, channel, key, What::Bend(tuning))
+            }
+            NoteEvent::MidiCC { timing, channel, cc, value } => {
+                Some(Message { timing, channel, number: cc, what: What::Controller(value) })
+            }
+            NoteEvent::MidiProgramChange { timing, channel, program } => {
+                Some(Message { timing, channel, number: program, what: What::Program })
+            }
+            _ => None,
+        }
+    }
+
+    /// Tells what needs no waiting.
+    fn tell(&self, performer: &mut Performer, parameters: &HostParameters) {
+        let Message { channel, number, .. } = *self;
+        match self.what {
+            What::NoteOff => performer.note_off(number, channel),
+            What::Choke => performer.choke(number, channel),
+            What::Pressure(pressure) => performer.pressure(number, pressure, channel),
+            What::Controller(value) => performer.control_change(number, value, channel),
+            What::Program => {
+                if let Some(program) = parameters.program(number, channel) {
+                    performer.program_change(program, channel);
+                }
+            }
+            What::NoteOn(_) | What::Place(_) | What::Bend(_) => {}
+        }
+    }
+}
