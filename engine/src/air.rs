@@ -12,15 +12,21 @@
 //! per face; `omega` is where the mode rings. The substitutions under the roots take the
 //! singularity of `1 / sqrt(u^2 - x^2)` away. For a membrane `f` is known in closed form.
 //!
+//! Quadrature: `f^2` is an even entire function of `x`, so that the first integrand is one of `s`, of exponential type 2:
+//! its spectrum ends at 2, and the trapezoidal rule over all `s` is exact for every step below pi (Poisson's
+//! summation). Cut off at `s_N` with half a weight, a step of pi / 2 leaves of the tail's oscillation, which then changes sign
+//! from point to point, nothing to first order, and its mean has a closed form. The second integral is Gauss's.
+//!
 //! Limits: modes of one order are coupled a little by the air; that coupling is neglected.
 //! Source: Morse & Ingard, Theoretical Acoustics, ch. 7; Christian et al., JASA 76 (1984).
 
 use std::collections::BTreeMap;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 use serde::{Deserialize, Serialize};
 
 use crate::math::bessel::JTable;
-use crate::math::quadrature::GaussLegendre;
+use crate::math::quadrature;
 
 /// Density of air, kg/m3.
 pub const DENSITY: f64 = 1.2;
@@ -52,16 +58,18 @@ pub struct AirLoad {
 pub struct MembraneAir<'a> {
     m: u32,
     bessel: &'a JTable,
-    panel: GaussLegendre,
 }
 
 /// How far past the mode's own wavenumber the mass integral is carried; the rest has a closed form.
 const BEYOND: f64 = 40.0;
 
+/// Step of the mass integral: half the longest that is exact.
+const STEP: f64 = FRAC_PI_2;
+
 impl<'a> MembraneAir<'a> {
     /// For order `m`; `bessel` tabulates `J_m` to at least the largest zero used plus 45.
     pub fn new(m: u32, bessel: &'a JTable) -> Self {
-        MembraneAir { m, bessel, panel: GaussLegendre::unit(8) }
+        MembraneAir { m, bessel }
     }
 
     /// Argument the Bessel table must reach for modes up to the zero `j`.
@@ -72,26 +80,24 @@ impl<'a> MembraneAir<'a> {
     /// Load of the mode whose radial wavenumber is the zero `j` of `J_m`, at `u = omega a / c`.
     pub fn load(&self, j: f64, u: f64) -> AirLoad {
         let shape = HankelShape::new(self.m, j, self.bessel);
-        let square = |s: f64| shape.at((u * u - s * s).max(0.0).sqrt()).powi(2);
-        AirLoad { mass: self.mass(j, u), resistance: circle(self.m) * self.integrate(u, square) }
+        let square = |t: f64| shape.at(u * (1.0 - t * t).max(0.0).sqrt()).powi(2);
+        // Half a node for each unit of the type resolves it, some more reach rounding.
+        let rule = quadrature::shared_unit(u as usize + 12);
+        AirLoad { mass: self.mass(j, u), resistance: circle(self.m) * u * rule.integrate(square) }
     }
 
     /// The mass of [`load`](Self::load) alone.
     pub fn mass(&self, j: f64, u: f64) -> f64 {
         let shape = HankelShape::new(self.m, j, self.bessel);
-        let end = j + BEYOND;
+        let far = ((j + BEYOND).powi(2) - u * u).max(0.0).sqrt();
+        let last = (far / STEP).ceil().max(1.0);
         let square = |s: f64| shape.at((u * u + s * s).sqrt()).powi(2);
-        let near = self.integrate((end * end - u * u).max(0.0).sqrt(), square);
-        // Past `end` the squared cosine of J_m averages to a half: f^2 is 1 / (pi x^5) times this.
-        let tail = shape.scale * shape.scale / (4.0 * std::f64::consts::PI * end.powi(4));
+        let between: f64 = (1..last as usize).map(|i| square(STEP * i as f64)).sum();
+        let near = STEP * (0.5 * (square(0.0) + square(STEP * last)) + between);
+        // Past the end the squared cosine of J_m averages to a half: f^2 is 1 / (pi x^5) times this.
+        let end = u.hypot(STEP * last);
+        let tail = shape.scale * shape.scale / (4.0 * PI * end.powi(4));
         circle(self.m) * (near + tail)
-    }
-
-    /// Integral over `0..end` in panels shorter than a swing of the integrand.
-    fn integrate(&self, end: f64, f: impl Fn(f64) -> f64) -> f64 {
-        let panels = (end / 1.5).ceil().max(1.0);
-        let width = end / panels;
-        (0..panels as usize).map(|i| width * self.panel.integrate(|t| f(width * (i as f64 + t)))).sum()
     }
 
     /// The mass as a function of `u`, for solving and retuning.
@@ -100,7 +106,7 @@ impl<'a> MembraneAir<'a> {
     /// resistance within a few percent, which no curve follows and no mode survives long enough to show.
     pub fn curve(&self, j: f64) -> MassCurve {
         let most = SUBSONIC * j;
-        let logarithms = std::array::from_fn(|i| self.mass(j, most * chebyshev(i)).ln());
+        let logarithms = CHEBYSHEV.map(|place| self.mass(j, most * place).ln());
         MassCurve { most, logarithms }
     }
 }
@@ -168,10 +174,37 @@ pub struct MassCurve {
     logarithms: [f64; NODES],
 }
 
-/// The `i`-th Chebyshev node of the second kind on `0..1`.
-fn chebyshev(i: usize) -> f64 {
-    0.5 - 0.5 * (std::f64::consts::PI * i as f64 / (NODES - 1) as f64).cos()
-}
+/// Chebyshev nodes of the second kind on `0..1`, `(1 - cos(pi i / (n - 1))) / 2`.
+const CHEBYSHEV: [f64; NODES] = [
+    0.0,
+    0.003_380_821_129_028_488_4,
+    0.013_477_564_710_088_097,
+    0.030_153_689_607_045_786,
+    0.053_183_679_838_293_86,
+    0.082_256_094_293_531_76,
+    0.116_977_778_440_511,
+    0.156_879_181_065_633_2,
+    0.201_420_704_148_606_9,
+    0.249_999_999_999_999_94,
+    0.301_960_116_980_421_6,
+    0.356_598_383_644_454_84,
+    0.413_175_911_166_534_8,
+    0.470_927_585_544_762_16,
+    0.529_072_414_455_237_9,
+    0.586_824_088_833_465,
+    0.643_401_616_355_545_2,
+    0.698_039_883_019_578_4,
+    0.749_999_999_999_999_9,
+    0.798_579_295_851_393,
+    0.843_120_818_934_366_7,
+    0.883_022_221_559_489_2,
+    0.917_743_905_706_468_1,
+    0.946_816_320_161_706_1,
+    0.969_846_310_392_954_2,
+    0.986_522_435_289_911_9,
+    0.996_619_178_870_971_5,
+    1.0,
+];
 
 impl MassCurve {
     /// A mode in vacuum.
@@ -184,8 +217,8 @@ impl MassCurve {
         }
         let t = (u / self.most).clamp(0.0, 1.0);
         let (mut sum, mut total) = (0.0, 0.0);
-        for (i, logarithm) in self.logarithms.iter().enumerate() {
-            let gap = t - chebyshev(i);
+        for (i, (logarithm, node)) in self.logarithms.iter().zip(&CHEBYSHEV).enumerate() {
+            let gap = t - node;
             if gap == 0.0 {
                 return logarithm.exp();
             }
@@ -231,6 +264,16 @@ mod tests {
             let resistance = circle(m) * sum(u, 20_000, &|s| f2((u * u - s * s).sqrt()));
             assert!((load.mass / mass - 1.0).abs() < 1e-5, "({m},{n}) {} {mass}", load.mass);
             assert!((load.resistance / resistance - 1.0).abs() < 1e-4, "({m},{n})");
+        }
+    }
+
+    #[test]
+    fn the_nodes_are_chebyshevs() {
+        for (i, node) in CHEBYSHEV.into_iter().enumerate() {
+            assert!(
+                (node - 0.5 + 0.5 * (PI * i as f64 / (NODES - 1) as f64).cos()).abs() < 1e-15,
+                "{i}: {node}"
+            );
         }
     }
 

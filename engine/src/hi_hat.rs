@@ -36,6 +36,7 @@ use crate::damping::{LossLaw, Muffler, SIGMA_T60};
 use crate::error::SpecError;
 use crate::glide::Glide;
 use crate::listening::ListeningPoint;
+use crate::math::roots;
 use crate::modal::Mode;
 use crate::piece::{BuildOptions, ModeInfo, ModeKind};
 use crate::plate::PlateSpec;
@@ -174,16 +175,10 @@ impl HiHat {
     /// Where the rod is when the rims press on each other with [`CLAMPING`], m.
     fn find_closed(&self) -> f64 {
         let clamping = |y: f64| self.surface.pair().map_or(CLAMPING, |pair| pair.clamping(y));
-        let (mut low, mut high) = (GAP, GAP + 0.05);
-        for _ in 0..40 {
-            let middle = 0.5 * (low + high);
-            if clamping(middle) < CLAMPING {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        0.5 * (low + high)
+        // Far below what moves: an atom's width.
+        const TOLERANCE: f64 = 1e-11;
+        let most = GAP + 0.05;
+        roots::find(|y| clamping(y) - CLAMPING, GAP, most, TOLERANCE).unwrap_or(most)
     }
 
     /// Where the rod is with the pedal at a place, 0 to 1; m.

@@ -16,11 +16,16 @@
 //! Limits: a baffle is right for a drum's struck side at short distance; a plate in free air
 //! radiates less than this at low frequency.
 
+pub(crate) mod rings;
+
 use std::f64::consts::{PI, TAU};
 
+use overhear_kept::Shared;
+
 use crate::air::{DENSITY, SPEED_OF_SOUND};
-use crate::math::quadrature::GaussLegendre;
+use crate::math::quadrature::{self, GaussLegendre};
 use crate::piece::Member;
+use rings::Rings;
 
 /// A listening point beside a disc.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -116,13 +121,13 @@ pub struct Radiator<'a> {
 pub struct Rayleigh {
     radius: f64,
     point: ListeningPoint,
-    rule: GaussLegendre,
+    rule: Shared<GaussLegendre>,
 }
 
 impl Rayleigh {
     /// For a disc of `radius` (m). `nodes` along the radius: three a wavelength of the finest shape.
     pub fn new(radius: f64, point: ListeningPoint, nodes: usize) -> Rayleigh {
-        Rayleigh { radius, point, rule: GaussLegendre::unit(nodes) }
+        Rayleigh { radius, point, rule: quadrature::shared_unit(nodes) }
     }
 
     /// Where along the radius shapes are wanted, shares of the radius.
@@ -135,26 +140,14 @@ impl Rayleigh {
     pub fn transfer(&self, mode: &Radiator) -> [f64; 2] {
         let k = mode.omega / SPEED_OF_SOUND;
         let [height, offset] = self.point.height_and_offset();
-        // Midpoints around half the circle: exact once they outnumber the waves around it and, close by, resolve
-        // the ring right below the point.
-        let waves = f64::from(mode.m) + k * self.radius * self.point.inclination.sin();
+        // Close by, places must resolve the ring right below the point.
         let close = 4.0 / (height / (2.0 * offset).max(1e-9)).asinh();
-        let count = 8 + (0.6 * waves) as usize + (3.0 * waves.cbrt()).max(close.min(400.0)) as usize;
-        let theta = |i: usize| PI * (i as f64 + 0.5) / count as f64;
-        let around: Vec<[f64; 2]> =
-            (0..count).map(|i| [theta(i).cos(), (f64::from(mode.m) * theta(i)).cos()]).collect();
+        let rings = Rings::new(&self.point, self.radius, mode.m, k, close.min(400.0));
+        let means = rings.means(self.rule.nodes.iter().map(|r| r * self.radius));
         let (mut re, mut im) = (0.0, 0.0);
-        let rings = self.rule.nodes.iter().zip(&self.rule.weights).zip(mode.radial);
-        for ((&r, &weight), &shape) in rings {
-            let x = r * self.radius;
-            let (mut ring_re, mut ring_im) = (0.0, 0.0);
-            for [cos, turn] in &around {
-                let d = (height * height + offset * offset + x * x - 2.0 * offset * x * cos).sqrt();
-                let (sin_kd, cos_kd) = sin_cos(k * (self.point.distance - d));
-                ring_re += turn / d * cos_kd;
-                ring_im += turn / d * sin_kd;
-            }
-            let area = weight * shape * x * self.radius * TAU / count as f64;
+        let nodes = self.rule.nodes.iter().zip(&self.rule.weights).zip(mode.radial);
+        for (((&r, &weight), &shape), [ring_re, ring_im]) in nodes.zip(means) {
+            let area = TAU * weight * shape * r * self.radius * self.radius;
             re += area * ring_re;
             im += area * ring_im;
         }
@@ -167,21 +160,6 @@ impl Rayleigh {
     pub fn toward(&self, m: u32, member: Member, axis: f64) -> f64 {
         self.point.toward(m, member, axis)
     }
-}
-
-/// Sine and cosine within 1e-8, without branches, so that a loop of them goes side by side; a drum is heard by
-/// millions.
-fn sin_cos(x: f64) -> (f64, f64) {
-    /// Adding it rounds to whole numbers.
-    const ROUND: f64 = 1.5 * (1_u64 << 52) as f64;
-    // A quarter of the angle, within an eighth of a turn; then doubled twice.
-    let quarter = 0.25 * (x - TAU * ((x / TAU + ROUND) - ROUND));
-    let y = quarter * quarter;
-    let sin = quarter
-        * (1.0 - y / 6.0 * (1.0 - y / 20.0 * (1.0 - y / 42.0 * (1.0 - y / 72.0 * (1.0 - y / 110.0)))));
-    let cos = 1.0 - y / 2.0 * (1.0 - y / 12.0 * (1.0 - y / 30.0 * (1.0 - y / 56.0 * (1.0 - y / 90.0))));
-    let (sin, cos) = (2.0 * sin * cos, 1.0 - 2.0 * sin * sin);
-    (2.0 * sin * cos, 1.0 - 2.0 * sin * sin)
 }
 
 #[cfg(test)]

@@ -10,6 +10,7 @@
 //!
 //! Nothing here runs on the audio thread.
 
+use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -103,6 +104,31 @@ impl<T: Serialize + DeserializeOwned> Kept<T> {
     }
 }
 
+/// Small tables of one kind, told apart by a number, made once in a process and held for the rest of it.
+pub struct Numbered<T> {
+    held: Mutex<BTreeMap<usize, Shared<T>>>,
+}
+
+impl<T> Numbered<T> {
+    /// None yet.
+    pub const fn new() -> Numbered<T> {
+        Numbered { held: Mutex::new(BTreeMap::new()) }
+    }
+
+    /// That of a number. Whoever asks while one is made waits for it.
+    pub fn get(&self, number: usize, make: impl FnOnce() -> T) -> Shared<T> {
+        // Whole after a panic elsewhere: tables are only added.
+        let mut held = self.held.lock().unwrap_or_else(PoisonError::into_inner);
+        held.entry(number).or_insert_with(|| Arc::new(make())).clone()
+    }
+}
+
+impl<T> Default for Numbered<T> {
+    fn default() -> Numbered<T> {
+        Numbered::new()
+    }
+}
+
 /// A result from the shelf, if it is that of the key.
 fn unpack<T: DeserializeOwned>(key: &str, bytes: &[u8]) -> Option<T> {
     let (known, result): (String, T) = postcard::from_bytes(bytes).ok()?;
@@ -134,6 +160,12 @@ mod tests {
         // `a` was asked for after `b`.
         assert_eq!((*make("a", 6.0), *make("b", 7.0)), (1.0, 7.0));
         assert!(KEPT.get("d", || Err("no")).is_err());
+    }
+
+    #[test]
+    fn a_numbered_table_is_made_once() {
+        static TABLES: Numbered<usize> = Numbered::new();
+        assert_eq!((*TABLES.get(3, || 9), *TABLES.get(3, || 10), *TABLES.get(4, || 16)), (9, 9, 16));
     }
 
     #[test]

@@ -319,10 +319,9 @@ impl Shared {
         let differs = |id: PieceId, options: &BuildOptions| {
             job.former.is_none_or(|former| former.options(id, job.sample_rate) != *options)
         };
-        let wanted: Vec<(usize, PieceId, BuildOptions)> = PieceId::KIT
+        let wanted: Vec<(usize, PieceId, BuildOptions)> = PieceId::LONGEST_FIRST
             .into_iter()
-            .enumerate()
-            .map(|(slot, id)| (slot, id, job.plan.options(id, job.sample_rate)))
+            .filter_map(|id| Some((id.slot()?, id, job.plan.options(id, job.sample_rate))))
             .filter(|(_, id, options)| differs(*id, options))
             .collect();
         let (taken, given_up) = (AtomicUsize::new(0), AtomicBool::new(false));

@@ -138,7 +138,7 @@ fn build() -> Result<(f64, f64)> {
     let start = Instant::now();
     let kit: Vec<_> = thread::scope(|scope| {
         let work = || {
-            let next = || PieceId::KIT.get(taken.fetch_add(1, Ordering::Relaxed));
+            let next = || PieceId::LONGEST_FIRST.get(taken.fetch_add(1, Ordering::Relaxed));
             let pieces = std::iter::from_fn(|| Some(Piece::new(*next()?, &options(Quality::Standard))));
             pieces.collect::<Vec<_>>()
         };

@@ -36,7 +36,7 @@ use crate::cavity::CavityOrder;
 use crate::drum::shadow;
 use crate::math::bessel::JTable;
 use crate::math::eigen;
-use crate::math::quadrature::GaussLegendre;
+use crate::math::quadrature;
 use crate::membrane::{Membrane, MembraneMode};
 
 /// What surrounds the drum.
@@ -252,36 +252,34 @@ impl<'a> OrderProblem<'a> {
     ) -> f64 {
         let radius = self.batter.membrane.spec().radius;
         let u = omega * radius / SPEED_OF_SOUND;
-        let panels = (u / 1.5).ceil().max(1.0);
-        let rule = GaussLegendre::unit(8);
-        let mut sum = 0.0;
-        for panel in 0..panels as usize {
-            for (node, weight) in rule.nodes.iter().zip(&rule.weights) {
-                let s = u / panels * (panel as f64 + node);
-                let x = (u * u - s * s).max(0.0).sqrt();
+        let apart = match self.outside {
+            Outside::Baffle => None,
+            Outside::Free { length } => Some(length / radius + 8.0 / (3.0 * std::f64::consts::PI)),
+        };
+        // A quarter of a node for each radian that the integrand swings over the interval, and some.
+        let rule = quadrature::shared_unit((0.3 * (2.0 + apart.unwrap_or(0.0)) * u) as usize + 10);
+        let power = |t: f64| {
+            let (s, x) = (u * t, u * (1.0 - t * t).max(0.0).sqrt());
+            let mut face = [0.0; 2];
+            if outlet != 0.0 {
                 // The Hankel transform of a piston.
-                let piston = if x < 1e-6 { 0.5 } else { libm::j1(x) / x };
-                let mut face = [0.0, outlet * piston];
-                let bessel = self.bessel.value(x);
-                for ((part, shape), q) in parts.iter().zip(shapes).zip(vector) {
-                    face[usize::from(part.far)] += q * shape.of_bessel(x, bessel);
-                }
-                let [near, far] = face;
-                let power = match self.outside {
-                    Outside::Baffle => near * near,
-                    Outside::Free { length } => {
-                        let apart = (length / radius + 8.0 / (3.0 * std::f64::consts::PI)) * s;
-                        near * near + far * far - 2.0 * near * far * apart.cos()
-                    }
-                };
-                sum += u / panels * weight * power;
+                face[1] = outlet * if x < 1e-6 { 0.5 } else { libm::j1(x) / x };
             }
-        }
+            let bessel = self.bessel.value(x);
+            for ((part, shape), q) in parts.iter().zip(shapes).zip(vector) {
+                face[usize::from(part.far)] += q * shape.of_bessel(x, bessel);
+            }
+            let [near, far] = face;
+            match apart {
+                None => near * near,
+                Some(apart) => near * near + far * far - 2.0 * near * far * (apart * s).cos(),
+            }
+        };
         let space = match self.outside {
             Outside::Baffle => 1.0,
             Outside::Free { .. } => 0.5 + (shadow::baffling(u) - 1.0) / 6.0,
         };
-        air::circle(self.m) * space * sum
+        air::circle(self.m) * space * u * rule.integrate(power)
     }
 }
 

@@ -5,7 +5,7 @@ use crate::math::bessel;
 fn the_quick_sine_and_cosine_are_right_to_1e_8() {
     for i in -4000..4000 {
         let x = 0.0123 * f64::from(i);
-        let (sin, cos) = sin_cos(x);
+        let (sin, cos) = rings::sin_cos(x);
         assert!((sin - x.sin()).abs() < 1e-8 && (cos - x.cos()).abs() < 1e-8, "{x}: {sin} {cos}");
     }
 }

@@ -12,6 +12,7 @@
 //!
 //! Limits: `x >= 0`. Absolute error about 1e-15 for `J_m`; relative error about 1e-14 for `I_m`.
 
+pub(crate) mod lanes;
 mod table;
 mod zeros;
 
@@ -54,47 +55,6 @@ pub fn j_pair(m: u32, x: f64) -> (f64, f64) {
     (value, below - f64::from(m) / x * value)
 }
 
-/// Fills `out` with `J_0(x)`, `J_1(x)`, ... by one descending recurrence.
-pub fn j_orders(x: f64, out: &mut [f64]) {
-    out.fill(0.0);
-    if x == 0.0 {
-        if let Some(first) = out.first_mut() {
-            *first = 1.0;
-        }
-        return;
-    }
-    // From max(m, x) on, J falls by at least exp(-(2/3) sqrt(2) d^1.5 / sqrt(m)) over d orders.
-    let top = (out.len() as f64).max(x);
-    let start = (top + 20.0 + (60.0 * top).sqrt()) as usize;
-    let (mut above, mut value) = (0.0, 1e-30);
-    let mut norm = 0.0;
-    for k in (0..=start).rev() {
-        // `value` is J_k up to a common factor.
-        if k < out.len() {
-            out[k] = value;
-        }
-        if k % 2 == 0 {
-            norm += if k == 0 { value } else { 2.0 * value };
-        }
-        if k == 0 {
-            break;
-        }
-        let below = 2.0 * k as f64 / x * value - above;
-        (above, value) = (value, below);
-        if value.abs() > MILLER_LARGE {
-            for scaled in [&mut above, &mut value, &mut norm] {
-                *scaled /= MILLER_LARGE;
-            }
-            for stored in out.iter_mut().skip(k) {
-                *stored /= MILLER_LARGE;
-            }
-        }
-    }
-    for stored in out {
-        *stored /= norm;
-    }
-}
-
 /// Scaled modified Bessel function `e^-x I_m(x)`.
 pub fn i_scaled(m: u32, x: f64) -> f64 {
     i_scaled_pair(m, x).0
@@ -112,11 +72,6 @@ pub fn i_scaled_pair(m: u32, x: f64) -> (f64, f64) {
     let [value, above] = kept;
     let slope = if x == 0.0 { if m == 1 { 0.5 } else { 0.0 } } else { above + f64::from(m) / x * value };
     (value, slope)
-}
-
-/// Fills `out` with `e^-x I_0(x)`, `e^-x I_1(x)`, ... by one descending recurrence.
-pub fn i_scaled_orders(x: f64, out: &mut [f64]) {
-    i_miller(0, x, out);
 }
 
 /// Fills `out` with `e^-x I_m(x)` for `m = first, first + 1, ...`.
@@ -212,17 +167,39 @@ mod tests {
 
     #[test]
     fn all_orders_at_once_agree_with_single_orders() {
-        let mut all = [0.0; 120];
-        for x in [0.0, 0.003, 0.7, 5.0, 59.9, 112.0] {
-            j_orders(x, &mut all);
-            for (m, &value) in (0..).zip(&all) {
-                assert!((value - j(m, x)).abs() < 1e-14, "J_{m}({x})");
+        let mut all = [[0.0; lanes::LANES]; 120];
+        for x in [[0.02, 0.03, 0.5, 0.7, 1.0, 5.0, 59.9, 112.0], [112.5; 8], [0.02; 8], [300.0; 8]] {
+            lanes::j_orders(&x, &mut all);
+            for (m, row) in (0..).zip(&all) {
+                for (&x, &value) in x.iter().zip(row) {
+                    assert!((value - j(m, x)).abs() < 1e-14, "J_{m}({x})");
+                }
             }
-            i_scaled_orders(x, &mut all);
-            for (m, &value) in (0..).zip(&all) {
-                let single = i_scaled(m, x);
-                assert!((value - single).abs() <= 1e-13 * single, "I_{m}({x})");
+            lanes::i_scaled_orders(&x, &mut all);
+            for (m, row) in (0..).zip(&all) {
+                for (&x, &value) in x.iter().zip(row) {
+                    let single = i_scaled(m, x);
+                    assert!((value - single).abs() <= 1e-13 * single + 1e-300, "I_{m}({x})");
+                }
             }
+        }
+    }
+
+    #[test]
+    fn spherical_functions_are_theirs() {
+        use std::f64::consts::PI;
+        let mut all = [[0.0; lanes::LANES]; 30];
+        let x = [1e-3, 0.4, 3.0, PI, 17.0, 44.0, 90.0, 91.0];
+        lanes::spherical_orders(&x, &mut all);
+        for (lane, x) in x.into_iter().enumerate() {
+            let out = all.map(|row| row[lane]);
+            let (sin, cos) = x.sin_cos();
+            let j1 = sin / (x * x) - cos / x;
+            assert!((out[0] - sin / x).abs() < 1e-12 / x.max(1.0));
+            assert!((out[1] - j1).abs() < 1e-10 * (1.0 / x).clamp(1e-2, 1.0), "{x}: {} {j1}", out[1]);
+            // The recurrence holds throughout.
+            let want = 13.0 / x * out[6] - out[5];
+            assert!((out[7] - want).abs() < 1e-9 * (out[5].abs() + 13.0 / x * out[6].abs()).max(1e-300));
         }
     }
 

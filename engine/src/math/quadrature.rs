@@ -5,8 +5,9 @@
 //!
 //! Source: Abramowitz & Stegun, 25.4.29 and 22.16.6. Checked up to 512 nodes.
 
-use std::collections::BTreeMap;
 use std::f64::consts::PI;
+
+use overhear_kept::{Numbered, Shared};
 
 /// Nodes and weights on an interval.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,16 +45,11 @@ impl GaussLegendre {
     }
 }
 
-/// Rules on `0..1` that have been asked for: where every mode of a plate wants the same few hundred, finding their
-/// nodes takes longer than what is integrated with them (*measured*: a tenth of building a kit).
-#[derive(Debug, Clone, Default)]
-pub struct Rules(BTreeMap<usize, GaussLegendre>);
-
-impl Rules {
-    /// The rule of `n` nodes.
-    pub fn unit(&mut self, n: usize) -> &GaussLegendre {
-        self.0.entry(n).or_insert_with(|| GaussLegendre::unit(n))
-    }
+/// The rule of `n` nodes on `0..1`, found once in a process: thousands of modes want the same few hundred rules, and
+/// finding their nodes takes longer than what is integrated with them (*measured*: a tenth of building a kit).
+pub fn shared_unit(n: usize) -> Shared<GaussLegendre> {
+    static RULES: Numbered<GaussLegendre> = Numbered::new();
+    RULES.get(n, || GaussLegendre::unit(n))
 }
 
 /// The `i`-th node of `n` from the right end of `-1..1`, and its weight.

@@ -27,17 +27,21 @@
 //!
 //! Limits: plane disc; the dome and the bell are neglected, as is the air's mass in the frequencies.
 
-use std::cell::RefCell;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use nalgebra::{Complex, DMatrix, DVector};
+use overhear_kept::Shared;
+use pulp::{Arch, Simd, WithSimd};
 
 use serde::{Deserialize, Serialize};
 
 use super::radial::angular_norm;
 use crate::air::{DENSITY, SPEED_OF_SOUND};
+use crate::listening::rings::Rings;
 use crate::listening::{ListeningPoint, Radiator};
-use crate::math::quadrature::{GaussLegendre, Rules};
+use crate::math::bessel;
+use crate::math::bessel::lanes::LANES;
+use crate::math::quadrature::{self, GaussLegendre};
 
 /// What a mode does to the air.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -55,9 +59,7 @@ pub struct Radiated {
 pub struct FreeDisc {
     radius: f64,
     points: [ListeningPoint; 2],
-    rule: GaussLegendre,
-    /// For the integrals of the impedance.
-    rules: RefCell<Rules>,
+    rule: Shared<GaussLegendre>,
 }
 
 /// Functions beyond those that a shape of the mode's fineness needs. *Measured*: more change nothing by 1 %.
@@ -66,7 +68,7 @@ const MARGIN: f64 = 6.0;
 impl FreeDisc {
     /// For a disc of `radius` (m). `nodes` along the radius: three a wavelength of the finest shape.
     pub fn new(radius: f64, points: [ListeningPoint; 2], nodes: usize) -> FreeDisc {
-        FreeDisc { radius, points, rule: GaussLegendre::unit(nodes), rules: RefCell::default() }
+        FreeDisc { radius, points, rule: quadrature::shared_unit(nodes) }
     }
 
     /// Where along the radius shapes are wanted, shares of the radius.
@@ -88,10 +90,7 @@ impl FreeDisc {
                 Complex::from(terms.map(|(((r, w), shape), phi)| r * w * shape * phi).sum::<f64>())
             }),
         );
-        let solved = impedance(m, count, u, &mut self.rules.borrow_mut())
-            .lu()
-            .solve(&drive)
-            .unwrap_or_else(|| DVector::zeros(count));
+        let solved = impedance(m, count, u).lu().solve(&drive).unwrap_or_else(|| DVector::zeros(count));
         // Per unit acceleration into the face.
         let jump = solved * Complex::new(0.0, 2.0 * DENSITY * self.radius);
         let load: Complex<f64> = jump.iter().zip(drive.iter()).map(|(a, b)| a * b).sum();
@@ -137,25 +136,15 @@ impl FreeDisc {
     /// Pressure at a point of a jump on the grid.
     fn hear(&self, point: &ListeningPoint, mode: &Radiator, jump: &[Complex<f64>]) -> [f64; 2] {
         let k = mode.omega / SPEED_OF_SOUND;
-        let (sin, cos) = point.inclination.sin_cos();
-        let (height, offset) = (point.distance * cos, point.distance * sin);
-        let waves = f64::from(mode.m) + k * self.radius * sin;
-        let count = 8 + (0.6 * waves) as usize + (3.0 * waves.cbrt()) as usize;
-        let places: Vec<(f64, f64)> = (0..count)
-            .map(|i| PI * (i as f64 + 0.5) / count as f64)
-            .map(|theta| (theta.cos(), (f64::from(mode.m) * theta).cos()))
-            .collect();
+        let [height, _] = point.height_and_offset();
+        let rings = Rings::new(point, self.radius, mode.m, k, 0.0);
+        let means = rings.steep_means(self.rule.nodes.iter().map(|r| r * self.radius));
         let mut sum = Complex::new(0.0, 0.0);
-        for ((&r, &weight), &jump) in self.rule.nodes.iter().zip(&self.rule.weights).zip(jump) {
-            let x = r * self.radius;
-            let mut ring = Complex::new(0.0, 0.0);
-            for &(cos, around) in &places {
-                let d = (height * height + offset * offset + x * x - 2.0 * offset * x * cos).sqrt();
-                let (sin_kd, cos_kd) = (k * (point.distance - d)).sin_cos();
-                let slope = Complex::new(1.0 / d, k) * Complex::new(cos_kd, sin_kd);
-                ring += slope * (around * height / (d * d));
-            }
-            sum += jump * ring * (weight * x * self.radius * TAU / count as f64);
+        let nodes = self.rule.nodes.iter().zip(&self.rule.weights).zip(jump);
+        for (((&r, &weight), &jump), [[re, im], [steep_re, steep_im]]) in nodes.zip(means) {
+            // (1 / d + i k) e^(i k (D - d)) / d^2
+            let ring = Complex::new(steep_re - k * im, steep_im + k * re);
+            sum += jump * ring * (TAU * weight * r * self.radius * self.radius * height);
         }
         let out = sum / (4.0 * PI);
         [out.re, out.im]
@@ -163,66 +152,76 @@ impl FreeDisc {
 }
 
 /// `int phi_i phi_j k_z x dx` of order `m` at `u = omega a / c`, in units of the radius.
-fn impedance(m: usize, count: usize, u: f64, rules: &mut Rules) -> DMatrix<Complex<f64>> {
+fn impedance(m: usize, count: usize, u: f64) -> DMatrix<Complex<f64>> {
     let highest = m + 2 * count;
-    let mut out = DMatrix::from_diagonal(&DVector::from_iterator(
-        count,
-        (0..count).map(|i| Complex::new(0.0, -PI / (2.0 * (2.0 * (m + 2 * i + 1) as f64 + 1.0)))),
-    ));
-    let mut waves = vec![0.0; highest + 1];
-    let mut add = |x: f64, weight: Complex<f64>| {
-        spherical_bessel(x, &mut waves);
-        let row: Vec<f64> = waves[m + 1..].iter().step_by(2).take(count).copied().collect();
-        for i in 0..count {
-            if row[i] == 0.0 {
-                continue;
-            }
-            for j in 0..=i {
-                out[(i, j)] += weight * (row[i] * row[j]);
-            }
-        }
-    };
     // What differs from zero frequency: below u, x = u sin(phi) ...
-    let below = rules.unit(u as usize + 12);
-    for (t, w) in below.nodes.iter().zip(&below.weights) {
-        let (phi, w) = (FRAC_PI_2 * t, FRAC_PI_2 * w);
-        let (sin, cos) = phi.sin_cos();
-        add(u * sin, Complex::new(u * cos, u * sin) * (w * cos / sin));
-    }
+    let below = quadrature::shared_unit(u as usize + 12);
+    let places = below.nodes.iter().zip(&below.weights).map(|(t, w)| {
+        let (sin, cos) = (FRAC_PI_2 * t).sin_cos();
+        let weight = FRAC_PI_2 * u * w * cos / sin;
+        Place { x: u * sin, weights: [weight * cos, weight * sin] }
+    });
     // ... and above, x = sqrt(u^2 + s^2), until the difference has died away.
     let reach = 1.5 * (highest as f64).max(u) + 12.0;
-    let above = rules.unit((0.8 * reach) as usize + 8);
-    for (t, w) in above.nodes.iter().zip(&above.weights) {
-        let (s, w) = (reach * t, reach * w);
+    let above = quadrature::shared_unit((0.8 * reach) as usize + 8);
+    let beyond = above.nodes.iter().zip(&above.weights).map(|(t, w)| {
+        let s = reach * t;
         let x = u.hypot(s);
-        add(x, Complex::new(0.0, (x - s) * s / (x * x) * w));
+        Place { x, weights: [0.0, (x - s) * s / (x * x) * reach * w] }
+    });
+    let places: Vec<Place> = places.chain(beyond).collect();
+    let mut waves = vec![[0.0; LANES]; highest + 1];
+    let mut row = vec![0.0; count];
+    let mut parts = [vec![0.0; count * count], vec![0.0; count * count]];
+    for places in places.chunks(LANES) {
+        // What is to spare repeats the last.
+        bessel::lanes::spherical_orders(
+            &std::array::from_fn(|lane| places[lane.min(places.len() - 1)].x),
+            &mut waves,
+        );
+        for (lane, place) in places.iter().enumerate() {
+            row.iter_mut().zip(waves[m + 1..].iter().step_by(2)).for_each(|(to, from)| *to = from[lane]);
+            Arch::new().dispatch(Products { parts: &mut parts, weights: place.weights, values: &row });
+        }
     }
-    out.fill_upper_triangle_with_lower_triangle();
-    out
+    let [re, im] = parts;
+    DMatrix::from_fn(count, count, |i, j| {
+        let at = i.max(j) * count + i.min(j);
+        let still = if i == j { -PI / (2.0 * (2.0 * (m + 2 * i + 1) as f64 + 1.0)) } else { 0.0 };
+        Complex::new(re[at], im[at] + still)
+    })
 }
 
-/// Spherical Bessel functions `j_0..` at `x > 0`, by descending recurrence.
-fn spherical_bessel(x: f64, out: &mut [f64]) {
-    out.fill(0.0);
-    let top = out.len() - 1;
-    // Above x the functions fall off; so far above, they are nothing.
-    let start = (x + 12.0 * x.cbrt() + 26.0) as usize;
-    let (mut above, mut now) = (0.0, 1e-200);
-    for n in (0..=start).rev() {
-        if n <= top {
-            out[n] = now;
-        }
-        (above, now) = (now, (2 * n + 1) as f64 / x * now - above);
-        if now.abs() > 1e200 {
-            above *= 1e-200;
-            now *= 1e-200;
-            out[n.min(top + 1)..].iter_mut().for_each(|value| *value *= 1e-200);
+/// A node of the impedance's integrals: the wave number, and the weight's two parts.
+struct Place {
+    x: f64,
+    weights: [f64; 2],
+}
+
+/// Adds the products of all values with all, weighted, to the lower triangles of matrices, row by row.
+struct Products<'a> {
+    parts: &'a mut [Vec<f64>; 2],
+    weights: [f64; 2],
+    values: &'a [f64],
+}
+
+impl WithSimd for Products<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let count = self.values.len();
+        for (matrix, weight) in self.parts.iter_mut().zip(self.weights) {
+            for i in 0..count {
+                let share = weight * self.values[i];
+                // Far above x, and of one of the parts, there is nothing.
+                if share != 0.0 {
+                    for (sum, other) in matrix[i * count..][..i + 1].iter_mut().zip(self.values) {
+                        *sum += share * other;
+                    }
+                }
+            }
         }
     }
-    // `now` is the function of order -1, cos(x) / x; of that and order 0 one is never small.
-    let (sin, cos) = x.sin_cos();
-    let scale = if sin.abs() > cos.abs() { sin / x / out[0] } else { cos / x / now };
-    out.iter_mut().for_each(|value| *value *= scale);
 }
 
 #[cfg(test)]
@@ -236,21 +235,6 @@ mod tests {
         let disc = FreeDisc::new(A, [POINT; 2], 48);
         let radial = vec![1.0; 48];
         disc.radiate(&Radiator { m: 0, radial: &radial, omega: u * SPEED_OF_SOUND / A }, 0.0)
-    }
-
-    #[test]
-    fn spherical_bessel_functions_are_theirs() {
-        for x in [1e-3, 0.4, 3.0, PI, 17.0, 90.0] {
-            let mut out = [0.0; 30];
-            spherical_bessel(x, &mut out);
-            let (sin, cos) = x.sin_cos();
-            let j1 = sin / (x * x) - cos / x;
-            assert!((out[0] - sin / x).abs() < 1e-12 / x.max(1.0));
-            assert!((out[1] - j1).abs() < 1e-10 * (1.0 / x).clamp(1e-2, 1.0), "{x}: {} {j1}", out[1]);
-            // The recurrence holds throughout.
-            let want = 13.0 / x * out[6] - out[5];
-            assert!((out[7] - want).abs() < 1e-9 * (out[5].abs() + 13.0 / x * out[6].abs()).max(1e-300));
-        }
     }
 
     #[test]

@@ -4,7 +4,7 @@
 //! `h^4 / 384` times the fourth derivative, which never exceeds 1 for `J_m` and 35/8 for `e^-x I_m`
 //! (`m = 0`, at the centre): below 2e-9 and 7e-9.
 
-use super::{i_scaled_orders, j_orders};
+use super::lanes::{LANES, Lanes, i_scaled_orders, j_orders};
 
 /// Grid points per unit of the argument.
 const DENSITY: f64 = 36.0;
@@ -25,20 +25,13 @@ impl JTable {
         all.swap_remove(m as usize)
     }
 
-    /// Tabulates every order `0..=max_order`; one descending recurrence per grid point.
+    /// Tabulates every order `0..=max_order`; one descending recurrence for eight grid points.
     pub fn orders(max_order: u32, x_max: f64) -> Vec<JTable> {
-        let mut values = vec![0.0; max_order as usize + 2];
-        let fill = |x: f64, nodes: &mut [[f64; 2]]| {
-            j_orders(x, &mut values);
-            for (m, node) in nodes.iter_mut().enumerate() {
-                let slope = match m {
-                    0 => -values[1],
-                    _ => 0.5 * (values[m - 1] - values[m + 1]),
-                };
-                *node = [values[m], slope];
-            }
+        let slope = |m: usize, values: &[Lanes], lane: usize| match m {
+            0 => -values[1][lane],
+            _ => 0.5 * (values[m - 1][lane] - values[m + 1][lane]),
         };
-        grids(max_order, x_max, fill).map(JTable).collect()
+        grids(max_order, x_max, j_orders, slope).map(JTable).collect()
     }
 
     /// `J_m(x)`. Arguments beyond the table read its last value.
@@ -55,20 +48,16 @@ impl JTable {
 }
 
 impl ITable {
-    /// Tabulates every order `0..=max_order`; one descending recurrence per grid point.
+    /// Tabulates every order `0..=max_order`; one descending recurrence for eight grid points.
     pub fn orders(max_order: u32, x_max: f64) -> Vec<ITable> {
-        let mut values = vec![0.0; max_order as usize + 2];
-        let fill = |x: f64, nodes: &mut [[f64; 2]]| {
-            i_scaled_orders(x, &mut values);
-            for (m, node) in nodes.iter_mut().enumerate() {
-                let derivative = match m {
-                    0 => values[1],
-                    _ => 0.5 * (values[m - 1] + values[m + 1]),
-                };
-                *node = [values[m], derivative - values[m]];
-            }
+        let slope = |m: usize, values: &[Lanes], lane: usize| {
+            let derivative = match m {
+                0 => values[1][lane],
+                _ => 0.5 * (values[m - 1][lane] + values[m + 1][lane]),
+            };
+            derivative - values[m][lane]
         };
-        grids(max_order, x_max, fill).map(ITable).collect()
+        grids(max_order, x_max, i_scaled_orders, slope).map(ITable).collect()
     }
 
     /// `e^-x I_m(x)`. Arguments beyond the table read its last value.
@@ -109,23 +98,33 @@ impl Grid {
     }
 }
 
-/// One grid per order; `fill(x, nodes)` writes value and slope of every order at `x`.
+/// One grid per order: `fill` works out all orders, one more than are kept, at eight points, `slope` says how steep one
+/// of them is at one.
 fn grids(
     max_order: u32,
     x_max: f64,
-    mut fill: impl FnMut(f64, &mut [[f64; 2]]),
+    fill: impl Fn(&Lanes, &mut [Lanes]),
+    slope: impl Fn(usize, &[Lanes], usize) -> f64,
 ) -> impl Iterator<Item = Grid> {
     let orders = max_order as usize + 1;
     let points = (x_max.max(0.0) * DENSITY).ceil() as usize + 2;
-    let mut grids = vec![Vec::with_capacity(points); orders];
-    let mut nodes = vec![[0.0; 2]; orders];
-    for i in 0..points {
-        fill(i as f64 / DENSITY, &mut nodes);
-        for (grid, &node) in grids.iter_mut().zip(&nodes) {
-            grid.push(node);
+    let mut values = vec![[0.0; LANES]; orders + 1];
+    let mut grids = vec![Vec::with_capacity(points.next_multiple_of(LANES)); orders];
+    for first in (0..points).step_by(LANES) {
+        // The recurrence has no beginning at 0, where all orders but the lowest are nothing.
+        fill(&std::array::from_fn(|lane| (first + lane).max(1) as f64 / DENSITY), &mut values);
+        if first == 0 {
+            values.iter_mut().for_each(|row| row[0] = 0.0);
+            values[0][0] = 1.0;
+        }
+        for (m, grid) in grids.iter_mut().enumerate() {
+            grid.extend((0..LANES).map(|lane| [values[m][lane], slope(m, &values, lane)]));
         }
     }
-    grids.into_iter().map(|nodes| Grid { nodes })
+    grids.into_iter().map(move |mut nodes| {
+        nodes.truncate(points);
+        Grid { nodes }
+    })
 }
 
 #[cfg(test)]
