@@ -192,8 +192,6 @@ impl NiceEguiApp for App {
         theme::apply(&context);
         let light = self.sources.parameters.view().light;
         theme::choose(&context, light);
-        let palette = if light { &theme::LIGHT } else { &theme::DARK };
-        frame.set_clear_color(palette.background.into());
         self.gui = Some(gui);
         if draws_in_software(frame) {
             self.interval = SOFTWARE_INTERVAL;
@@ -205,7 +203,7 @@ impl NiceEguiApp for App {
 
     fn ui(&mut self, ui: &mut egui::Ui, frame: &mut Frame) {
         let Some(gui) = &self.gui else { return };
-        frame.set_clear_color(theme::of(ui).background.into());
+        frame.set_clear_color(as_written(theme::of(ui).background));
         self.watch.get_or_insert_with(|| {
             let (sound, parameters) = (self.sources.viewer.sound().clone(), self.sources.parameters.clone());
             Watch::new(ui.ctx().clone(), sound, parameters)
@@ -232,6 +230,12 @@ impl NiceEguiApp for App {
         let size = size.logical;
         self.sources.parameters.set_window((size.width.round() as u32, size.height.round() as u32));
     }
+}
+
+/// A colour to clear with, which goes to the screen as it is: no light is computed from it.
+fn as_written(colour: egui::Color32) -> egui::Rgba {
+    let [red, green, blue, _] = colour.to_array().map(|channel| f32::from(channel) / 255.0);
+    egui::Rgba::from_rgb(red, green, blue)
 }
 
 /// Whether the processor draws rather than a graphics card.
