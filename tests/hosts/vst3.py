@@ -1,7 +1,8 @@
 """Renders one job through a VST3 bundle with DawDreamer.
 
 The argument is a JSON file: plugin, rate, block, frames, notes [[sample, key, velocity]],
-parameters [[index, share of the range]], out. Left and then right samples are written to `out`
+parameters [[index, share of the range]], automation [[index, [share of the range for each block]]],
+load and save (files of a state, or null), out. Left and then right samples are written to `out`
 as little-endian 32-bit floats.
 """
 
@@ -16,9 +17,16 @@ with open(sys.argv[1]) as file:
 
 engine = dawdreamer.RenderEngine(job["rate"], job["block"])
 plugin = engine.make_plugin_processor("overhear", job["plugin"])
+if job["load"]:
+    plugin.load_state(job["load"])
 for index, value in job["parameters"]:
     if not plugin.set_parameter(index, value):
         sys.exit(f"parameter {index} is refused")
+for index, values in job["automation"]:
+    # Looked up at each block's start, give or take a sample: let the value hold on both sides of it.
+    values = numpy.roll(numpy.repeat(numpy.float32(values), job["block"]), -job["block"] // 2)
+    if not plugin.set_automation(index, values):
+        sys.exit(f"automation of parameter {index} is refused")
 for sample, key, velocity in job["notes"]:
     # DawDreamer takes seconds and cuts them to a sample: aim behind its start, not at it.
     start = (sample + 0.25) / job["rate"]
@@ -30,3 +38,5 @@ sound = engine.get_audio()[:2, : job["frames"]]
 if sound.shape != (2, job["frames"]):
     sys.exit(f"the host gave samples of the shape {sound.shape}")
 sound.astype("<f4").tofile(job["out"])
+if job["save"]:
+    plugin.save_state(job["save"])

@@ -314,4 +314,4 @@ unsafe extern "C" fn note_name(plugin: *const clap_plugin, index: u32, into: *mu
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

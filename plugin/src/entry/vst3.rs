@@ -1,24 +1,25 @@
 //! The VST3 entry: both instruments, each behind a guard.
 //!
-//! A guard is an object with all interfaces of the framework's, which it owns and passes every call on to but
-//! two: it prepares scratch when processing is set up, and completes the outputs of `process`.
+//! A guard is an object with all interfaces of the framework's, which it owns and passes calls on to. Its own are: it
+//! prepares scratch when processing is set up, completes the outputs of `process`, and tells units and the names of
+//! notes.
 #![allow(non_snake_case)]
 
 use std::cell::UnsafeCell;
 use std::ffi::c_void;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
 use nice_plug::prelude::*;
 use nice_plug::wrapper::setup_logger;
 use nice_plug::wrapper::vst3::vst3::Steinberg::Vst::ChannelContext::{IInfoListener, IInfoListenerTrait};
 use nice_plug::wrapper::vst3::vst3::Steinberg::Vst::{
-    AudioBusBuffers, AudioBusBuffers__type0, BusDirection, BusInfo, CString, CtrlNumber, IAttributeList,
+    AudioBusBuffers, AudioBusBuffers__type0, BusDirection, BusInfo, CtrlNumber, IAttributeList,
     IAudioProcessor, IAudioProcessorTrait, IComponent, IComponentHandler, IComponentTrait, IEditController,
     IEditControllerTrait, IMidiMapping, IMidiMappingTrait, INoteExpressionController,
     INoteExpressionControllerTrait, IProcessContextRequirements, IProcessContextRequirementsTrait, IUnitInfo,
-    IUnitInfoTrait, IoMode, MediaType, NoteExpressionTypeID, NoteExpressionTypeInfo, NoteExpressionValue,
-    ParamID, ParamValue, ParameterInfo, ProcessData, ProcessSetup, ProgramListID, ProgramListInfo,
-    RoutingInfo, SpeakerArrangement, String128, TChar, UnitID, UnitInfo,
+    IoMode, MediaType, NoteExpressionTypeID, NoteExpressionTypeInfo, NoteExpressionValue, ParamID,
+    ParamValue, ParameterInfo, ProcessData, ProcessSetup, RoutingInfo, SpeakerArrangement, String128, TChar,
 };
 use nice_plug::wrapper::vst3::vst3::Steinberg::{
     FIDString, FUnknown, IBStream, IPlugView, IPluginBaseTrait, IPluginFactory, IPluginFactory2,
@@ -234,22 +235,7 @@ pass_on!(IProcessContextRequirementsTrait {
     getProcessContextRequirements() -> uint32;
 });
 
-pass_on!(IUnitInfoTrait {
-    getUnitCount() -> int32;
-    getUnitInfo(index: int32, info: *mut UnitInfo) -> tresult;
-    getProgramListCount() -> int32;
-    getProgramListInfo(index: int32, info: *mut ProgramListInfo) -> tresult;
-    getProgramName(list: ProgramListID, index: int32, name: *mut String128) -> tresult;
-    getProgramInfo(list: ProgramListID, index: int32, id: CString, value: *mut String128) -> tresult;
-    hasProgramPitchNames(list: ProgramListID, index: int32) -> tresult;
-    getProgramPitchName(list: ProgramListID, index: int32, pitch: int16, name: *mut String128) -> tresult;
-    getSelectedUnit() -> UnitID;
-    selectUnit(id: UnitID) -> tresult;
-    getUnitByBus(
-        media: MediaType, direction: BusDirection, bus: int32, channel: int32, id: *mut UnitID
-    ) -> tresult;
-    setUnitProgramData(list: int32, index: int32, data: *mut IBStream) -> tresult;
-});
+mod units;
 
 pass_on!(IInfoListenerTrait {
     setChannelContextInfos(list: *mut IAttributeList) -> tresult;

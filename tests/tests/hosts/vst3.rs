@@ -46,19 +46,38 @@ fn listed(index: usize) -> usize {
     before + usize::from(first(BYPASS_GROUP) < first(PARAMETERS[index].group))
 }
 
-/// Plays a score through the VST3 bundle, parameters `(index, plain value)` set before.
-fn through_vst3(name: &str, score: &Score, parameters: &[(usize, f32)], rate: f64, block: u32) -> Sound {
-    let parameters: Vec<_> = parameters
-        .iter()
-        .map(|&(index, value)| json!([listed(index), PARAMETERS[index].normalized(value)]))
-        .collect();
+/// What is done to parameters in another host, by `(index, plain value)`.
+#[derive(Default)]
+struct Moves<'a> {
+    /// Set before it plays.
+    parameters: &'a [(usize, f32)],
+    /// Moved with every block.
+    automation: &'a [(usize, Vec<f32>)],
+    /// File of a state to load first.
+    load: Option<&'a PathBuf>,
+    /// File that the state is saved to in the end.
+    save: Option<&'a PathBuf>,
+}
+
+/// Plays a score through the VST3 bundle.
+fn through_vst3(name: &str, score: &Score, moves: &Moves, rate: f64, block: u32) -> Sound {
+    let share = |index: usize, value: f32| PARAMETERS[index].normalized(value);
+    let parameters =
+        moves.parameters.iter().map(|&(index, value)| json!([listed(index), share(index, value)]));
+    let automation = moves.automation.iter().map(|(index, values)| {
+        let shares: Vec<_> = values.iter().map(|&value| share(*index, value)).collect();
+        json!([listed(*index), shares])
+    });
     let description = json!({
         "plugin": bundle_path(Format::Vst3),
         "rate": rate,
         "block": block,
         "frames": frames(rate),
         "notes": listed_notes(score),
-        "parameters": parameters,
+        "parameters": parameters.collect::<Vec<_>>(),
+        "automation": automation.collect::<Vec<_>>(),
+        "load": moves.load,
+        "save": moves.save,
     });
     through_python(name, "hosts/vst3.py", description)
 }
@@ -90,7 +109,9 @@ fn through_python(name: &str, script: &str, mut description: Value) -> Sound {
     let (job, out) = (Scratch::new(&format!("{name}.json")), Scratch::new(&format!("{name}.f32")));
     description["out"] = json!(out.0);
     fs::write(&job.0, description.to_string()).unwrap();
-    let output = Command::new(python()).arg(here(script)).arg(&job.0).output().expect("Python");
+    // No window is opened, and two instances beside a display meet errors of the host's own.
+    let output =
+        Command::new(python()).arg(here(script)).arg(&job.0).env_remove("DISPLAY").output().expect("Python");
     let said = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{script} failed ({}): {said}", output.status);
     let bytes = fs::read(&out.0).expect("what the host wrote");
@@ -106,7 +127,7 @@ fn vst3_gives_the_samples_of_clap() {
     for (rate, block) in [(44_100.0, 512), (48_000.0, 64), (96_000.0, 1000)] {
         let score = notes(rate);
         let clap = through_plugin(&mut instance(), &score, rate, Blocks::Fixed(block));
-        let vst3 = through_vst3(&format!("notes-{rate}"), &score, &[], rate, block);
+        let vst3 = through_vst3(&format!("notes-{rate}"), &score, &Moves::default(), rate, block);
         assert_same(&vst3, &clap, &format!("{rate} Hz, {block} samples"));
     }
 }
@@ -129,6 +150,42 @@ fn vst3_parameters_are_those_of_clap() {
         .collect();
     clap.set_parameters(&set).unwrap();
     let expected = through_plugin(&mut clap, &score, rate, Blocks::Fixed(512));
-    let found = through_vst3("parameters", &score, &values, rate, 512);
-    assert_same(&found, &expected, "with parameters");
+    let state = Scratch::new("parameters.state");
+    let moves = Moves { parameters: &values, save: Some(&state.0), ..Moves::default() };
+    assert_same(&through_vst3("parameters", &score, &moves, rate, 512), &expected, "with parameters");
+    let moves = Moves { load: Some(&state.0), ..Moves::default() };
+    assert_same(
+        &through_vst3("state", &score, &moves, rate, 512),
+        &expected,
+        "with another instance's state",
+    );
+}
+
+#[test]
+fn vst3_automation_is_that_of_clap() {
+    let _turn = alone();
+    let (rate, block) = (48_000.0, 480_u32);
+    let score = notes(rate);
+    let blocks = frames(rate).div_ceil(u64::from(block)) as usize;
+    let sweep = |name: &str, from: f32, to: f32| {
+        let (index, parameter) = find(name).unwrap();
+        let value = |at: usize| parameter.snap(from + (to - from) * at as f32 / blocks as f32);
+        (index, (0..=blocks).map(value).collect::<Vec<_>>())
+    };
+    let sweeps = [
+        sweep("kick_tune", 45.0, 70.0),
+        sweep("snare_preload", 0.05, 1.5),
+        sweep("rack_tom_muffle", 0.0, 0.8),
+        sweep("ride_level", -12.0, 3.0),
+    ];
+    let mut moved = score.clone();
+    for at in 0..blocks {
+        let values = sweeps.iter().map(|(index, values)| Happening::Parameter(*index, values[at]));
+        moved.extend(values.map(|what| (at as u64 * u64::from(block), what)));
+    }
+    // At the same sample a host's values come before its notes.
+    moved.sort_by_key(|(sample, what)| (*sample, matches!(what, Happening::Note(..))));
+    let expected = through_plugin(&mut instance(), &moved, rate, Blocks::Fixed(block));
+    let moves = Moves { automation: &sweeps, ..Moves::default() };
+    assert_same(&through_vst3("automation", &score, &moves, rate, block), &expected, "automated");
 }

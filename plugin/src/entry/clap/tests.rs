@@ -11,7 +11,7 @@ use overhear_engine::piece::PieceId;
 
 use super::*;
 
-const FRAMES: usize = 512;
+pub(in crate::entry) const FRAMES: usize = 512;
 const PORTS: usize = 1 + PieceId::KIT.len();
 
 unsafe extern "C" fn no_extension(_host: *const clap_host, _id: *const c_char) -> *const c_void {
@@ -36,13 +36,13 @@ fn host() -> clap_host {
 }
 
 /// An active instance.
-struct Instance {
+pub(in crate::entry) struct Instance {
     plugin: *const clap_plugin,
     _host: Box<clap_host>,
 }
 
 impl Instance {
-    fn new(id: &str) -> Instance {
+    pub(in crate::entry) fn new(id: &str) -> Instance {
         let (host, id) = (Box::new(host()), CString::new(id).unwrap());
         // SAFETY: the calls a host makes, in its order.
         unsafe {
@@ -130,7 +130,7 @@ fn port(table: *mut *mut f32, channels: u32) -> clap_audio_buffer {
 }
 
 /// Strikes with all outputs but those that `leave_out` takes away; returns what is found in every channel.
-fn struck(
+pub(in crate::entry) fn struck(
     instance: &mut Instance,
     ports: usize,
     leave_out: impl Fn(usize, &mut clap_audio_buffer),

@@ -4,9 +4,14 @@ use std::ptr;
 
 use overhear_engine::piece::PieceId;
 
-use super::*;
+use nice_plug::wrapper::vst3::vst3::Steinberg::Vst::{
+    Event, Event_::EventTypes_, Event__type0, IEventList, IEventListTrait, IUnitInfoTrait, NoteOnEvent,
+    ProgramListInfo, UnitInfo,
+};
 
-const FRAMES: usize = 512;
+use super::*;
+use crate::entry::clap::tests::{FRAMES, Instance, struck};
+
 const BUSES: usize = 1 + PieceId::KIT.len();
 
 /// Processing instance of the instrument with an output for every piece.
@@ -28,9 +33,52 @@ fn multi() -> Guard<OverhearMulti> {
     guard
 }
 
-/// Processes one buffer with all outputs but those that `leave_out` takes away.
+/// The stroke on the snare that the other format's tests play.
+struct Stroke;
+
+impl Class for Stroke {
+    type Interfaces = (IEventList,);
+}
+
+impl IEventListTrait for Stroke {
+    unsafe fn getEventCount(&self) -> int32 {
+        1
+    }
+
+    unsafe fn getEvent(&self, _index: int32, event: *mut Event) -> tresult {
+        let note = NoteOnEvent { channel: 9, pitch: 38, tuning: 0.0, velocity: 0.8, length: 0, noteId: -1 };
+        // SAFETY: the framework gives room for an event.
+        unsafe {
+            *event = Event {
+                busIndex: 0,
+                sampleOffset: 0,
+                ppqPosition: 0.0,
+                flags: 0,
+                r#type: EventTypes_::kNoteOnEvent as u16,
+                __field0: Event__type0 { noteOn: note },
+            };
+        }
+        kResultOk
+    }
+
+    unsafe fn addEvent(&self, _event: *mut Event) -> tresult {
+        kInvalidArgument
+    }
+}
+
+/// Processes one silent buffer with all outputs but those that `leave_out` takes away.
 fn processed(
     guard: &Guard<OverhearMulti>,
+    buses: usize,
+    leave_out: impl Fn(usize, &mut AudioBusBuffers),
+) -> Vec<[Vec<f32>; CHANNELS]> {
+    played(guard, ptr::null_mut(), buses, leave_out)
+}
+
+/// Processes one buffer with these events and all outputs but those that `leave_out` takes away.
+fn played(
+    guard: &Guard<OverhearMulti>,
+    events: *mut IEventList,
     buses: usize,
     leave_out: impl Fn(usize, &mut AudioBusBuffers),
 ) -> Vec<[Vec<f32>; CHANNELS]> {
@@ -57,7 +105,7 @@ fn processed(
         outputs,
         inputParameterChanges: ptr::null_mut(),
         outputParameterChanges: ptr::null_mut(),
-        inputEvents: ptr::null_mut(),
+        inputEvents: events,
         outputEvents: ptr::null_mut(),
         processContext: ptr::null_mut(),
     };
@@ -99,6 +147,52 @@ fn outputs_that_are_left_out_do_not_keep_the_others_from_being_written() {
     });
     assert!(without[0].iter().all(|channel| written(channel)));
     processed(&guard, 0, |_, _| {});
+}
+
+#[test]
+fn every_output_is_that_of_the_other_format() {
+    let events = ComWrapper::new(Stroke).to_com_ptr::<IEventList>().unwrap();
+    let vst3 = played(&multi(), events.as_ptr(), BUSES, |_, _| {});
+    let clap = struck(&mut Instance::new(crate::MULTI_CLAP_ID), BUSES, |_, _| {});
+    for (bus, (vst3, clap)) in vst3.iter().zip(&clap).enumerate() {
+        assert!(vst3 == clap, "bus {bus}");
+    }
+    let snare = 1 + PieceId::Snare.slot().unwrap();
+    assert!([0, snare].iter().all(|&bus| vst3[bus][0].iter().any(|sample| *sample != 0.0)));
+}
+
+#[test]
+fn units_hang_from_a_root_and_notes_have_names() {
+    let text = |name: &String128| {
+        let end = name.iter().position(|unit| *unit == 0).unwrap();
+        String::from_utf16(&name[..end]).unwrap()
+    };
+    let guard = multi();
+    // SAFETY: the calls a host makes.
+    unsafe {
+        let mut unit: UnitInfo = std::mem::zeroed();
+        let units: Vec<_> = (0..guard.getUnitCount())
+            .map(|index| {
+                assert_eq!(guard.getUnitInfo(index, &mut unit), kResultOk);
+                (unit.id, unit.parentUnitId, text(&unit.name))
+            })
+            .collect();
+        assert_eq!((units[0].0, units[0].1), (0, -1));
+        assert!(units[1..].iter().all(|(id, parent, name)| *id > 0 && *parent == 0 && !name.is_empty()));
+        assert!(units.iter().any(|(_, _, name)| name == "Crash"), "{units:?}");
+
+        let (mut list, mut name): (ProgramListInfo, String128) = std::mem::zeroed();
+        assert_eq!((guard.getProgramListCount(), guard.getProgramListInfo(0, &mut list)), (1, kResultOk));
+        assert_eq!(guard.getUnitInfo(0, &mut unit), kResultOk);
+        assert_eq!((unit.programListId, list.programCount), (list.id, 1));
+        assert_eq!(guard.getProgramName(list.id, 0, &mut name), kResultOk);
+        assert_eq!(text(&name), crate::MULTI_NAME);
+        assert_eq!(guard.hasProgramPitchNames(list.id, 0), kResultOk);
+        assert_eq!(guard.getProgramPitchName(list.id, 0, 38, &mut name), kResultOk);
+        assert_eq!(text(&name), "Acoustic Snare");
+        assert_ne!(guard.getProgramPitchName(list.id, 0, 39, &mut name), kResultOk, "claps are silent");
+        assert_ne!(guard.getProgramPitchName(list.id, 1, 38, &mut name), kResultOk);
+    }
 }
 
 #[test]
