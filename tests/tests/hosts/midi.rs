@@ -216,7 +216,7 @@ fn a_program_change_loads_its_preset_at_its_sample_and_tells_the_host() {
 #[test]
 fn modulation_moves_a_parameter_away_and_leaves_its_value() {
     let _turn = alone();
-    let (_, parameter) = find("rack_tom_tune").unwrap();
+    let (index, parameter) = find("rack_tom_tune").unwrap();
     let id = host_id(parameter.id);
     let rest = f64::from(parameter.normalized(parameter.default));
     let moved = f64::from(parameter.normalized(1.2 * parameter.default));
@@ -224,6 +224,8 @@ fn modulation_moves_a_parameter_away_and_leaves_its_value() {
     let with = |what: What| [strokes[0], (5_000, what), strokes[1]];
     let mut modulated = instance();
     let sound = play(&mut modulated, &with(What::Modulation { id, amount: moved - rest }));
+    let value = modulated.parameters().unwrap()[index].value;
+    assert!((value - rest).abs() < 1e-6, "{value} for {rest}");
     assert_eq!(
         modulated.save_state().unwrap(),
         instance().save_state().unwrap(),
