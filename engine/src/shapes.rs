@@ -32,9 +32,9 @@ pub struct ShapeTable {
     radial: Vec<f32>,
     /// `[mode]`.
     index: Vec<ShapeIndex>,
-    /// `[mode]`: where its weights begin.
+    /// `[mode]`: where its weights begin; the two members of a pair mix alike and share theirs.
     starts: Vec<usize>,
-    /// Share of each row of each mode.
+    /// Share of each row of each pair.
     weights: Vec<f32>,
     /// `[mode]`: `cos, sin` of `m * axis`.
     axes: Vec<[f32; 2]>,
@@ -45,6 +45,8 @@ pub struct ShapeTable {
     grouped: Vec<usize>,
     /// `[radial]`: wavenumber of the radial function times the radius; empty if there is no single one.
     waves: Vec<f32>,
+    /// Discs (shares of the radius) that have been prepared, and the share of every radial function that each feels.
+    felt: Vec<(f64, Vec<f64>)>,
 }
 
 /// Modes that mix the same rows.
@@ -84,15 +86,25 @@ impl ShapeTable {
             .collect();
         let orders = index.iter().map(|mode| mode.m as usize + 1).max().unwrap_or(1);
         assert!(orders <= MAX_ORDERS, "{orders} orders");
-        let mut starts = Vec::with_capacity(index.len());
+        let mut starts: Vec<usize> = Vec::with_capacity(index.len());
         let mut total = 0;
-        for mode in &index {
-            starts.push(total);
-            total += mode.rows;
+        for (k, mode) in index.iter().enumerate() {
+            let twin = k.checked_sub(1).filter(|&before| {
+                let cosine = ShapeIndex { member: Member::Cosine, ..*mode };
+                mode.member == Member::Sine && index[before] == cosine
+            });
+            match twin {
+                Some(before) => starts.push(starts[before]),
+                None => {
+                    starts.push(total);
+                    total += mode.rows;
+                }
+            }
         }
         let (groups, grouped) = group(&index);
         let weights = vec![1.0; total];
-        ShapeTable { radial, index, starts, weights, axes, orders, groups, grouped, waves: Vec::new() }
+        let (waves, felt) = (Vec::new(), Vec::new());
+        ShapeTable { radial, index, starts, weights, axes, orders, groups, grouped, waves, felt }
     }
 
     /// Tells the wavenumber of every radial function, times the radius, `[radial]`: those of a membrane, of
@@ -102,12 +114,19 @@ impl ShapeTable {
         self
     }
 
+    /// Works out beforehand what discs of those radii (shares of the body's) feel, so that a stroke need not. Allocates.
+    pub fn prepared(mut self, discs: impl Iterator<Item = f64>) -> ShapeTable {
+        let felt = |disc: f64| self.waves.iter().map(|&wave| pressed_share(f64::from(wave) * disc)).collect();
+        self.felt = discs.map(|disc| (disc, felt(disc))).collect();
+        self
+    }
+
     /// How each mode goes around, `[mode]`.
     pub fn index(&self) -> &[ShapeIndex] {
         &self.index
     }
 
-    /// Shares of the rows that mode `k` is a mixture of.
+    /// Shares of the rows that mode `k` is a mixture of, and its twin.
     pub fn weights_mut(&mut self, k: usize) -> &mut [f32] {
         &mut self.weights[self.starts[k]..][..self.index[k].rows]
     }
@@ -125,7 +144,7 @@ impl ShapeTable {
     /// known, the middle is all.
     ///
     /// # Real-time
-    /// As [`fill`](Self::fill), and a Bessel function for each row mixed.
+    /// As [`fill`](Self::fill), and for a disc that was not [prepared](Self::prepared) a Bessel function for each row mixed.
     pub fn fill_pressed(&self, radius: f64, angle: f64, disc: f64, out: &mut [f32]) {
         // cos and sin of every multiple of the angle, by one rotation each.
         let mut around = [[1.0_f64, 0.0]; MAX_ORDERS];
@@ -135,18 +154,21 @@ impl ShapeTable {
             around[m] = [c * cos - s * sin, s * cos + c * sin];
         }
         let stencil = Stencil::at(radius * INTERVALS as f64, INTERVALS + 1);
+        let known = self.felt.iter().find(|(of, _)| *of == disc).map(|(_, felt)| felt);
         // What a row is here is the same for all that mix it.
         let mut here = [0.0_f64; MAX_ROWS];
         let mut modes = self.grouped.iter();
         for group in &self.groups {
             let rows = self.radial[group.radial * (INTERVALS + 1)..].chunks_exact(INTERVALS + 1);
             for (i, (here, row)) in here[..group.rows].iter_mut().zip(rows).enumerate() {
-                let felt = match self.waves.get(group.radial + i) {
-                    Some(&wave) if disc > 0.0 => pressed_share(f64::from(wave) * disc),
+                let felt = match (known, self.waves.get(group.radial + i)) {
+                    (Some(felt), _) => felt[group.radial + i],
+                    (None, Some(&wave)) if disc > 0.0 => pressed_share(f64::from(wave) * disc),
                     _ => 1.0,
                 };
                 *here = felt * stencil.blend(|r| f64::from(row[r]));
             }
+            let mut latest = (usize::MAX, 0.0);
             for &k in modes.by_ref().take(group.modes) {
                 let mode = &self.index[k];
                 let [c, s] = around[mode.m as usize];
@@ -155,13 +177,27 @@ impl ShapeTable {
                     Member::Cosine => c * c0 + s * s0,
                     Member::Sine => s * c0 - c * s0,
                 };
-                let weights = &self.weights[self.starts[k]..][..mode.rows];
-                let radial: f64 =
-                    weights.iter().zip(&here).map(|(&weight, here)| f64::from(weight) * here).sum();
-                out[k] = (radial * turn) as f32;
+                if latest.0 != self.starts[k] {
+                    let weights = &self.weights[self.starts[k]..][..mode.rows];
+                    latest = (self.starts[k], mixed(weights, &here));
+                }
+                out[k] = (latest.1 * turn) as f32;
             }
         }
     }
+}
+
+/// `sum weight * value`, four by four: one after the other, each sum would wait for the last.
+fn mixed(weights: &[f32], values: &[f64]) -> f64 {
+    let mut sums = [0.0; 4];
+    let (fours, rest) = weights.as_chunks::<4>();
+    for (weights, values) in fours.iter().zip(values.chunks_exact(4)) {
+        for i in 0..4 {
+            sums[i] += f64::from(weights[i]) * values[i];
+        }
+    }
+    let last = rest.iter().zip(&values[4 * fours.len()..]).map(|(&weight, value)| f64::from(weight) * value);
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + last.sum::<f64>()
 }
 
 /// Modes by the rows they mix.

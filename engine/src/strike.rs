@@ -165,6 +165,12 @@ impl Striker {
         }
     }
 
+    /// Radii of the discs that strikers' tips press, m, each once: what bodies work out beforehand for each.
+    pub fn patches() -> impl Iterator<Item = f64> {
+        let patch = |i: usize| Striker::ALL[i].spec().patch;
+        (0..Striker::ALL.len()).filter(move |&i| (0..i).all(|k| patch(k) != patch(i))).map(patch)
+    }
+
     /// The striker of that [`name`](Self::name), if there is one.
     pub fn from_name(name: &str) -> Option<Striker> {
         Striker::ALL.into_iter().find(|striker| striker.name() == name)

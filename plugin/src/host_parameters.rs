@@ -11,7 +11,7 @@ use nice_plug::prelude::*;
 use crate::deadline::Deadlines;
 use crate::midi::assignments::{Assignment, Assignments, NOTES};
 use crate::midi::maps::NoteMap;
-use crate::parameters::{BYPASS_GROUP, BYPASS_ID, Drives, Manner, PARAMETERS, Parameter};
+use crate::parameters::{BYPASS_GROUP, BYPASS_ID, Drives, Manner, PARAMETERS, Parameter, host_id};
 use crate::presets::{Library, Program, Programs};
 use crate::state;
 use crate::view::View;
@@ -111,6 +111,12 @@ impl HostParameters {
     /// The parameters, in the order of [`PARAMETERS`].
     pub fn values(&self) -> &[FloatParam] {
         &self.values
+    }
+
+    /// Share of its range at which a parameter of the table is without modulation, by its [`host_id`].
+    pub fn unmodulated(&self, id: u32) -> Option<f32> {
+        let index = PARAMETERS.iter().position(|parameter| host_id(parameter.id) == id)?;
+        Some(self.values.get(index)?.unmodulated_normalized_value())
     }
 
     /// Whether the host bypasses the instrument.

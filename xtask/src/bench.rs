@@ -7,6 +7,7 @@
 mod calibration;
 mod callgrind;
 mod compare;
+mod limit;
 mod measure;
 mod report;
 mod workload;
@@ -18,20 +19,25 @@ use std::thread;
 use std::time::Instant;
 
 use anyhow::{Context, Result};
+use cpu_time::ProcessTime;
+use overhear::performer::Performer;
+use overhear::shelf::FolderShelf;
 use overhear_engine::modal::simd::Kernels;
 use overhear_engine::modal::simd::level::{self, InstructionSet};
 use overhear_engine::piece::{BuildOptions, Piece, PieceId, Quality};
 
+use serde::Serialize;
+
 use crate::bad_input;
 use crate::progress::Progress;
 use crate::workspace;
-use measure::Blocks;
+use limit::Limit;
 use report::Report;
 use workload::{Scene, Workload};
 
 pub use callgrind::count_this;
 
-/// Sample rate of everything measured, Hz.
+/// Sample rate of everything measured, if not given, Hz.
 pub const RATE: f64 = 44_100.0;
 
 /// Threads that build a kit at once, at most, as in the plugin.
@@ -47,6 +53,8 @@ pub struct Request {
     pub runs: usize,
     /// Tier of the kit's cymbals in the groove and struck all at once.
     pub quality: Quality,
+    /// Sample rate, Hz.
+    pub rate: f64,
     /// The instruction set to keep to; the machine's widest if none.
     pub simd: Option<InstructionSet>,
     /// A report to set this one beside.
@@ -70,15 +78,13 @@ pub fn run(request: &Request) -> Result<Report> {
         level::limit(set);
     }
     let before = request.compare.as_deref().map(compare::read).transpose()?;
-    // Before anything else is built and held.
-    let (build_cold_s, memory_mb) = build()?;
-    let (build_warm_s, _) = build()?;
+    let builds = Builds::measure(request.rate)?;
     let scenes = scenes(request.quality);
     let mut progress = Progress::new("bench", (scenes.len() * request.runs) as u64);
     let mut costs = Vec::new();
     let mut blocks = Vec::new();
     for scene in scenes {
-        let mut workload = Workload::new(&scene)?;
+        let mut workload = Workload::new(&scene, request.rate)?;
         let (cost, lasted) = measure::runs(&mut workload, request.runs, &mut progress);
         blocks.extend(scene.is_kit().then_some(lasted));
         costs.push((scene, cost));
@@ -87,10 +93,8 @@ pub fn run(request: &Request) -> Result<Report> {
     let report = Report::new(report::Measured {
         request,
         costs,
-        blocks: Blocks::together(blocks),
-        build_cold_s,
-        build_warm_s,
-        memory_mb,
+        blocks,
+        builds,
         simd: Kernels::detect().name(),
         counts,
     });
@@ -130,32 +134,83 @@ fn scenes(quality: Quality) -> Vec<Scene> {
     scenes
 }
 
-/// Builds a whole kit, on as many processors as the plugin does; how long that took, s, and what
-/// the process then holds, MB.
-fn build() -> Result<(f64, f64)> {
+/// What it takes to have a kit.
+#[derive(Debug, Clone, Copy, Default, Serialize)]
+pub struct Builds {
+    /// All that makes sound of an instance, without pieces, s.
+    pub instance_s: f64,
+    /// Nothing is known yet, s.
+    pub build_cold_s: f64,
+    /// All is in the cache folder, s.
+    pub build_from_disk_s: f64,
+    /// All is in memory, s.
+    pub build_warm_s: f64,
+    /// CPU seconds of all processors for these three, in their order: what other work on the machine adds least to.
+    pub build_cpu_s: [f64; 3],
+    /// What the process holds after the first, MB.
+    pub memory_mb: f64,
+    /// What the machine can do, and what a ringing kit asks for.
+    pub limit: Option<Limit>,
+}
+
+impl Builds {
+    /// Builds kits; before anything else is built and held.
+    fn measure(rate: f64) -> Result<Builds> {
+        let start = Instant::now();
+        drop(Performer::new(rate));
+        let instance_s = start.elapsed().as_secs_f64();
+        let ([build_cold_s, cold_cpu_s], kit) = build(rate)?;
+        let memory =
+            memory_stats::memory_stats().context("this system does not tell what memory a process holds")?;
+        let ([build_warm_s, warm_cpu_s], _) = build(rate)?;
+        let limit = Some(Limit::measure(&kit, rate));
+        drop(kit);
+        // As the plugin keeps it; what an earlier process left has no part in it.
+        let folder = std::env::temp_dir().join(format!("overhear-bench-{}", std::process::id()));
+        overhear_kept::provide(Box::new(FolderShelf::new(&folder)));
+        overhear_kept::forget();
+        build(rate)?;
+        overhear_kept::forget();
+        let from_disk = build(rate);
+        // What is left in a folder for what is temporary harms nobody.
+        let _ = std::fs::remove_dir_all(&folder);
+        let ([build_from_disk_s, disk_cpu_s], _) = from_disk?;
+        let memory_mb = memory.physical_mem as f64 / 1e6;
+        let build_cpu_s = [cold_cpu_s, disk_cpu_s, warm_cpu_s];
+        Ok(Builds {
+            instance_s,
+            build_cold_s,
+            build_from_disk_s,
+            build_warm_s,
+            build_cpu_s,
+            memory_mb,
+            limit,
+        })
+    }
+}
+
+/// Builds a whole kit, on as many processors as the plugin does; how long that took and what of all processors, s.
+fn build(rate: f64) -> Result<([f64; 2], Vec<Piece>)> {
     let processors = thread::available_parallelism().map_or(1, usize::from).min(MOST_BUILDERS);
     let taken = AtomicUsize::new(0);
-    let start = Instant::now();
+    let (start, start_cpu) = (Instant::now(), ProcessTime::now());
     let kit: Vec<_> = thread::scope(|scope| {
         let work = || {
             let next = || PieceId::LONGEST_FIRST.get(taken.fetch_add(1, Ordering::Relaxed));
-            let pieces = std::iter::from_fn(|| Some(Piece::new(*next()?, &options(Quality::Standard))));
+            let pieces = std::iter::from_fn(|| Some(Piece::new(*next()?, &options(Quality::Standard, rate))));
             pieces.collect::<Vec<_>>()
         };
         let builders: Vec<_> = (0..processors).map(|_| scope.spawn(work)).collect();
         // One that panics has said so.
         builders.into_iter().flat_map(|builder| builder.join().unwrap_or_default()).collect()
     });
-    let seconds = start.elapsed().as_secs_f64();
-    let memory =
-        memory_stats::memory_stats().context("this system does not tell what memory a process holds")?;
-    for piece in kit {
-        piece.map_err(|error| bad_input!("{error}"))?;
-    }
-    Ok((seconds, memory.physical_mem as f64 / 1e6))
+    let seconds = [start.elapsed(), start_cpu.elapsed()].map(|time| time.as_secs_f64());
+    let kit: Result<Vec<Piece>> =
+        kit.into_iter().map(|piece| piece.map_err(|error| bad_input!("{error}"))).collect();
+    Ok((seconds, kit?))
 }
 
 /// How a piece or a kit is built for a scene.
-fn options(quality: Quality) -> BuildOptions {
-    BuildOptions { quality, ..BuildOptions::new(RATE) }
+fn options(quality: Quality, rate: f64) -> BuildOptions {
+    BuildOptions { quality, ..BuildOptions::new(rate) }
 }

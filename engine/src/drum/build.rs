@@ -17,6 +17,7 @@ use crate::membrane::{self, Membrane, MembraneMode, ModeRange, Surroundings};
 use crate::piece::BuildOptions;
 use crate::shapes::{ShapeIndex, ShapeTable};
 use crate::split::Splitting;
+use crate::strike::Striker;
 use crate::surface::patch::Film;
 use crate::surface::{STRIKER_PLACES, wires};
 
@@ -272,7 +273,9 @@ impl Blueprint {
             index.extend(members.map(|(member, _)| ShapeIndex { radial, rows, m: mode.m, member, axis }));
         }
         let waves = head.membrane.modes().iter().map(|mode| mode.zero);
-        ShapeTable::new(&head.membrane.radial_shapes(&ShapeTable::radii()), index).with_waves(waves)
+        let discs = Striker::patches().map(|patch| patch / head.membrane.spec().radius);
+        let radial = head.membrane.radial_shapes(&ShapeTable::radii());
+        ShapeTable::new(&radial, index).with_waves(waves).prepared(discs)
     }
 
     /// What the batter does above its modes.

@@ -57,6 +57,7 @@ use crate::membrane::MembraneSpec;
 use crate::modal::simd::MAX_RUN;
 use crate::modal::{EARS, MAX_DRIVES, ModalBody, Mode, Pickup, Port};
 use crate::split::hash;
+use crate::strike::Striker;
 
 /// Slices in an octave.
 const SLICES: f64 = 40.0;
@@ -178,6 +179,8 @@ pub struct HighBand {
     pickup: Pickup,
     slices: Vec<Slice>,
     places: Vec<Place>,
+    /// Radii (m) of the patches that strikers press, and what every slice's wave takes from each.
+    pressed: Vec<(f64, Vec<f64>)>,
     /// How far the slow part of a force follows it in a sample.
     follow: f32,
     /// What is heard far away, as at a metre, over what is heard at the point.
@@ -201,8 +204,10 @@ impl HighBand {
             forces: [0.0; MAX_RUN],
             pressed: false,
         };
+        let takes = |patch: f64| slices.iter().map(|slice| taken(spec, slice, patch)).collect();
         let corner = SQRT_2 * SPEED_OF_SOUND / spec.head.radius;
         let mut band = HighBand {
+            pressed: Striker::patches().map(|patch| (patch, takes(patch))).collect(),
             away: away(spec, &slices),
             spec: *spec,
             body: ModalBody::new(modes, spec.sample_rate),
@@ -248,11 +253,13 @@ impl HighBand {
     /// # Real-time
     /// No allocation; some 100 ns a slice.
     pub fn put(&mut self, i: usize, radius: f64, angle: f64, patch: f64) {
-        let HighBand { spec, body, pickup, slices, places, .. } = self;
+        let HighBand { spec, body, pickup, slices, places, pressed, .. } = self;
         let Place { port, direct, sheet, .. } = &mut places[i];
         *sheet = endless_sheet(spec, slices, radius, angle) as f32;
-        for (shape, slice) in port.shape_mut().iter_mut().zip(&*slices) {
-            *shape = (slice.at(radius, angle) * pressed(slice.zero * patch / spec.head.radius)) as f32;
+        let known = pressed.iter().find(|(of, _)| *of == patch).map(|(_, taken)| taken);
+        for (k, (shape, slice)) in port.shape_mut().iter_mut().zip(&*slices).enumerate() {
+            let taken = known.map_or_else(|| taken(spec, slice, patch), |taken| taken[k]);
+            *shape = (slice.at(radius, angle) * taken) as f32;
         }
         body.connect(port);
         [*direct, ..] = pickup.direct_at(body, port);
@@ -356,6 +363,11 @@ impl Slice {
         let wave = |r: f64| (self.zero * r * along + self.phase).cos();
         wave(radius) - wave(2.0 - radius)
     }
+}
+
+/// Share of a point's force that a slice's wave takes from a patch (m).
+fn taken(spec: &HighBandSpec, slice: &Slice, patch: f64) -> f64 {
+    pressed(slice.zero * patch / spec.head.radius)
 }
 
 /// Share of a point's force that a wave takes from a patch of `k b`.

@@ -10,6 +10,7 @@ pub mod driven;
 pub mod folded;
 pub mod front;
 pub mod level;
+pub mod peak;
 pub mod polar;
 
 use pulp::{Arch, Scalar128b, Simd, WithSimd};

@@ -5,7 +5,7 @@ use crate::building::Pace;
 use crate::parameters::PARAMETERS;
 
 const RATE: f64 = 48_000.0;
-const LONG: Duration = Duration::from_secs(30);
+const LONG: Duration = Duration::from_secs(120);
 
 fn quick(id: PieceId, options: &BuildOptions) -> Result<Piece, SpecError> {
     Piece::new(id, options)

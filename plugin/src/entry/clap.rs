@@ -14,8 +14,10 @@ use std::sync::{Arc, OnceLock};
 use clap_sys::audio_buffer::clap_audio_buffer;
 use clap_sys::entry::clap_plugin_entry;
 use clap_sys::ext::note_name::{CLAP_EXT_NOTE_NAME, clap_note_name, clap_plugin_note_name};
+use clap_sys::ext::params::{CLAP_EXT_PARAMS, clap_plugin_params};
 use clap_sys::factory::plugin_factory::{CLAP_PLUGIN_FACTORY_ID, clap_plugin_factory};
 use clap_sys::host::clap_host;
+use clap_sys::id::clap_id;
 use clap_sys::plugin::{clap_plugin, clap_plugin_descriptor};
 use clap_sys::process::{CLAP_PROCESS_ERROR, clap_process, clap_process_status};
 use clap_sys::version::CLAP_VERSION;
@@ -116,6 +118,8 @@ struct Guard {
     /// The framework's own table.
     framework: clap_plugin,
     parameters: Option<Arc<HostParameters>>,
+    /// The framework's table of parameters, but for their values.
+    values: OnceLock<clap_plugin_params>,
     /// Touched by `activate` and `process` only, which never overlap; the rest is read by any thread.
     outputs: UnsafeCell<Outputs>,
 }
@@ -147,7 +151,8 @@ unsafe fn guarded<P: ClapPlugin>(host: *const clap_host) -> *const clap_plugin {
     let (programs, scratch) = (ProgramChanges::new(), Scratch::new(ports));
     let outputs = Outputs { programs, scratch, ports: Vec::with_capacity(ports) };
     let parameters = host_parameters::take_latest();
-    let guard = Guard { table, framework, parameters, outputs: UnsafeCell::new(outputs) };
+    let (values, outputs) = (OnceLock::new(), UnsafeCell::new(outputs));
+    let guard = Guard { table, framework, parameters, values, outputs };
     Box::into_raw(Box::new(guard)).cast()
 }
 
@@ -285,7 +290,35 @@ unsafe extern "C" fn get_extension(plugin: *const clap_plugin, id: *const c_char
         if !id.is_null() && CStr::from_ptr(id) == CLAP_EXT_NOTE_NAME {
             return ptr::from_ref(&NOTE_NAMES).cast();
         }
-        guard(plugin).framework.get_extension.map_or(ptr::null(), |get| get(plugin, id))
+        let guard = guard(plugin);
+        let found = guard.framework.get_extension.map_or(ptr::null(), |get| get(plugin, id));
+        if found.is_null() || id.is_null() || CStr::from_ptr(id) != CLAP_EXT_PARAMS {
+            return found;
+        }
+        let framework = &*found.cast::<clap_plugin_params>();
+        let own = || clap_plugin_params { get_value: Some(value), ..*framework };
+        ptr::from_ref(guard.values.get_or_init(own)).cast()
+    }
+}
+
+/// A parameter's value without modulation, which the framework would add and hosts do not expect.
+unsafe extern "C" fn value(plugin: *const clap_plugin, id: clap_id, into: *mut f64) -> bool {
+    // SAFETY: see `guard`; `into` is null or valid, and tables are what `get_extension` has made them.
+    unsafe {
+        let guard = guard(plugin);
+        let base = guard.parameters.as_ref().and_then(|parameters| parameters.unmodulated(id));
+        match (base, into.as_mut()) {
+            (Some(base), Some(into)) => {
+                *into = f64::from(base);
+                true
+            }
+            _ => {
+                let framework = guard.framework.get_extension;
+                let table = framework.map_or(ptr::null(), |get| get(plugin, CLAP_EXT_PARAMS.as_ptr()));
+                let table = table.cast::<clap_plugin_params>().as_ref();
+                table.and_then(|table| table.get_value).is_some_and(|value| value(plugin, id, into))
+            }
+        }
     }
 }
 

@@ -153,3 +153,24 @@ fn a_bend_is_the_tuning_so_many_semitones_away_until_the_next_stroke() {
     });
     assert!(taken_back == plain);
 }
+
+#[test]
+fn a_jump_of_the_transport_leaves_the_foot_where_it_is() {
+    let open_and_struck = |jump: bool, pedal: f32| {
+        let mut performer = Performer::new(RATE);
+        performer.install_kit(RATE).unwrap();
+        performer.control_change(4, pedal, 9);
+        performer.render(&mut vec![0.0; 24_000], &mut vec![0.0; 24_000]);
+        if jump {
+            performer.reset();
+        }
+        performer.note_on(98, 0.8, 9);
+        let mut sound = vec![0.0; 24_000];
+        performer.render(&mut sound, &mut vec![0.0; 24_000]);
+        sound[12_000..].iter().map(|x| x * x).sum::<f32>()
+    };
+    let (closed, open) = (open_and_struck(true, 1.0), open_and_struck(true, 0.0));
+    assert!(open > 30.0 * closed, "{open} open, {closed} closed");
+    let stayed = open_and_struck(false, 1.0);
+    assert!((closed / stayed).ln().abs() < 0.7, "{closed} after the jump, {stayed} without");
+}

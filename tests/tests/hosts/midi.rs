@@ -212,3 +212,26 @@ fn a_program_change_loads_its_preset_at_its_sample_and_tells_the_host() {
     ignored(&[("midi_channel", 10.0)], change(8));
     ignored(&[], What::Midi([0xC9, 127, 0]));
 }
+
+#[test]
+fn modulation_moves_a_parameter_away_and_leaves_its_value() {
+    let _turn = alone();
+    let (index, parameter) = find("rack_tom_tune").unwrap();
+    let id = host_id(parameter.id);
+    let rest = f64::from(parameter.normalized(parameter.default));
+    let moved = f64::from(parameter.normalized(1.2 * parameter.default));
+    let strokes = [(0, on(48)), (8_000, on(48))];
+    let with = |what: What| [strokes[0], (5_000, what), strokes[1]];
+    let mut modulated = instance();
+    let sound = play(&mut modulated, &with(What::Modulation { id, amount: moved - rest }));
+    let value = modulated.parameters().unwrap()[index].value;
+    assert!((value - rest).abs() < 1e-6, "{value} for {rest}");
+    assert_eq!(
+        modulated.save_state().unwrap(),
+        instance().save_state().unwrap(),
+        "what is stored is not modulated"
+    );
+    let automated = play(&mut instance(), &with(What::Parameter { id, value: moved }));
+    assert_same(&sound, &automated, "modulated as far as automated");
+    assert!(sound != play(&mut instance(), &strokes));
+}

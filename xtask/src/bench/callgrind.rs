@@ -1,12 +1,11 @@
 //! Instructions executed, counted by `valgrind --tool=callgrind`: what no other work on the machine can change.
 //!
-//! Each scene is played once by a process of its own under callgrind, which knows AVX2 at most. Only what happens
+//! Each scene is played once, at 44.1 kHz, by a process of its own under callgrind, which knows AVX2 at most. Only what happens
 //! inside [`Workload::block`] counts.
 
 use std::process::{Command, Stdio};
 
 use anyhow::{Context, Result};
-use overhear_engine::kit::BLOCK;
 use overhear_engine::modal::simd::level::{self, InstructionSet};
 use overhear_engine::piece::{PieceId, Quality};
 
@@ -74,8 +73,8 @@ pub fn count(request: &Request) -> Result<Vec<Count>> {
 pub fn count_this(index: usize, quality: Quality, set: InstructionSet) -> Result<()> {
     level::limit(set);
     let scene = scenes(quality).nth(index).ok_or_else(|| bad_input!("there is no scene {index}"))?;
-    let mut workload = Workload::new(&scene)?;
-    for _ in 0..(scene.seconds() * RATE) as usize / BLOCK {
+    let mut workload = Workload::new(&scene, RATE)?;
+    for _ in 0..workload.blocks() {
         workload.block();
     }
     Ok(())

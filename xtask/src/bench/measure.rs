@@ -3,7 +3,6 @@
 use cpu_time::ThreadTime;
 use overhear_engine::kit::BLOCK;
 
-use super::RATE;
 use super::calibration::{Calibration, SLICES};
 use super::workload::Workload;
 use crate::progress::Progress;
@@ -21,25 +20,30 @@ pub struct Cost {
     pub calibration_s: f64,
 }
 
-/// CPU time of every block of a scene, the least over the runs, s.
+/// CPU time of every block of a scene in their order, the least over the runs, s.
 ///
 /// Each run renders the same; what a block took longer in one was the machine's doing.
 #[derive(Debug, Clone, Default)]
 pub struct Blocks(Vec<f64>);
 
-impl Blocks {
-    /// Of several scenes, shortest first.
-    pub fn together(scenes: Vec<Blocks>) -> Blocks {
-        let mut all: Vec<f64> = scenes.into_iter().flat_map(|blocks| blocks.0).collect();
-        all.sort_by(f64::total_cmp);
-        Blocks(all)
+/// CPU time of a host's buffers, of what they last, shortest first.
+#[derive(Debug, Clone, Default)]
+pub struct Buffers(Vec<f64>);
+
+impl Buffers {
+    /// Of so many blocks each, in several scenes.
+    pub fn of(scenes: &[Blocks], blocks: usize, rate: f64) -> Buffers {
+        let buffers = scenes.iter().flat_map(|scene| scene.0.chunks_exact(blocks));
+        let deadline = (blocks * BLOCK) as f64 / rate;
+        let mut shares: Vec<f64> = buffers.map(|times| times.iter().sum::<f64>() / deadline).collect();
+        shares.sort_by(f64::total_cmp);
+        Buffers(shares)
     }
 
-    /// The time that so many blocks stay within, as a share of what the block lasts. Sorted ones only.
+    /// The share of the deadline that so many buffers stay within.
     pub fn within(&self, quantile: f64) -> f64 {
         let last = self.0.len().saturating_sub(1);
-        let time = self.0.get((quantile * last as f64).round() as usize).copied().unwrap_or(0.0);
-        time * RATE / BLOCK as f64
+        self.0.get((quantile * last as f64).round() as usize).copied().unwrap_or(0.0)
     }
 }
 
@@ -74,7 +78,7 @@ pub fn runs(workload: &mut Workload, runs: usize, progress: &mut Progress) -> (C
 /// One run: CPU time of every block, and of the whole calibration loop, s.
 fn once(workload: &mut Workload, calibration: &mut Calibration) -> (Vec<f64>, f64) {
     workload.rewind();
-    let blocks = (workload.scene().seconds() * RATE / BLOCK as f64) as usize;
+    let blocks = workload.blocks();
     let slice = blocks.div_ceil(SLICES as usize);
     let mut times = Vec::with_capacity(blocks);
     let (mut unit, mut slices) = (0.0, 0);
@@ -108,9 +112,12 @@ mod tests {
     }
 
     #[test]
-    fn quantiles_are_of_sorted_blocks() {
-        let blocks = Blocks::together(vec![Blocks(vec![3.0, 1.0]), Blocks(vec![2.0])]);
-        let share = RATE / BLOCK as f64;
-        assert_eq!([0.0, 0.5, 1.0].map(|q| blocks.within(q) / share), [1.0, 2.0, 3.0]);
+    fn quantiles_are_of_sorted_buffers() {
+        let scenes = [Blocks(vec![3.0, 1.0]), Blocks(vec![2.0])];
+        let rate = BLOCK as f64;
+        let blocks = Buffers::of(&scenes, 1, rate);
+        assert_eq!([0.0, 0.5, 1.0].map(|q| blocks.within(q)), [1.0, 2.0, 3.0]);
+        // Two blocks last twice as long; what is too short for a buffer is none.
+        assert_eq!(Buffers::of(&scenes, 2, rate).within(1.0), 2.0);
     }
 }

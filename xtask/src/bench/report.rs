@@ -3,17 +3,22 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
+use overhear_engine::kit::BLOCK;
 use overhear_engine::piece::Quality;
 use serde::Serialize;
 
-use super::Request;
 use super::callgrind::Count;
 use super::compare::Before;
-use super::measure::{Blocks, Cost};
+use super::limit::Limit;
+use super::measure::{Blocks, Buffers, Cost};
 use super::workload::Scene;
+use super::{Builds, Request};
 
 /// Quantiles of the time of a block that are reported.
-const QUANTILES: [(&str, f64); 4] = [("50", 0.5), ("90", 0.9), ("99", 0.99), ("99.9", 0.999)];
+const QUANTILES: [(&str, f64); 5] = [("50", 0.5), ("90", 0.9), ("99", 0.99), ("99.9", 0.999), ("100", 1.0)];
+
+/// Buffers of a host, samples, whole blocks.
+const BUFFERS: [usize; 4] = [64, 128, 256, 512];
 
 /// The report, one object; units are in the names.
 #[derive(Debug, Serialize)]
@@ -22,6 +27,7 @@ pub struct Report {
     calibration_s: f64,
     runs: usize,
     quality: &'static str,
+    sample_rate_hz: f64,
     groove: Figure,
     all_at_once: Figure,
     pieces: BTreeMap<&'static str, PieceCost>,
@@ -30,9 +36,10 @@ pub struct Report {
     worst_block_share: f64,
     /// The time that so many percent of those blocks stay within, of the deadline.
     block_share_percentiles: BTreeMap<&'static str, f64>,
-    build_cold_s: f64,
-    build_warm_s: f64,
-    memory_mb: f64,
+    /// The same for a host's buffers of so many samples.
+    buffers: BTreeMap<usize, BTreeMap<&'static str, f64>>,
+    #[serde(flatten)]
+    builds: Builds,
     simd: &'static str,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     instructions: Vec<Count>,
@@ -74,10 +81,8 @@ impl From<Cost> for Figure {
 pub struct Measured<'a> {
     pub request: &'a Request,
     pub costs: Vec<(Scene, Cost)>,
-    pub blocks: Blocks,
-    pub build_cold_s: f64,
-    pub build_warm_s: f64,
-    pub memory_mb: f64,
+    pub blocks: Vec<Blocks>,
+    pub builds: Builds,
     pub simd: &'static str,
     pub counts: Vec<Count>,
 }
@@ -109,19 +114,23 @@ impl Report {
         }
         let mut loops: Vec<f64> = costs.iter().map(|(_, cost)| cost.calibration_s).collect();
         loops.sort_by(f64::total_cmp);
+        let percentiles = |blocks_each: usize| {
+            let buffers = Buffers::of(&blocks, blocks_each, request.rate);
+            QUANTILES.map(|(name, q)| (name, buffers.within(q))).into()
+        };
         Report {
             calibration_s: loops[loops.len() / 2],
             runs: request.runs,
             quality: request.quality.name(),
+            sample_rate_hz: request.rate,
             groove: of("groove"),
             all_at_once: of("all-at-once"),
             idle: of("idle"),
             pieces,
-            worst_block_share: blocks.within(1.0),
-            block_share_percentiles: QUANTILES.map(|(name, q)| (name, blocks.within(q))).into(),
-            build_cold_s: measured.build_cold_s,
-            build_warm_s: measured.build_warm_s,
-            memory_mb: measured.memory_mb,
+            worst_block_share: Buffers::of(&blocks, 1, request.rate).within(1.0),
+            block_share_percentiles: percentiles(1),
+            buffers: BUFFERS.map(|samples| (samples, percentiles(samples / BLOCK))).into(),
+            builds: measured.builds,
             simd: measured.simd,
             instructions: measured.counts,
             before: Before::new(),
@@ -147,8 +156,8 @@ impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         writeln!(
             f,
-            "calibration loop {:.4} s, {} runs, one thread, {}, cymbals of the kit at {}\n",
-            self.calibration_s, self.runs, self.simd, self.quality
+            "calibration loop {:.4} s, {} runs, one thread, {}, {} Hz, cymbals of the kit at {}\n",
+            self.calibration_s, self.runs, self.simd, self.sample_rate_hz, self.quality
         )?;
         let before = if self.before.is_empty() { "" } else { "   before  ratio" };
         writeln!(f, "{:<20} {:>9} {:>9}  {:>18}{before}", "", "a core", "calibr.", "least to greatest")?;
@@ -165,16 +174,39 @@ impl fmt::Display for Report {
                 }
             }
         }
-        write!(f, "\nblock of its deadline, %: ")?;
-        for (name, share) in &self.block_share_percentiles {
-            write!(f, "{:.1} in {name} %, ", 100.0 * share)?;
+        writeln!(f, "\nCPU time of a buffer, % of its deadline, within which so many stay")?;
+        let quantiles = QUANTILES.map(|(name, _)| format!("{:>9}", format!("{name} %"))).concat();
+        writeln!(f, "{:<20}{quantiles}", "samples")?;
+        for (samples, percentiles) in
+            [(&BLOCK, &self.block_share_percentiles)].into_iter().chain(&self.buffers)
+        {
+            let shares = QUANTILES.map(|(name, _)| format!("{:>9.1}", 100.0 * percentiles[name])).concat();
+            writeln!(f, "{samples:<20}{shares}")?;
         }
-        writeln!(f, "{:.1} the worst", 100.0 * self.worst_block_share)?;
-        writeln!(
-            f,
-            "build {:.2} s cold, {:.2} s again; memory {:.0} MB",
-            self.build_cold_s, self.build_warm_s, self.memory_mb
-        )?;
+        let Builds {
+            instance_s,
+            build_cold_s,
+            build_from_disk_s,
+            build_warm_s,
+            build_cpu_s,
+            memory_mb,
+            limit,
+        } = self.builds;
+        let seconds = [build_cold_s, build_from_disk_s, build_warm_s];
+        for ((from, seconds), cpu_s) in
+            ["cold", "from disk", "from memory"].iter().zip(seconds).zip(build_cpu_s)
+        {
+            writeln!(f, "{:<20} {seconds:>7.3} s {cpu_s:>9.3} s of all processors", format!("build {from}"))?;
+        }
+        writeln!(f, "an instance without pieces {:.1} ms; memory {memory_mb:.0} MB", 1e3 * instance_s)?;
+        if let Some(Limit { multiply_adds_per_s, modes, ringing_share }) = limit {
+            writeln!(
+                f,
+                "at most {:.1} billion multiply-adds a second; all {modes} modes ringing take {:.1} % of that",
+                1e-9 * multiply_adds_per_s,
+                100.0 * ringing_share
+            )?;
+        }
         for Count { name, instructions_per_s } in &self.instructions {
             writeln!(f, "{name:<20} {:>9.1} million instructions a second", instructions_per_s / 1e6)?;
         }
@@ -196,14 +228,13 @@ mod tests {
         let kit = [Scene::Groove(quality), Scene::AllAtOnce(quality), Scene::Idle];
         let crash = Quality::ALL.map(|quality| Scene::Piece(PieceId::Crash, quality));
         let scenes = kit.into_iter().chain(crash).chain([Scene::Piece(PieceId::Kick, quality)]);
-        let request = Request { runs: 7, quality, simd: None, compare: None, callgrind: false };
+        let request =
+            Request { runs: 7, quality, rate: 44_100.0, simd: None, compare: None, callgrind: false };
         let report = Report::new(Measured {
             request: &request,
             costs: scenes.map(|scene| (scene, cost)).collect(),
-            blocks: Blocks::default(),
-            build_cold_s: 1.0,
-            build_warm_s: 0.5,
-            memory_mb: 40.0,
+            blocks: vec![Blocks::default()],
+            builds: Builds::default(),
             simd: "avx2",
             counts: Vec::new(),
         });

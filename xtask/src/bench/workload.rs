@@ -5,7 +5,7 @@ use overhear_engine::kit::{BLOCK, Kit};
 use overhear_engine::piece::{Piece, PieceId, Quality};
 use overhear_engine::strike::Strike;
 
-use super::{RATE, options};
+use super::options;
 use crate::{bad_input, hear};
 
 /// Speed of the strokes on single pieces and on all at once, m/s.
@@ -54,9 +54,9 @@ impl Scene {
     }
 
     /// The strokes: at which sample, on what, how.
-    fn strokes(self) -> Vec<(usize, PieceId, Strike)> {
+    fn strokes(self, rate: f64) -> Vec<(usize, PieceId, Strike)> {
         match self {
-            Scene::Groove(_) => groove(),
+            Scene::Groove(_) => groove(rate),
             Scene::AllAtOnce(_) => {
                 let struck = PieceId::KIT.into_iter().filter(|&piece| piece != PieceId::Timpani);
                 struck.map(|piece| (0, piece, hard(piece))).collect()
@@ -75,10 +75,10 @@ fn strike(piece: PieceId, speed: f64, radius: f64) -> Strike {
     Strike { speed, radius, ..hear::default_strike(piece) }
 }
 
-fn groove() -> Vec<(usize, PieceId, Strike)> {
+fn groove(rate: f64) -> Vec<(usize, PieceId, Strike)> {
     let mut strokes = Vec::new();
     for step in 0..16 {
-        let at = (0.25 * f64::from(step) * RATE) as usize;
+        let at = (0.25 * f64::from(step) * rate) as usize;
         strokes.push((at, PieceId::Ride, strike(PieceId::Ride, 2.5, 0.6)));
         match step % 4 {
             0 => strokes.push((at, PieceId::Kick, strike(PieceId::Kick, 3.0, 0.2))),
@@ -95,6 +95,7 @@ fn groove() -> Vec<(usize, PieceId, Strike)> {
 /// A kit and the strokes on it, as far as they have been played.
 pub struct Workload {
     scene: Scene,
+    rate: f64,
     kit: Kit,
     strokes: Vec<(usize, PieceId, Strike)>,
     played: usize,
@@ -108,25 +109,30 @@ impl Workload {
     ///
     /// # Errors
     /// [`BadInput`](crate::error::BadInput) if a piece cannot be built.
-    pub fn new(scene: &Scene) -> Result<Workload> {
+    pub fn new(scene: &Scene, rate: f64) -> Result<Workload> {
         let scene = *scene;
         let (ids, quality) = match scene {
             Scene::Groove(quality) | Scene::AllAtOnce(quality) => (PieceId::KIT.to_vec(), quality),
             Scene::Idle => (PieceId::KIT.to_vec(), Quality::Standard),
             Scene::Piece(piece, quality) => (vec![piece], quality),
         };
-        let mut kit = Kit::new(RATE);
+        let mut kit = Kit::new(rate);
         for id in ids {
-            let piece = Piece::new(id, &options(quality)).map_err(|error| bad_input!("{error}"))?;
+            let piece = Piece::new(id, &options(quality, rate)).map_err(|error| bad_input!("{error}"))?;
             kit.install(Box::new(piece));
         }
         let (left, right) = ([0.0; BLOCK], [0.0; BLOCK]);
-        Ok(Workload { scene, kit, strokes: scene.strokes(), played: 0, now: 0, left, right })
+        Ok(Workload { scene, rate, kit, strokes: scene.strokes(rate), played: 0, now: 0, left, right })
     }
 
     /// What it is.
     pub fn scene(&self) -> Scene {
         self.scene
+    }
+
+    /// Blocks of the whole scene.
+    pub fn blocks(&self) -> usize {
+        (self.scene.seconds() * self.rate) as usize / BLOCK
     }
 
     /// Back to the beginning.

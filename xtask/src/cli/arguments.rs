@@ -409,6 +409,9 @@ pub struct BenchArguments {
     /// How far up the modes of the kit's cymbals are coupled
     #[arg(long, default_value = "standard")]
     quality: Quality,
+    /// Sample rate, Hz
+    #[arg(long, value_name = "HZ", default_value_t = bench::RATE as u32, value_parser = clap::value_parser!(u32).range(RATES))]
+    rate: u32,
     /// Use no wider instruction set
     #[arg(long)]
     simd: Option<Simd>,
@@ -426,6 +429,7 @@ impl BenchArguments {
         bench::Request {
             runs: self.runs.into(),
             quality: self.quality.into(),
+            rate: self.rate.into(),
             simd: self.simd.map(Into::into),
             compare: self.compare,
             callgrind: self.callgrind,

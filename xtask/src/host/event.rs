@@ -2,7 +2,7 @@
 
 use clack_host::events::Pckn;
 use clack_host::events::event_types::{
-    MidiEvent, NoteChokeEvent, NoteOffEvent, NoteOnEvent, ParamValueEvent,
+    MidiEvent, NoteChokeEvent, NoteOffEvent, NoteOnEvent, ParamModEvent, ParamValueEvent,
 };
 use clack_host::events::io::EventBuffer;
 use clack_host::utils::ClapId;
@@ -49,6 +49,13 @@ pub enum What {
         /// Value in the format's range.
         value: f64,
     },
+    /// A parameter is moved away from its value for a while.
+    Modulation {
+        /// Id of the parameter in the format.
+        id: u32,
+        /// Distance from the value, in the format's range.
+        amount: f64,
+    },
     /// Three bytes of MIDI.
     Midi([u8; 3]),
 }
@@ -73,6 +80,11 @@ impl Event {
             What::Parameter { id, value } => {
                 if let Some(id) = ClapId::from_raw(id) {
                     buffer.push(&ParamValueEvent::new(offset, id, Pckn::match_all(), value));
+                }
+            }
+            What::Modulation { id, amount } => {
+                if let Some(id) = ClapId::from_raw(id) {
+                    buffer.push(&ParamModEvent::new(offset, id, Pckn::match_all(), amount));
                 }
             }
             What::Midi(data) => buffer.push(&MidiEvent::new(offset, 0, data)),
