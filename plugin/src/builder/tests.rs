@@ -12,7 +12,7 @@ fn quick(id: PieceId, options: &BuildOptions) -> Result<Piece, SpecError> {
 }
 
 fn slow(id: PieceId, options: &BuildOptions) -> Result<Piece, SpecError> {
-    thread::sleep(Duration::from_millis(50));
+    thread::sleep(Duration::from_millis(300));
     quick(id, options)
 }
 
