@@ -17,7 +17,7 @@ use crate::kit::BLOCK;
 use crate::layout::Layout;
 use crate::microphones::CloseMicrophone;
 use crate::modal::EARS;
-use crate::snapshot::{FieldShapes, PieceSnapshot, StrikeSnapshot};
+use crate::snapshot::{FIELD_MODES, FieldShapes, ModeSnapshot, PieceSnapshot, StrikeSnapshot};
 use crate::strike::Strike;
 use crate::surface::Surface;
 use crate::surface::air::{AUDIBLE, Incident};
@@ -342,7 +342,10 @@ impl Piece {
                 std::array::from_fn(|k| all.get(k).copied().unwrap_or(0.0))
             })
             .collect();
-        FieldShapes { points, shapes }
+        let body = surface.body().len().min(FIELD_MODES);
+        let orders = self.modes().iter().take(body).map(|mode| [mode.m, mode.n]).collect();
+        let tension = self.tensions().first().map_or(0.0, |&(_, tension)| tension as f32);
+        FieldShapes { points, shapes, orders, tension }
     }
 
     /// Fills in what is known of the piece but for its peak, which the mix measures.
@@ -353,6 +356,7 @@ impl Piece {
         let body = self.voice.surface().body();
         into.ready = true;
         into.energy = self.energy() as f32;
+        into.stretch = self.voice.surface().beyond().map_or(0.0, |force| force.energy() as f32);
         into.strike = self.last_strike();
         into.wires = self.wires();
         into.rims = self.rims();
@@ -360,6 +364,9 @@ impl Piece {
         into.hurried_strikers = self.voice.surface().hurried_strikers();
         for (k, q) in into.displacement.iter_mut().enumerate() {
             *q = if k < body.len() { body.displacement(k) } else { 0.0 };
+        }
+        for (mode, now) in into.modes.iter_mut().zip(body.modes()) {
+            *mode = ModeSnapshot { omega: now.omega as f32, sigma: now.sigma as f32 };
         }
     }
 }

@@ -8,6 +8,53 @@ pub const FIELD_MODES: usize = 32;
 /// Points of the displacement field: the centre and 6 rings of 24 spokes.
 pub const FIELD_POINTS: usize = 1 + 6 * 24;
 
+/// Steps of a stroke's force over time.
+pub const FORCE_STEPS: usize = 96;
+
+/// Force of a stroke over time from its first touch on, as the largest of each step; the steps grow with the stroke.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ForceTrace {
+    /// Largest force of each step, N; zero beyond the present.
+    pub steps: [f32; FORCE_STEPS],
+    /// Samples in a step: a power of two.
+    pub samples: u32,
+    /// Length of a sample, s.
+    pub dt: f32,
+}
+
+impl Default for ForceTrace {
+    fn default() -> Self {
+        ForceTrace { steps: [0.0; FORCE_STEPS], samples: 1, dt: 0.0 }
+    }
+}
+
+impl ForceTrace {
+    /// Adds the force (N) `age` samples after the first touch. When there is no step left, pairs of steps become one.
+    ///
+    /// # Real-time
+    /// No allocation; a step is written, rarely all.
+    pub fn add(&mut self, age: u64, force: f32) {
+        while age / u64::from(self.samples) >= FORCE_STEPS as u64 {
+            // Of a stroke that lasts longer than anything does, the rest is left out.
+            if self.samples > 1 << 16 {
+                return;
+            }
+            for step in 0..FORCE_STEPS {
+                let pair = self.steps.get(2 * step..2 * step + 2).unwrap_or_default();
+                self.steps[step] = pair.iter().fold(0.0, |most, &force| f32::max(most, force));
+            }
+            self.samples *= 2;
+        }
+        let step = &mut self.steps[(age / u64::from(self.samples)) as usize];
+        *step = step.max(force);
+    }
+
+    /// Length of a step, s.
+    pub fn step(&self) -> f32 {
+        self.samples as f32 * self.dt
+    }
+}
+
 /// What a stroke's contact measured.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct StrikeSnapshot {
@@ -29,6 +76,8 @@ pub struct StrikeSnapshot {
     pub leaving_speed: f32,
     /// Separate touches.
     pub touches: u32,
+    /// Force over time.
+    pub force: ForceTrace,
 }
 
 /// What snare wires have done since the latest stroke.
@@ -53,6 +102,17 @@ pub struct RimSnapshot {
     pub last_lift: f32,
     /// Force that clamps them together at rest, N.
     pub clamped: f32,
+    /// How far the pedal's rod is down, m.
+    pub pedal: f32,
+}
+
+/// The present frequency and loss of a mode.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ModeSnapshot {
+    /// Undamped angular frequency, rad/s.
+    pub omega: f32,
+    /// Decay rate of the amplitude, 1/s.
+    pub sigma: f32,
 }
 
 /// One piece, seen from outside.
@@ -64,8 +124,12 @@ pub struct PieceSnapshot {
     pub peak: f32,
     /// Vibration energy, J.
     pub energy: f32,
+    /// What of it is held beyond the modes: by the stretch of a head or a plate, J.
+    pub stretch: f32,
     /// Displacement of the lowest modes, m; see [`FieldShapes`] for their shapes.
     pub displacement: [f32; FIELD_MODES],
+    /// The same modes as they are tuned and muffled; zero where there is none.
+    pub modes: [ModeSnapshot; FIELD_MODES],
     /// The latest stroke.
     pub strike: StrikeSnapshot,
     /// Its snare wires.
@@ -84,7 +148,9 @@ impl Default for PieceSnapshot {
             ready: false,
             peak: 0.0,
             energy: 0.0,
+            stretch: 0.0,
             displacement: [0.0; FIELD_MODES],
+            modes: [ModeSnapshot::default(); FIELD_MODES],
             strike: StrikeSnapshot::default(),
             wires: WireSnapshot::default(),
             rims: RimSnapshot::default(),
@@ -117,12 +183,16 @@ pub struct KitSnapshot {
 ///
 /// Computed where the piece is built and handed to whoever draws: the displacement at point `i`
 /// is the dot product of `shapes[i]` and [`PieceSnapshot::displacement`].
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct FieldShapes {
     /// `[point]`: place on the unit disc, x to the right and y away from the player.
     pub points: Vec<[f32; 2]>,
     /// `[point][mode]`: mode shape, of unit mean square over the surface.
     pub shapes: Vec<[f32; FIELD_MODES]>,
+    /// `[mode]`: nodal diameters and circles; a piece may have fewer modes.
+    pub orders: Vec<[u32; 2]>,
+    /// Tension of the struck head as it was built, N/m; zero for a plate.
+    pub tension: f32,
 }
 
 impl FieldShapes {
@@ -137,5 +207,25 @@ impl FieldShapes {
             }
         }
         points
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_trace_keeps_its_peak_and_its_length_however_long_it_grows() {
+        let mut trace = ForceTrace { dt: 1e-4, ..ForceTrace::default() };
+        let force = |age: u64| 100.0 * (-(age as f32 - 40.0).powi(2) / 200.0).exp();
+        for age in 0..5_000 {
+            trace.add(age, force(age));
+        }
+        let peak = trace.steps.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1)).unwrap();
+        assert_eq!(*peak.1, 100.0);
+        assert!((peak.0 as f32 * trace.step() - 40e-4).abs() <= trace.step());
+        assert!(FORCE_STEPS as f32 * trace.step() >= 0.5);
+        trace.add(u64::MAX, 1e9);
+        assert_eq!(trace.steps.iter().fold(0.0, |most, &force| f32::max(most, force)), 100.0);
     }
 }

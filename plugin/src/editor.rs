@@ -1,8 +1,8 @@
 //! The editor: the kit's levels, one piece's motion, its parameters.
 //!
-//! It reads snapshots, mode shapes and parameters and never touches the engine. Every frame asks for the next: nothing
-//! outside does, because a window asked to draw before it is shown waits for an answer that X11 gives only to those
-//! who are shown, and stays blank. Drawing is split
+//! It reads snapshots, mode shapes and parameters and never touches the engine. Every frame asks for the next, and what
+//! wakes a resting window begins with the first: a window asked to draw before it is shown waits for an answer that
+//! X11 gives only to those who are shown, and stays blank. Drawing is split
 //! into the surface, the panels around it, those of presets and of playing, the knob and the theme; what stays here is the
 //! window: opening it at the size the project stored, and storing the size it is given.
 
@@ -10,42 +10,56 @@ use std::error::Error;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
+use glow::HasContext;
+
 use nice_plug::context::gui::GuiContext;
-use nice_plug::editor::dpi::{LogicalSize, NativeSize};
+use nice_plug::editor::dpi::{LogicalSize, NativeSize, PhysicalSize};
 use nice_plug::editor::{HostMethods, SpawnedEditor};
 use nice_plug::prelude::*;
 use nice_plug_egui::baseview::{HandlerError, WindowSize};
 use nice_plug_egui::{
-    EguiEditor, EguiEditorState, EguiNiceSettings, Frame, NiceEguiApp, RepaintNotifier, create_egui_editor,
+    EguiEditor, EguiEditorState, EguiNiceSettings, Frame, GraphicsConfig, NiceEguiApp, RepaintNotifier,
+    create_egui_editor,
 };
 
 use crate::NAME;
 use crate::builder::Shapes;
 use crate::host_parameters::{HostParameters, SMALLEST_WINDOW};
-use crate::monitor::Viewer;
+use crate::monitor::{AUDIBLE, Viewer};
 use crate::presets::Library;
+use crate::strokes::Strokes;
 
+mod field;
+mod history;
+mod kit_view;
 mod knob;
+mod knobs;
+mod levels;
+mod list;
+mod mix;
 mod panels;
+mod physics;
 mod playing;
+mod plot;
 mod presets;
-mod surface;
+mod stage;
+mod status;
 mod theme;
+mod watch;
 mod window;
 
-use panels::Panels;
-use playing::PlayingPanel;
-use presets::PresetBar;
+use panels::{Hands, Inputs, Panels};
+use watch::Watch;
 use window::Farewell;
 
 /// From one frame to the next while the kit plays: 60 a second.
 const FRAME_INTERVAL: Duration = Duration::from_micros(16_667);
 
-/// From one frame to the next while nothing sounds: soon enough for a first stroke, cheap enough to stay open.
-const RESTING_INTERVAL: Duration = Duration::from_millis(80);
+/// The same where the processor draws: a tenth of it at most.
+const SOFTWARE_INTERVAL: Duration = Duration::from_millis(100);
 
-/// A piece's peak above which it is drawn moving, full scale 1.
-const AUDIBLE: f32 = 1e-5;
+/// From one frame to the next while nothing sounds; [`watch`] wakes the window when something does.
+const RESTING_INTERVAL: Duration = Duration::from_millis(1_500);
 
 /// The framework's own way of asking for frames would do so before the window is shown.
 const NEVER: Duration = Duration::from_secs(24 * 60 * 60);
@@ -56,6 +70,7 @@ struct Sources {
     parameters: Arc<HostParameters>,
     viewer: Viewer,
     shapes: Shapes,
+    strokes: Strokes,
 }
 
 /// The editor as the framework holds it: opens a window when the host asks.
@@ -67,9 +82,14 @@ pub struct OverhearEditor {
 
 impl OverhearEditor {
     /// An editor without a window.
-    pub fn new(parameters: Arc<HostParameters>, viewer: Viewer, shapes: Shapes) -> OverhearEditor {
+    pub fn new(
+        parameters: Arc<HostParameters>,
+        viewer: Viewer,
+        shapes: Shapes,
+        strokes: Strokes,
+    ) -> OverhearEditor {
         let window = Mutex::new(window_of(&parameters));
-        OverhearEditor { sources: Sources { parameters, viewer, shapes }, window }
+        OverhearEditor { sources: Sources { parameters, viewer, shapes, strokes }, window }
     }
 
     /// The open window, or one of the stored size: the framework's own state keeps the size it
@@ -86,6 +106,8 @@ impl OverhearEditor {
         let settings = EguiNiceSettings::new()
             .with_tile(NAME)
             .with_resize_hint(resize_hint())
+            // Noise against banding costs a processor that draws more than the picture does.
+            .with_graphics_config(GraphicsConfig { dithering: false, ..GraphicsConfig::default() })
             .with_repaint_poll_interval(NEVER);
         create_egui_editor(window, RepaintNotifier::new(), settings, App::new(self.sources.clone(), farewell))
     }
@@ -93,7 +115,7 @@ impl OverhearEditor {
 
 fn window_of(parameters: &HostParameters) -> Arc<EguiEditorState> {
     let (width, height) = parameters.window();
-    EguiEditorState::from_size(LogicalSize::new(f64::from(width), f64::from(height)), 1.0)
+    EguiEditorState::from_size(LogicalSize::new(f64::from(width), f64::from(height)), parameters.view().zoom)
 }
 
 fn resize_hint() -> ResizeHint {
@@ -122,7 +144,10 @@ impl Editor for OverhearEditor {
 
     fn size(&self) -> NativeSize<u32> {
         let window = self.window();
-        NativeSize::from_size(window.physical_size().into(), 1.0)
+        let (size, zoom) = (window.physical_size(), window.user_scale_factor());
+        let zoomed = |points: u32| (points as f32 * zoom).round() as u32;
+        let size = PhysicalSize::new(zoomed(size.width), zoomed(size.height));
+        NativeSize::from_size(size.into(), 1.0)
     }
 
     fn resize_hint(&self) -> ResizeHint {
@@ -136,22 +161,22 @@ struct App {
     farewell: Farewell,
     gui: Option<GuiContext>,
     panels: Panels,
-    presets: PresetBar,
-    playing: PlayingPanel,
-    /// Whether the panel of playing covers the surface.
-    plays: bool,
+    /// From the first frame on.
+    watch: Option<Watch>,
+    /// From one frame to the next while something moves.
+    interval: Duration,
 }
 
 impl App {
     fn new(sources: Sources, farewell: Farewell) -> App {
+        let view = sources.parameters.view();
         App {
             sources,
             farewell,
             gui: None,
-            panels: Panels::default(),
-            presets: PresetBar::new(Library::default()),
-            playing: PlayingPanel::default(),
-            plays: false,
+            panels: Panels::new(Library::default(), view),
+            watch: None,
+            interval: FRAME_INTERVAL,
         }
     }
 }
@@ -165,15 +190,24 @@ impl NiceEguiApp for App {
     ) -> Result<(), HandlerError> {
         self.farewell.carry();
         theme::apply(&context);
-        frame.set_clear_color(theme::BACKGROUND.into());
+        let light = self.sources.parameters.view().light;
+        theme::choose(&context, light);
         self.gui = Some(gui);
-        // Peaks collected while no window was open are old news.
-        self.sources.viewer.latest();
+        if draws_in_software(frame) {
+            self.interval = SOFTWARE_INTERVAL;
+        }
+        // Peaks and strokes from while no window was open are old news.
+        self.panels.forget(&self.sources.viewer.latest());
         Ok(())
     }
 
-    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut Frame) {
+    fn ui(&mut self, ui: &mut egui::Ui, frame: &mut Frame) {
         let Some(gui) = &self.gui else { return };
+        frame.set_clear_color(as_written(theme::of(ui).background));
+        self.watch.get_or_insert_with(|| {
+            let (sound, parameters) = (self.sources.viewer.sound().clone(), self.sources.parameters.clone());
+            Watch::new(ui.ctx().clone(), sound, parameters)
+        });
         let mut snapshot = self.sources.viewer.latest();
         snapshot.late_buffers = self.sources.parameters.deadlines().late();
         let shapes = |slot| self.sources.shapes.of(slot);
@@ -181,26 +215,45 @@ impl NiceEguiApp for App {
             let Some(parameter) = self.sources.parameters.values().get(index) else { return };
             gesture_to_host(&gui.param_setter(), parameter, gesture);
         };
-        self.panels.show(ui, &snapshot, &shapes, self.sources.parameters.values(), &mut set);
-        if self.plays {
-            let cover = self.panels.stage_rect();
-            self.playing.show(ui, cover, &self.sources.parameters, &mut set);
-        }
-        let bar = panels::bar_rect(ui.max_rect());
-        ui.scope_builder(egui::UiBuilder::new().max_rect(bar), |ui| {
-            ui.horizontal(|ui| {
-                ui.toggle_value(&mut self.plays, "Playing");
-                self.presets.show(ui, &self.sources.parameters, &mut set);
-            });
-        });
-        let moves = snapshot.pieces.iter().any(|piece| piece.peak > AUDIBLE);
-        ui.ctx().request_repaint_after(if moves { FRAME_INTERVAL } else { RESTING_INTERVAL });
+        let mut play = |stroke| self.sources.strokes.play(stroke);
+        let (parameters, sound) = (&self.sources.parameters, self.sources.viewer.sound());
+        let inputs = Inputs { snapshot: &snapshot, shapes: &shapes, parameters, sound };
+        self.panels.show(ui, &inputs, &mut Hands { set: &mut set, play: &mut play });
+        self.sources.parameters.set_view(self.panels.view());
+        let now = ui.input(|input| input.time);
+        let sounds = snapshot.pieces.iter().any(|piece| piece.peak > AUDIBLE);
+        let moves = sounds || self.panels.moves_on(&snapshot, now);
+        ui.ctx().request_repaint_after(if moves { self.interval } else { RESTING_INTERVAL });
     }
 
     fn resized(&mut self, size: WindowSize) {
         let size = size.logical;
         self.sources.parameters.set_window((size.width.round() as u32, size.height.round() as u32));
     }
+}
+
+/// A colour to clear with, which goes to the screen as it is: no light is computed from it.
+fn as_written(colour: egui::Color32) -> egui::Rgba {
+    let [red, green, blue, _] = colour.to_array().map(|channel| f32::from(channel) / 255.0);
+    egui::Rgba::from_rgb(red, green, blue)
+}
+
+/// Whether the processor draws rather than a graphics card.
+#[allow(unsafe_code)]
+fn draws_in_software(frame: &Frame) -> bool {
+    let Some(context) = frame.baseview_window().gl_context() else { return false };
+    // SAFETY: it is the window's own context, on the thread that draws with it; it is current no longer than here, and
+    // nothing else is in between.
+    let renderer = unsafe {
+        if context.make_current().is_err() {
+            return false;
+        }
+        let renderer = frame.gl().get_parameter_string(glow::RENDERER);
+        // One that cannot be let go will be taken again by the first frame.
+        let _ = context.make_not_current();
+        renderer
+    };
+    ["llvmpipe", "softpipe", "swrast", "SwiftShader", "Software"].iter().any(|name| renderer.contains(name))
 }
 
 fn gesture_to_host(setter: &ParamSetter, parameter: &FloatParam, gesture: knob::Gesture) {

@@ -14,6 +14,7 @@ use crate::midi::maps::NoteMap;
 use crate::parameters::{BYPASS_GROUP, BYPASS_ID, Drives, Manner, PARAMETERS, Parameter, host_id};
 use crate::presets::{Library, Program, Programs};
 use crate::state;
+use crate::view::View;
 
 /// Logical size of the editor's window, pixels: width, height.
 pub type WindowSize = (u32, u32);
@@ -22,7 +23,7 @@ pub type WindowSize = (u32, u32);
 pub const DEFAULT_WINDOW: WindowSize = (980, 640);
 
 /// Smallest window in which everything is legible.
-pub const SMALLEST_WINDOW: WindowSize = (760, 500);
+pub const SMALLEST_WINDOW: WindowSize = (800, 500);
 
 /// Largest window a state is believed: a broken one must not open a window nobody can close.
 const LARGEST_WINDOW: WindowSize = (7680, 4320);
@@ -34,6 +35,7 @@ pub struct HostParameters {
     /// Boxed for the same reason.
     bypass: Box<BoolParam>,
     window: AtomicCell<WindowSize>,
+    view: AtomicCell<View>,
     assignments: Arc<Assignments>,
     /// What program changes call; read when first needed, off the audio thread.
     programs: OnceLock<Programs>,
@@ -47,6 +49,7 @@ impl Default for HostParameters {
             values: PARAMETERS.iter().map(host_parameter).collect(),
             bypass: Box::new(BoolParam::new("Bypass", false).make_bypass()),
             window: AtomicCell::new(DEFAULT_WINDOW),
+            view: AtomicCell::new(View::default()),
             assignments: Arc::default(),
             programs: OnceLock::new(),
             deadlines: Deadlines::default(),
@@ -136,6 +139,16 @@ impl HostParameters {
         self.window.load()
     }
 
+    /// How the editor's window looks at the kit.
+    pub fn view(&self) -> View {
+        self.view.load()
+    }
+
+    /// Stores how the editor's window looks at the kit.
+    pub fn set_view(&self, view: View) {
+        self.view.store(view);
+    }
+
     /// Stores the logical size of the editor's window, within what is legible and sane.
     pub fn set_window(&self, (width, height): WindowSize) {
         self.window.store((
@@ -173,6 +186,9 @@ unsafe impl Params for HostParameters {
         if let Ok(window) = serialize_field(&self.window()) {
             fields.insert(state::WINDOW_FIELD.to_owned(), window);
         }
+        if let Ok(view) = serialize_field(&self.view().stored()) {
+            fields.insert(state::VIEW_FIELD.to_owned(), view);
+        }
         fields.insert(state::NOTES_FIELD.to_owned(), state::notes_text(&self.assignments.changed()));
         fields
     }
@@ -181,6 +197,9 @@ unsafe impl Params for HostParameters {
         // A state older than assignments has none.
         let notes = fields.get(state::NOTES_FIELD).map(|text| state::notes(text)).unwrap_or_default();
         self.assignments.replace(&notes);
+        // A state older than views has none.
+        let view = fields.get(state::VIEW_FIELD).and_then(|text| deserialize_field(text).ok());
+        self.set_view(view.map_or_else(View::default, View::from_stored));
         let Some(window) = fields.get(state::WINDOW_FIELD) else { return };
         match deserialize_field(window) {
             Ok(window) => self.set_window(window),

@@ -5,8 +5,8 @@
 //! know no framework, and the commands share them with the plugin.
 //!
 //! With the feature `framework`, around them: [`plugin`] is the instance a host holds,
-//! [`builder`] the thread that makes its pieces, [`shelf`] what outlives it, [`host_parameters`] and [`state`] what a project
-//! stores, [`monitor`] what the [`editor`] may know.
+//! [`builder`] the thread that makes its pieces, [`shelf`] what outlives it, [`host_parameters`], [`view`] and [`state`] what a project
+//! stores, [`monitor`] what the [`editor`] may know, [`sound`] what it may hear, [`strokes`] what is struck there.
 #![deny(unsafe_code)]
 
 #[cfg(feature = "framework")]
@@ -31,7 +31,12 @@ pub mod plugin;
 pub mod presets;
 pub mod shelf;
 #[cfg(feature = "framework")]
+pub mod sound;
+#[cfg(feature = "framework")]
 pub mod state;
+pub mod strokes;
+#[cfg(feature = "framework")]
+pub mod view;
 
 /// The instrument's name in hosts.
 pub const NAME: &str = "Overhear";

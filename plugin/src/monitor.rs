@@ -9,14 +9,19 @@ use overhear_engine::snapshot::KitSnapshot;
 use triple_buffer::{Input, Output, TripleBuffer};
 
 use crate::performer::Performer;
+use crate::sound::Sound;
 
 /// Snapshots a second: a little above what screens show, so that no frame lacks a new one.
 const SNAPSHOT_RATE: f64 = 85.0;
+
+/// A piece's peak above which it can be heard, full scale 1.
+pub const AUDIBLE: f32 = 1e-5;
 
 /// The audio thread's end.
 pub struct Publisher {
     snapshots: Input<KitSnapshot>,
     latest: KitSnapshot,
+    sound: Sound,
     /// Samples from one snapshot to the next.
     interval: usize,
     /// Samples since the latest.
@@ -27,20 +32,31 @@ pub struct Publisher {
 #[derive(Clone)]
 pub struct Viewer {
     snapshots: Arc<Mutex<Output<KitSnapshot>>>,
+    sound: Sound,
 }
 
 /// Both ends.
 pub fn monitor() -> (Publisher, Viewer) {
     let (input, output) = TripleBuffer::default().split();
     let latest = KitSnapshot::default();
-    let publisher = Publisher { snapshots: input, latest, interval: 1, elapsed: 0 };
-    (publisher, Viewer { snapshots: Arc::new(Mutex::new(output)) })
+    let sound = Sound::default();
+    let publisher = Publisher { snapshots: input, latest, sound: sound.clone(), interval: 1, elapsed: 0 };
+    (publisher, Viewer { snapshots: Arc::new(Mutex::new(output)), sound })
 }
 
 impl Publisher {
     /// Adopts a sample rate (Hz).
     pub fn set_sample_rate(&mut self, sample_rate: f64) {
+        self.sound.set_rate(sample_rate as f32);
         self.interval = ((sample_rate / SNAPSHOT_RATE) as usize).max(1);
+    }
+
+    /// Passes on what both outputs play.
+    ///
+    /// # Real-time
+    /// A store for each sample; no allocation, no lock.
+    pub fn heard(&self, left: &[f32], right: &[f32]) {
+        self.sound.write(left, right);
     }
 
     /// Notes that samples were rendered, and publishes a snapshot when one is due.
@@ -62,11 +78,17 @@ impl Publisher {
         if !self.snapshots.consumed() {
             carry_peaks(&former, &mut self.latest);
         }
+        self.sound.set_loud(self.latest.pieces.iter().any(|piece| piece.peak > AUDIBLE));
         self.snapshots.write(self.latest);
     }
 }
 
 impl Viewer {
+    /// What is heard.
+    pub fn sound(&self) -> &Sound {
+        &self.sound
+    }
+
     /// The latest snapshot.
     pub fn latest(&self) -> KitSnapshot {
         *self.snapshots.lock().unwrap_or_else(PoisonError::into_inner).read()

@@ -13,7 +13,7 @@ use overhear_engine::kit::{Control, Crew, Kit, Stereo};
 use overhear_engine::layout::Layout;
 use overhear_engine::piece::{Piece, PieceId};
 use overhear_engine::snapshot::KitSnapshot;
-use overhear_engine::strike::Striker;
+use overhear_engine::strike::{Strike, Striker};
 
 use crate::building::{BuildPlan, Pace};
 use crate::midi::assignments::Assignments;
@@ -140,6 +140,20 @@ impl Performer {
             self.kit.strike(played.piece, &played.strike);
         });
         true
+    }
+
+    /// Strikes a piece at the next sample as a hand asks, with the striker that its parameter says.
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn strike(&mut self, piece: PieceId, strike: &Strike) {
+        let Some(slot) = piece.slot() else { return };
+        let striker = self.playing.style.strikers[slot].unwrap_or(strike.striker);
+        self.start();
+        flushed(|| {
+            self.kit.choke(piece, 0.0);
+            self.kit.strike(piece, &Strike { striker, ..*strike });
+        });
     }
 
     /// Where the next note's stroke lands, 0 (centre) to 1 (rim), if it has a place to choose; `None` where controllers and

@@ -26,6 +26,7 @@ use crate::outputs::{Apart, Buffers, Mix, Outputs};
 use crate::parameters::PARAMETERS;
 use crate::performer::Performer;
 use crate::state;
+use crate::strokes::Strokes;
 
 mod events;
 
@@ -56,6 +57,7 @@ pub struct Instrument<O> {
     stage: Option<Stage>,
     publisher: Publisher,
     viewer: Viewer,
+    strokes: Strokes,
     outputs: PhantomData<O>,
 }
 
@@ -77,7 +79,16 @@ impl<O> Default for Instrument<O> {
             let (parameters, offline) = (parameters.clone(), offline.clone());
             Builder::new(Arc::new(move || plan(&parameters, &offline)))
         };
-        Instrument { parameters, offline, builder, stage: None, publisher, viewer, outputs: PhantomData }
+        Instrument {
+            parameters,
+            offline,
+            builder,
+            stage: None,
+            publisher,
+            viewer,
+            strokes: Strokes::default(),
+            outputs: PhantomData,
+        }
     }
 }
 
@@ -115,7 +126,8 @@ impl<O: Outputs> Plugin for Instrument<O> {
     }
 
     fn editor(&mut self, _executor: AsyncExecutor<Self>) -> Option<OverhearEditor> {
-        Some(OverhearEditor::new(self.parameters.clone(), self.viewer.clone(), self.builder.shapes()))
+        let (parameters, viewer) = (self.parameters.clone(), self.viewer.clone());
+        Some(OverhearEditor::new(parameters, viewer, self.builder.shapes(), self.strokes.clone()))
     }
 
     fn filter_state(state: &mut PluginState) {
@@ -138,6 +150,7 @@ impl<O: Outputs> Plugin for Instrument<O> {
     }
 
     fn reset(&mut self) {
+        self.strokes.clear();
         let bypassed = self.parameters.is_bypassed();
         if let Some(stage) = &mut self.stage {
             stage.bypass.settle(bypassed);
@@ -158,8 +171,11 @@ impl<O: Outputs> Plugin for Instrument<O> {
         let played = self.stage.as_mut().is_some_and(|stage| {
             stage.guarded(|stage| {
                 stage.follow(&self.parameters);
+                self.strokes.deliver(&mut stage.performer);
                 play(&mut stage.performer, &mut buffers, &self.parameters, || context.next_event());
                 stage.bypass.apply(bypassed, buffers.channels());
+                let (heard, _) = buffers.stretch(0, buffers.len());
+                self.publisher.heard(heard[0], heard[1]);
                 self.publisher.rendered(buffers.len(), &mut stage.performer);
             })
         });

@@ -21,6 +21,9 @@ pub const SCHEMA_FIELD: &str = "schema";
 /// Field that holds the window's logical size.
 pub const WINDOW_FIELD: &str = "window";
 
+/// Field of how the editor looks at the kit.
+pub const VIEW_FIELD: &str = "view";
+
 /// Field that holds the user's assignments: `38=49 40=silent`.
 pub const NOTES_FIELD: &str = "notes";
 

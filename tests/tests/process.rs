@@ -7,7 +7,10 @@ use assert_no_alloc::{AllocDisabler, assert_no_alloc, reset_violation_count, vio
 use overhear::deadline::Deadlines;
 use overhear::parameters::PARAMETERS;
 use overhear::performer::Performer;
+use overhear::strokes::{Stroke, Strokes};
+use overhear_engine::piece::PieceId;
 use overhear_engine::snapshot::KitSnapshot;
+use overhear_engine::strike::{Strike, Striker};
 use overhear_tests::Chance;
 
 #[global_allocator]
@@ -17,6 +20,7 @@ static ALLOCATOR: AllocDisabler = AllocDisabler;
 struct Session {
     performer: Performer,
     deadlines: Deadlines,
+    strokes: Strokes,
     snapshot: KitSnapshot,
     left: Vec<f32>,
     right: Vec<f32>,
@@ -32,6 +36,7 @@ impl Session {
         Session {
             performer,
             deadlines,
+            strokes: Strokes::default(),
             snapshot: KitSnapshot::default(),
             left: vec![0.0; 512],
             right: vec![0.0; 512],
@@ -59,11 +64,20 @@ impl Session {
                     _ => self.performer.control_change(number, value, channel),
                 }
             }
-            600..980 => {
+            600..960 => {
                 // One past the end too: a host may ask for a parameter there is not.
                 let index = self.chance.below(PARAMETERS.len() + 1);
                 let value = self.chance.of(&[f32::NAN, -1e9, -30.0, 0.0, 0.5, 1.0, 60.0, 140.0, 1e9]);
                 self.performer.set_parameter(index, value);
+            }
+            960..980 => {
+                // A hand on the editor's picture.
+                let piece = self.chance.of(&PieceId::KIT);
+                let number = |chance: &mut Chance| chance.of(&[f64::NAN, -1.0, 0.0, 0.4, 1.0, 7.0]);
+                let [speed, radius, angle] = std::array::from_fn(|_| number(&mut self.chance));
+                let strike = Strike { speed, radius, angle, striker: Striker::Stick };
+                self.strokes.play(Stroke { piece, strike });
+                self.strokes.deliver(&mut self.performer);
             }
             980..998 => self.performer.snapshot(&mut self.snapshot),
             _ => self.performer.reset(),

@@ -17,7 +17,7 @@ use overhear::presets::Library;
 
 use crate::{
     bench, bundle, demo, error, groove, hear, manual, modes, output, presets, realism, render, report,
-    settings, suite,
+    settings, shots, suite,
 };
 use arguments::{
     BenchArguments, HearArguments, ModesArguments, PresetTask, RealismArguments, RenderArguments, Task,
@@ -96,6 +96,8 @@ fn dispatch(task: Task) -> Result<()> {
         Task::Report { pages, output } => report::run(&pages, &output.unwrap_or_else(report::folder)),
         Task::Presets { folder, task } => presets(folder.as_deref(), task),
         Task::Docs => manual::write(),
+        Task::Shots { out, plugin: Some(plugin), here: true } => shots::here(&out, &plugin),
+        Task::Shots { out, plugin, .. } => shots::run(&out, plugin),
         Task::Groove { output } => output::write(&output, &groove::file()),
     }
 }

@@ -6,7 +6,7 @@
 //! disk. `hear` ([`hear`]) strikes one piece and measures it ([`analysis`]); `realism`
 //! ([`realism`]) sets every piece beside recordings; [`report`] writes pages of figures,
 //! [`manual`] those of the manual that come from the code; [`presets`] keeps presets; `modes` ([`modes`]) lists what vibrates.
-//! [`demo`] plays the [`groove`] and draws a [`picture`] of it. [`bundle`] and [`suite`] build and test.
+//! [`demo`] plays the [`groove`] and draws a [`picture`] of it; [`shots`] takes pictures of the editor. [`bundle`] and [`suite`] build and test.
 #![deny(unsafe_op_in_unsafe_fn)]
 
 pub mod analysis;
@@ -30,6 +30,7 @@ pub mod realism;
 pub mod render;
 pub mod report;
 pub mod settings;
+pub mod shots;
 pub mod song;
 pub mod stage;
 pub mod suite;

@@ -48,7 +48,11 @@ pub(crate) fn drawn(
     encode(&pixels, size).context("cannot encode the picture")
 }
 
-fn encode(pixels: &[u8], (width, height): (u32, u32)) -> Result<Vec<u8>> {
+/// A PNG of pixels, row by row: red, green, blue.
+///
+/// # Errors
+/// If there are too many or too few.
+pub fn encode(pixels: &[u8], (width, height): (u32, u32)) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
     encoder.set_color(png::ColorType::Rgb);

@@ -8,7 +8,7 @@
 //! Two profiles are compiled, no more: dev for the tests, with the engine optimized, and release
 //! for the bundles. Lints and documentation share their metadata.
 
-mod display;
+pub mod display;
 mod runner;
 mod setup;
 

@@ -258,6 +258,7 @@ impl Pair {
             apart: self.touching.iter().filter(|&&touching| !touching).count() as u32,
             last_lift: (self.last_lift as f64 * self.dt) as f32,
             clamped: self.clamped() as f32,
+            pedal: self.foot.place() as f32,
         }
     }
 

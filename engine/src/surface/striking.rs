@@ -4,7 +4,7 @@
 //! has been about for long, is gone.
 
 use crate::contact::{ContactLaw, Tip};
-use crate::snapshot::StrikeSnapshot;
+use crate::snapshot::{ForceTrace, StrikeSnapshot};
 use crate::stick::Stick;
 use crate::strike::{Across, Strike, StrikerSpec};
 
@@ -43,6 +43,7 @@ impl Surface {
             speed: speed as f32,
             radius: radius as f32,
             angle: strike.angle as f32,
+            force: ForceTrace { dt: self.dt as f32, ..ForceTrace::default() },
             ..StrikeSnapshot::default()
         };
         let spec = strike.striker.spec();
@@ -161,13 +162,19 @@ impl Surface {
 
 /// Adds this sample to what a stroke's contacts have measured.
 fn report(last: &mut StrikeSnapshot, toucher: &Toucher, points: &[TouchPoint], dt: f64) {
+    let mut force = 0.0;
     for point in points.iter().filter(|point| point.present && point.force > 0.0) {
+        force += point.force;
         if point.step.before <= 0.0 {
             last.touches += 1;
         }
         last.contact_time = (toucher.age as f64 * dt) as f32;
         last.peak_force = last.peak_force.max(point.force as f32);
         last.impulse += (point.force * dt) as f32;
+    }
+    if force > 0.0 {
+        // The first sample of a touch is the first of its age.
+        last.force.add(toucher.age.saturating_sub(1), force as f32);
     }
     last.leaving_speed = toucher.leaving_speed() as f32;
 }

@@ -45,6 +45,8 @@ fn taken(delivery: &Delivery) -> Vec<PieceId> {
         ids.push(piece.id());
         None
     });
+    // The order in which they are built is about time only.
+    ids.sort_by_key(|id| id.slot());
     ids
 }
 

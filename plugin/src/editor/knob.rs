@@ -5,6 +5,7 @@ use egui::{Align2, Color32, Id, Key, Pos2, Rect, Sense, Stroke, Ui, Vec2, pos2, 
 use nice_plug::prelude::*;
 
 use super::theme;
+use crate::parameters::Parameter;
 
 /// What a hand does with a parameter; hosts record from `Begin` to `End`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,7 +31,15 @@ const FINE: f32 = 0.1;
 const SWEEP: f32 = 2.4;
 
 /// Shows a parameter as a knob in `rect` and reports what was done with it.
-pub fn knob(ui: &mut Ui, rect: Rect, name: &str, value: &FloatParam, mut set: impl FnMut(Gesture)) {
+pub fn knob(
+    ui: &mut Ui,
+    rect: Rect,
+    parameter: &Parameter,
+    value: &FloatParam,
+    accent: Color32,
+    mut set: impl FnMut(Gesture),
+) {
+    let palette = theme::of(ui);
     let id = ui.scope_id().with(("knob", value.name()));
     let dial = Rect::from_min_max(rect.min + vec2(0.0, LINE), rect.max - vec2(0.0, LINE));
     let radius = (dial.width().min(dial.height()) / 2.0 - 3.0).max(4.0);
@@ -67,9 +76,12 @@ pub fn knob(ui: &mut Ui, rect: Rect, name: &str, value: &FloatParam, mut set: im
     }
 
     let active = response.hovered() || response.dragged();
-    draw(ui, dial.center(), radius, place, value.default_normalized_value(), active);
+    draw(ui, dial.center(), radius, [place, value.default_normalized_value()], accent, active);
+    response.on_hover_ui(|ui| {
+        ui.label(tip(parameter));
+    });
     let name_at = pos2(rect.center().x, rect.min.y + LINE / 2.0);
-    ui.painter().text(name_at, Align2::CENTER_CENTER, name, theme::caption(), theme::FAINT);
+    ui.painter().text(name_at, Align2::CENTER_CENTER, parameter.label, theme::caption(), palette.faint);
     let value_rect = Rect::from_min_max(pos2(rect.min.x, rect.max.y - LINE), pos2(rect.max.x, rect.max.y));
     value_text(ui, value_rect, id.with("value"), value, &mut set);
 }
@@ -80,16 +92,30 @@ fn move_once(set: &mut impl FnMut(Gesture), value: f32) {
     set(Gesture::End);
 }
 
-fn draw(ui: &Ui, centre: Pos2, radius: f32, place: f32, default: f32, active: bool) {
-    let painter = ui.painter();
-    let body = if active { theme::HOVERED } else { theme::PANEL };
-    painter.circle(centre, radius * 0.72, body, Stroke::new(1.0, theme::RAISED));
-    arc(ui, centre, radius, 0.0, 1.0, theme::RAISED);
+/// What a parameter is, its unit and range, and what hands can do.
+fn tip(parameter: &Parameter) -> String {
+    let Parameter { group, label, unit, .. } = parameter;
+    let [low, high, usual] = [parameter.min, parameter.max, parameter.default].map(|x| parameter.text(x));
+    let range = if parameter.choices.is_empty() {
+        format!("{low} to {high}{unit}, usually {usual}{unit}")
+    } else {
+        parameter.choices.join(", ")
+    };
+    format!(
+        "{group}: {label}\n{range}\nDrag, with Shift finely; double click to reset; click the value to type one"
+    )
+}
+
+fn draw(ui: &Ui, centre: Pos2, radius: f32, [place, default]: [f32; 2], accent: Color32, active: bool) {
+    let (painter, palette) = (ui.painter(), theme::of(ui));
+    let body = if active { palette.raised } else { palette.hovered };
+    painter.circle(centre, radius * 0.72, body, Stroke::new(1.0, palette.raised));
+    arc(ui, centre, radius, 0.0, 1.0, palette.raised);
     // The arc grows from the default, so that what was changed shows.
-    arc(ui, centre, radius, default.min(place), default.max(place), theme::ACCENT);
+    arc(ui, centre, radius, default.min(place), default.max(place), accent);
     let direction = at_place(place);
     let pointer = [centre + 0.3 * radius * direction, centre + 0.68 * radius * direction];
-    painter.line_segment(pointer, Stroke::new(2.5, theme::TEXT));
+    painter.line_segment(pointer, Stroke::new(2.5, palette.text));
 }
 
 fn arc(ui: &Ui, centre: Pos2, radius: f32, from: f32, to: f32, colour: Color32) {
@@ -111,11 +137,12 @@ fn at_place(place: f32) -> Vec2 {
 
 /// The value with its unit; a click turns it into a field to type in.
 fn value_text(ui: &mut Ui, rect: Rect, id: Id, value: &FloatParam, set: &mut impl FnMut(Gesture)) {
+    let palette = theme::of(ui);
     // Without modulation: what was set is what can be typed over.
     let shown = value.normalized_value_to_string(value.unmodulated_normalized_value(), true);
     let Some(mut typed) = ui.data(|data| data.get_temp::<String>(id)) else {
         let response = ui.interact(rect, id, Sense::click());
-        let colour = if response.hovered() { theme::ACCENT } else { theme::TEXT };
+        let colour = if response.hovered() { palette.accent } else { palette.text };
         let centre = rect.center();
         ui.painter().text(centre, Align2::CENTER_CENTER, &shown, theme::body(), colour);
         if response.on_hover_cursor(egui::CursorIcon::Text).clicked() {

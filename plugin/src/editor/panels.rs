@@ -1,330 +1,362 @@
-//! What stands around the surface: the list of pieces with their levels, the main level, the
-//! selected piece's knobs, and one line about its latest stroke.
+//! What a window shows and remembers: pages, the list of pieces beside them, a line about what happens below.
 
 use std::sync::Arc;
 
-use egui::{Align2, Color32, Pos2, Rect, Sense, Ui, pos2, vec2};
-use nice_plug::prelude::FloatParam;
+use egui::{Align, Align2, Button, Layout, Rect, Ui, UiBuilder, pos2, vec2};
+use nice_plug::prelude::Param;
 use overhear_engine::piece::PieceId;
-use overhear_engine::snapshot::{FieldShapes, KitSnapshot, PieceSnapshot};
+use overhear_engine::snapshot::{FieldShapes, KitSnapshot};
 
-use super::knob::{self, Gesture};
-use super::surface::Surface;
-use super::theme;
+use super::history::History;
+use super::kit_view::camera::Camera;
+use super::kit_view::{KitView, Seen};
+use super::knob::Gesture;
+use super::levels::Levels;
+use super::mix::Mix;
+use super::physics::Physics;
+use super::playing::PlayingPanel;
+use super::presets::PresetBar;
+use super::stage::{self, Stage};
+use super::status::{self, Late, Latest};
+use super::{knobs, list, physics, theme};
 use crate::NAME;
+use crate::host_parameters::HostParameters;
 use crate::outputs::title;
-use crate::parameters::{PARAMETERS, Parameter};
+use crate::presets::Library;
+use crate::sound::Sound;
+use crate::strokes::Stroke;
+use crate::view::View;
 
 /// Space around and between panels, points.
-const GAP: f32 = 10.0;
+const GAP: f32 = 8.0;
 
-/// Room of a knob where there is enough, points.
-const KNOB_WIDTH: f32 = 96.0;
+/// Height of the line of pages and presets, and of the line about what happens, points.
+const HEADER: f32 = 34.0;
+const FOOTER: f32 = 24.0;
 
-/// Knobs of the kit beside a piece's; the panel of playing has all of them.
-const KIT_KNOBS: usize = 2;
+/// Width of the list of pieces, points.
+const LIST: f32 = 168.0;
 
-/// Bottom of the meters, dB.
-const FLOOR_DB: f32 = -60.0;
+/// Sizes of everything that can be chosen.
+const SIZES: [(f32, &str); 5] =
+    [(0.75, "75 %"), (1.0, "100 %"), (1.25, "125 %"), (1.5, "150 %"), (2.0, "200 %")];
 
-/// Top of the meters, dB: a little reserve above full scale.
-const TOP_DB: f32 = 6.0;
+/// Pages of a window.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Page {
+    /// The kit in perspective, and the knobs of a piece.
+    #[default]
+    Kit,
+    /// What the strokes did.
+    Physics,
+    /// Levels.
+    Mix,
+    /// Where the microphones stand, and their levels.
+    Microphones,
+    /// Which note plays what.
+    Midi,
+    /// What is about the kit as a whole.
+    Settings,
+}
 
-/// How fast a meter falls, dB/s: slow enough to be read.
-const FALL: f32 = 36.0;
+impl Page {
+    pub const ALL: [(Page, &'static str); 6] = [
+        (Page::Kit, "Kit"),
+        (Page::Physics, "Physics"),
+        (Page::Mix, "Mix"),
+        (Page::Microphones, "Microphones"),
+        (Page::Midi, "MIDI"),
+        (Page::Settings, "Settings"),
+    ];
+}
+
+/// What a window looks at.
+pub struct Inputs<'a> {
+    pub snapshot: &'a KitSnapshot,
+    /// A piece's mode shapes once it is built, by its slot.
+    pub shapes: &'a dyn Fn(usize) -> Option<Arc<FieldShapes>>,
+    pub parameters: &'a HostParameters,
+    /// What is heard.
+    pub sound: &'a Sound,
+}
+
+/// Where what hands do goes.
+pub struct Hands<'a> {
+    /// Receives what is done to the parameter of an index.
+    pub set: &'a mut dyn FnMut(usize, Gesture),
+    /// Receives strokes.
+    pub play: &'a mut dyn FnMut(Stroke),
+}
 
 /// Everything one window shows and remembers.
 pub struct Panels {
+    page: Page,
     selected: usize,
-    surface: Surface,
-    /// Levels shown, dB: one for each piece, then left and right.
-    levels: [f32; PieceId::KIT.len() + 2],
-    /// Where the surface was drawn last.
-    stage: Rect,
-    /// Clock of the latest snapshot whose peaks were taken.
-    clock: u64,
-}
-
-impl Default for Panels {
-    fn default() -> Self {
-        Panels {
-            selected: 1,
-            surface: Surface::default(),
-            levels: [FLOOR_DB; PieceId::KIT.len() + 2],
-            stage: Rect::ZERO,
-            clock: 0,
-        }
-    }
-}
-
-/// Where in a window there is room in the header.
-pub fn bar_rect(window: Rect) -> Rect {
-    let right = window.max.x - GAP;
-    Rect::from_min_max(
-        pos2((right - 520.0).max(window.min.x), window.min.y + 6.0),
-        pos2(right, window.min.y + 38.0),
-    )
+    light: bool,
+    zoom: f32,
+    kit: KitView,
+    stage: Stage,
+    physics: Physics,
+    mix: Mix,
+    levels: Levels,
+    presets: PresetBar,
+    playing: PlayingPanel,
+    history: History,
+    /// Where the kit was drawn last.
+    picture: Rect,
+    /// The latest snapshot.
+    former: KitSnapshot,
+    /// The stroke that the sentence is about.
+    latest: Latest,
+    late: Late,
 }
 
 impl Panels {
-    /// Draws one frame. `shapes` gives a slot's mode shapes once it is built; `set` receives what
-    /// is done to the parameter of an index.
-    pub fn show(
-        &mut self,
-        ui: &mut Ui,
-        snapshot: &KitSnapshot,
-        shapes: &dyn Fn(usize) -> Option<Arc<FieldShapes>>,
-        parameters: &[FloatParam],
-        set: &mut dyn FnMut(usize, Gesture),
-    ) {
-        self.follow_levels(ui, snapshot);
+    /// Panels with the presets of a library.
+    pub fn new(library: Library, view: View) -> Panels {
+        let kit = KitView::seen_from(Camera::of(view.camera));
+        Panels {
+            page: Page::ALL.get(usize::from(view.page)).map_or(Page::Kit, |(page, _)| *page),
+            selected: usize::from(view.piece).min(PieceId::KIT.len() - 1),
+            light: view.light,
+            zoom: view.zoom,
+            kit,
+            stage: Stage::default(),
+            physics: Physics::new(),
+            mix: Mix::default(),
+            levels: Levels::default(),
+            presets: PresetBar::new(library),
+            playing: PlayingPanel::default(),
+            history: History::default(),
+            picture: Rect::ZERO,
+            former: KitSnapshot::default(),
+            latest: Latest::default(),
+            late: Late::default(),
+        }
+    }
+
+    /// How the window looks at the kit, for the project to remember.
+    pub fn view(&self) -> View {
+        let place = Page::ALL.iter().position(|(page, _)| *page == self.page).unwrap_or_default();
+        View {
+            page: place as u8,
+            light: self.light,
+            piece: self.selected as u8,
+            camera: self.kit.camera.numbers(),
+            zoom: self.zoom,
+        }
+    }
+
+    /// Takes what was played before the window opened as old news.
+    pub fn forget(&mut self, snapshot: &KitSnapshot) {
+        self.former = *snapshot;
+        self.late = Late::default();
+        self.kit.forget_strokes(snapshot);
+    }
+
+    /// Draws one frame.
+    pub fn show(&mut self, ui: &mut Ui, inputs: &Inputs<'_>, hands: &mut Hands<'_>) {
+        let elapsed = ui.input(|input| input.stable_dt);
+        self.levels.follow(inputs.snapshot, elapsed);
+        self.latest.follow(&self.former, inputs.snapshot);
+        self.former = *inputs.snapshot;
+        self.physics.follow(ui.input(|input| input.time), inputs.snapshot, inputs.shapes);
+
         let whole = ui.max_rect().shrink(GAP);
-        ui.painter().rect_filled(ui.max_rect(), 0.0, theme::BACKGROUND);
-        let (header, rest) = whole.split_top_bottom_at_y(whole.min.y + 34.0);
-        let (upper, knobs) = rest.split_top_bottom_at_y(rest.max.y - 128.0);
-        let upper = Rect::from_min_max(upper.min, upper.max - vec2(0.0, GAP));
-        let (list, right) = upper.split_left_right_at_x(upper.min.x + 210.0);
-        let (stage, meters) = right.split_left_right_at_x(right.max.x - 54.0);
-        let stage = Rect::from_min_max(stage.min + vec2(GAP, 0.0), stage.max - vec2(GAP, 0.0));
+        let (header, rest) = whole.split_top_bottom_at_y(whole.min.y + HEADER);
+        let (middle, footer) = rest.split_top_bottom_at_y(rest.max.y - FOOTER);
+        let (beside, page) = middle.split_left_right_at_x(middle.min.x + LIST);
+        let page = Rect::from_min_max(page.min + vec2(GAP, 0.0), page.max);
 
-        self.stage = stage;
-        self.header(ui, header, snapshot);
-        self.list(ui, list, snapshot);
-        self.stage(ui, stage, snapshot, shapes);
-        self.main_meters(ui, meters);
-        self.knobs(ui, knobs, parameters, set);
-    }
-
-    /// Where the surface was drawn last.
-    pub fn stage_rect(&self) -> Rect {
-        self.stage
-    }
-
-    /// Meters jump up at once and fall slowly.
-    fn follow_levels(&mut self, ui: &Ui, snapshot: &KitSnapshot) {
-        let fall = FALL * ui.input(|input| input.stable_dt).min(0.1);
-        // A host that stopped leaves its last snapshot behind: its peaks count once.
-        let fresh = if snapshot.clock == self.clock { 0.0 } else { 1.0 };
-        self.clock = snapshot.clock;
-        let pieces = snapshot.pieces.iter().map(|piece| piece.peak);
-        let mut moving = false;
-        for (level, peak) in self.levels.iter_mut().zip(pieces.chain(snapshot.peak)) {
-            *level = decibels(fresh * peak).max(*level - fall).clamp(FLOOR_DB, TOP_DB);
-            moving |= *level > FLOOR_DB;
-        }
-        if moving {
-            // The meters still fall where the kit is already silent.
-            ui.ctx().request_repaint_after_secs(1.0 / 60.0);
-        }
-    }
-
-    fn header(&self, ui: &Ui, rect: Rect, snapshot: &KitSnapshot) {
-        let painter = ui.painter();
-        let left = rect.left_center() - vec2(0.0, 6.0);
-        let title = painter.text(left, Align2::LEFT_CENTER, NAME, theme::heading(), theme::TEXT);
-        let (status, colour) = status(snapshot);
-        let beside = pos2(title.max.x + 16.0, left.y + 2.0);
-        painter.text(beside, Align2::LEFT_CENTER, status, theme::body(), colour);
-    }
-
-    fn list(&mut self, ui: &mut Ui, rect: Rect, snapshot: &KitSnapshot) {
-        let rows = PieceId::KIT.len() as f32;
-        let height = ((rect.height() + 4.0) / rows).min(84.0);
-        for (slot, piece) in PieceId::KIT.into_iter().enumerate() {
-            let top = rect.min + vec2(0.0, slot as f32 * height);
-            let row = Rect::from_min_size(top, vec2(rect.width(), height - 4.0));
-            let response = ui.interact(row, ui.scope_id().with(("piece", slot)), Sense::click());
-            if response.clicked() && self.selected != slot {
-                self.selected = slot;
-                self.surface.forget();
-            }
-            let fill = match (self.selected == slot, response.hovered()) {
-                (true, _) => theme::RAISED,
-                (false, true) => theme::HOVERED,
-                (false, false) => theme::PANEL,
+        let values = inputs.parameters.values();
+        let mut undone = Vec::new();
+        let mut noted = Vec::new();
+        {
+            let mut set = |index: usize, gesture: Gesture| {
+                noted.push((
+                    index,
+                    gesture,
+                    values.get(index).map_or(0.0, |value| value.unmodulated_plain_value()),
+                ));
+                (hands.set)(index, gesture);
             };
-            let painter = ui.painter();
-            painter.rect_filled(row, theme::CORNER, fill);
-            if self.selected == slot {
-                let edge = Rect::from_min_size(row.min, vec2(3.0, row.height()));
-                painter.rect_filled(edge, theme::CORNER, theme::ACCENT);
+            self.header(ui, header, inputs, &mut set);
+            list::show(ui, beside, &mut self.selected, inputs.snapshot, &self.levels);
+            match self.page {
+                Page::Kit | Page::Microphones => self.kit(ui, page, inputs, &mut set, hands.play),
+                Page::Physics => {
+                    let shapes = (inputs.shapes)(self.selected);
+                    let seen = physics::Seen {
+                        snapshot: inputs.snapshot,
+                        shapes,
+                        selected: self.selected,
+                        sound: inputs.sound,
+                    };
+                    self.physics.show(ui, page, &seen);
+                }
+                Page::Mix => self.mix.show(ui, page, values, &self.levels, &mut set),
+                Page::Midi => self.playing.show(ui, page, inputs.parameters),
+                Page::Settings => self.settings(ui, page, inputs, &mut set),
             }
-            let state = &snapshot.pieces[slot];
-            let colour = if state.ready { theme::TEXT } else { theme::FAINT };
-            let middle = row.min.y + 0.38 * row.height();
-            let name = pos2(row.min.x + 14.0, middle);
-            painter.text(name, Align2::LEFT_CENTER, title(piece), theme::body(), colour);
-            let note = if state.ready { level_text(self.levels[slot]) } else { "building".into() };
-            let at = pos2(row.max.x - 12.0, middle);
-            painter.text(at, Align2::RIGHT_CENTER, note, theme::caption(), theme::FAINT);
-            let meter = Rect::from_min_max(
-                pos2(row.min.x + 14.0, row.max.y - 12.0),
-                pos2(row.max.x - 12.0, row.max.y - 7.0),
-            );
-            level_bar(ui, meter, self.levels[slot]);
+            self.footer(ui, footer, inputs, &mut undone);
+        }
+        for (index, gesture, value) in noted {
+            self.history.note(index, gesture, value);
+        }
+        self.history.end_frame();
+        for (index, gesture) in undone {
+            (hands.set)(index, gesture);
         }
     }
 
-    fn stage(
+    /// Whether the next frame will look different though nothing new happens.
+    pub fn moves_on(&self, snapshot: &KitSnapshot, now: f64) -> bool {
+        let alone = self.page == Page::Physics && self.physics.moves_on();
+        alone || self.levels.move_on() || self.kit.replays(snapshot, now)
+    }
+
+    /// The picture and the knobs of the selected piece.
+    fn kit(
         &mut self,
         ui: &mut Ui,
         rect: Rect,
-        snapshot: &KitSnapshot,
-        shapes: &dyn Fn(usize) -> Option<Arc<FieldShapes>>,
+        inputs: &Inputs<'_>,
+        set: &mut dyn FnMut(usize, Gesture),
+        play: &mut dyn FnMut(Stroke),
     ) {
-        ui.painter().rect_filled(rect, theme::CORNER, theme::PANEL);
-        let piece = PieceId::KIT[self.selected];
-        let state = &snapshot.pieces[self.selected];
-        let view = rect.shrink(8.0);
-        if let Some(shapes) = shapes(self.selected) {
-            self.surface.show(ui, view, piece, &shapes, state);
+        let (picture, below) = rect.split_top_bottom_at_y(rect.max.y - knobs::PANEL_HEIGHT);
+        let picture = Rect::from_min_max(picture.min, picture.max - vec2(0.0, GAP));
+        self.picture = picture;
+        let microphones = self.page == Page::Microphones;
+        let (snapshot, shapes) = (inputs.snapshot, inputs.shapes);
+        let seen = Seen { snapshot, shapes, selected: self.selected, microphones };
+        let values = inputs.parameters.values();
+        let dynamics = values.get(stage::dynamics()).map_or(6.0, |value| value.unmodulated_plain_value());
+        if let Some(slot) = self.stage.show(ui, picture, &mut self.kit, &seen, dynamics, play) {
+            self.selected = slot;
         }
-        let painter = ui.painter_at(rect);
-        let corner = view.min + vec2(6.0, 4.0);
-        painter.text(corner, Align2::LEFT_TOP, title(piece), theme::heading(), theme::TEXT);
-        let scale = format!("tallest since the stroke {}", length_text(self.surface.tallest()));
-        let below = corner + vec2(0.0, 26.0);
-        painter.text(below, Align2::LEFT_TOP, scale, theme::caption(), theme::FAINT);
-        let bottom = pos2(view.min.x + 6.0, view.max.y - 4.0);
-        let line = stroke_text(state);
-        painter.text(bottom, Align2::LEFT_BOTTOM, line, theme::body(), theme::TEXT);
+        let palette = theme::of(ui);
+        let group = if microphones {
+            ("Microphones", palette.accent)
+        } else {
+            (title(PieceId::KIT[self.selected]), palette.pieces[self.selected])
+        };
+        knobs::panel(ui, below, group, values, set);
+    }
+
+    /// What is about the kit as a whole, and the window.
+    fn settings(
+        &mut self,
+        ui: &mut Ui,
+        rect: Rect,
+        inputs: &Inputs<'_>,
+        set: &mut dyn FnMut(usize, Gesture),
+    ) {
+        let groups = ["Kit", "Playing", "Rendering"];
+        ui.painter().rect_filled(rect, theme::CORNER, theme::of(ui).panel);
+        ui.scope_builder(UiBuilder::new().max_rect(rect.shrink(10.0)), |ui| {
+            egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                let inner = ui.max_rect();
+                let bottom = knobs::grid(ui, inner, &groups, inputs.parameters.values(), set);
+                ui.allocate_rect(
+                    Rect::from_min_max(inner.min, pos2(inner.max.x, bottom)),
+                    egui::Sense::hover(),
+                );
+                ui.horizontal(|ui| {
+                    ui.label("Size of everything");
+                    for (zoom, name) in SIZES {
+                        if ui.selectable_label(self.zoom == zoom, name).clicked() {
+                            self.zoom = zoom;
+                            ui.ctx().set_zoom_factor(zoom);
+                        }
+                    }
+                });
+            });
+        });
+    }
+
+    fn header(&mut self, ui: &mut Ui, rect: Rect, inputs: &Inputs<'_>, set: &mut dyn FnMut(usize, Gesture)) {
+        let palette = theme::of(ui);
+        let name = rect.left_center() + vec2(4.0, -4.0);
+        ui.painter().text(name, Align2::LEFT_CENTER, NAME, theme::heading(), palette.text);
+        let rect = Rect::from_min_max(rect.min + vec2(108.0, 0.0), rect.max - vec2(0.0, GAP));
+        ui.scope_builder(UiBuilder::new().max_rect(rect), |ui| {
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                for (page, name) in Page::ALL {
+                    ui.selectable_value(&mut self.page, page, name);
+                }
+                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                    self.presets.show(ui, inputs.parameters, set);
+                });
+            });
+        });
+    }
+
+    /// One sentence, and what takes back.
+    fn footer(&mut self, ui: &mut Ui, rect: Rect, inputs: &Inputs<'_>, undone: &mut Vec<(usize, Gesture)>) {
+        let palette = theme::of(ui);
+        let now = ui.input(|input| input.time);
+        self.late.follow(inputs.snapshot.late_buffers, now);
+        let (text, colour) =
+            status::trouble(inputs.snapshot, &self.late, now, palette).unwrap_or_else(|| {
+                (self.latest.sentence(inputs.snapshot, self.physics.cents(self.latest.slot())), palette.text)
+            });
+        let left = pos2(rect.min.x + 4.0, rect.center().y + 3.0);
+        let painter = ui.painter_at(Rect::from_min_max(rect.min, pos2(rect.max.x - 250.0, rect.max.y)));
+        painter.text(left, Align2::LEFT_CENTER, text, theme::body(), colour);
+        let rect = Rect::from_min_max(rect.min + vec2(0.0, 4.0), rect.max);
+        ui.scope_builder(UiBuilder::new().max_rect(rect), |ui| {
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                self.tools(ui, inputs, &mut |index, gesture| undone.push((index, gesture)));
+            });
+        });
+    }
+
+    fn tools(&mut self, ui: &mut Ui, inputs: &Inputs<'_>, set: &mut dyn FnMut(usize, Gesture)) {
+        let name = if self.light { "Dark" } else { "Light" };
+        if ui.button(name).on_hover_text("The other palette").clicked() {
+            self.light = !self.light;
+            theme::choose(ui.ctx(), self.light);
+        }
+        let (shown, tip) = if self.history.is_second() {
+            ("B", "The second of two settings; click for the first")
+        } else {
+            ("A", "The first of two settings; click for the second")
+        };
+        if ui.button(shown).on_hover_text(tip).clicked() {
+            self.history.swap(inputs.parameters.values(), set);
+        }
+        let (undo, redo) = ui.input(|input| {
+            let z = input.modifiers.command && input.key_pressed(egui::Key::Z);
+            (z && !input.modifiers.shift, z && input.modifiers.shift)
+        });
+        if ui.add_enabled(self.history.can_redo(), Button::new("Redo")).clicked() || redo {
+            self.history.redo(set);
+        }
+        if ui.add_enabled(self.history.can_undo(), Button::new("Undo")).clicked() || undo {
+            self.history.undo(set);
+        }
+    }
+}
+
+#[cfg(test)]
+impl Panels {
+    /// What the tests look into.
+    pub fn kit_view(&self) -> &KitView {
+        &self.kit
+    }
+
+    /// Where the kit was drawn last.
+    pub fn picture(&self) -> Rect {
+        self.picture
     }
 
     /// Levels shown of the two outputs, dB.
-    pub fn main_levels(&self) -> (f32, f32) {
-        let [.., left, right] = self.levels;
-        (left, right)
+    pub fn main_levels(&self) -> [f32; 2] {
+        self.levels.main()
     }
 
-    fn main_meters(&self, ui: &Ui, rect: Rect) {
-        let painter = ui.painter();
-        painter.rect_filled(rect, theme::CORNER, theme::PANEL);
-        let label = pos2(rect.center().x, rect.max.y - 12.0);
-        painter.text(label, Align2::CENTER_CENTER, "Main", theme::caption(), theme::FAINT);
-        let (left, right) = self.main_levels();
-        let loudest = pos2(rect.center().x, rect.min.y + 12.0);
-        let text = level_text(left.max(right));
-        painter.text(loudest, Align2::CENTER_CENTER, text, theme::caption(), theme::FAINT);
-        for (level, x) in [(left, -9.0), (right, 9.0)] {
-            let centre = rect.center().x + x;
-            let bar =
-                Rect::from_x_y_ranges(centre - 6.0..=centre + 6.0, rect.min.y + 24.0..=rect.max.y - 24.0);
-            painter.rect_filled(bar, 2.0, theme::RAISED);
-            let top = bar.max.y - bar.height() * share(level);
-            let filled = Rect::from_min_max(pos2(bar.min.x, top), bar.max);
-            painter.rect_filled(filled, 2.0, level_colour(level));
-            let full_scale = bar.max.y - bar.height() * share(0.0);
-            painter.hline(bar.x_range(), full_scale, (1.0, theme::FAINT));
-        }
+    pub fn open(&mut self, page: Page) {
+        self.page = page;
     }
-
-    fn knobs(&self, ui: &mut Ui, rect: Rect, parameters: &[FloatParam], set: &mut dyn FnMut(usize, Gesture)) {
-        ui.painter().rect_filled(rect, theme::CORNER, theme::PANEL);
-        let piece = title(PieceId::KIT[self.selected]);
-        let left = rect.min.x + 12.0;
-        let kit_room = KIT_KNOBS as f32 * KNOB_WIDTH;
-        let kit = rect.max.x - kit_room - 12.0;
-        for (group, start, room, most) in
-            [(piece, left, kit - left, PARAMETERS.len()), ("Kit", kit, kit_room, KIT_KNOBS)]
-        {
-            caption(ui, pos2(start + 6.0, rect.min.y + 13.0), group);
-            let of_group =
-                |(_, (parameter, _)): &(usize, (&Parameter, &FloatParam))| parameter.group == group;
-            let shown = || PARAMETERS.iter().zip(parameters).enumerate().filter(of_group).take(most);
-            let width = KNOB_WIDTH.min(room / shown().count().max(1) as f32);
-            for (place, (index, (parameter, value))) in shown().enumerate() {
-                let at = pos2(start + place as f32 * width, rect.min.y + 26.0);
-                let cell = Rect::from_min_size(at, vec2(width, 96.0));
-                knob::knob(ui, cell, parameter.label, value, |gesture| set(index, gesture));
-            }
-        }
-    }
-}
-
-/// One sentence about the kit as a whole.
-fn status(snapshot: &KitSnapshot) -> (String, Color32) {
-    let quarantines: u32 = snapshot.pieces.iter().map(|piece| piece.quarantines).sum();
-    let ready = snapshot.pieces.iter().filter(|piece| piece.ready).count();
-    if quarantines > 0 {
-        (format!("A piece went out of bounds {quarantines} times and was reset"), theme::OVER)
-    } else if snapshot.clock == 0 {
-        ("Waiting for the host to run".to_owned(), theme::FAINT)
-    } else if ready < PieceId::KIT.len() {
-        (format!("Building the kit: {ready} of {} pieces", PieceId::KIT.len()), theme::ACCENT)
-    } else if snapshot.late_buffers > 0 {
-        (
-            format!("{} buffers were late: lower the quality, or add a worker", snapshot.late_buffers),
-            theme::OVER,
-        )
-    } else if snapshot.missed_runs > 0 {
-        let missed = snapshot.missed_runs;
-        (format!("Workers left pieces silent for {missed} blocks: use fewer of them"), theme::OVER)
-    } else if snapshot.dropped_strikes > 0 {
-        let dropped = snapshot.dropped_strikes;
-        (format!("Ready; {dropped} early strokes were dropped"), theme::FAINT)
-    } else {
-        ("Ready".to_owned(), theme::FAINT)
-    }
-}
-
-/// What the latest stroke's contact measured.
-fn stroke_text(piece: &PieceSnapshot) -> String {
-    let stroke = &piece.strike;
-    if stroke.count == 0 {
-        return "Not struck yet".to_owned();
-    }
-    let touches = match stroke.touches {
-        0 | 1 => String::new(),
-        touches => format!(" in {touches} touches"),
-    };
-    format!(
-        "Struck at {:.2} m/s, {:.2} of the radius: {:.2} ms of contact{touches}, peak {:.0} N, \
-         leaves at {:.2} m/s",
-        stroke.speed,
-        stroke.radius,
-        stroke.contact_time * 1e3,
-        stroke.peak_force,
-        stroke.leaving_speed
-    )
-}
-
-fn caption(ui: &Ui, at: Pos2, text: &str) {
-    ui.painter().text(at, Align2::LEFT_CENTER, text, theme::body(), theme::TEXT);
-}
-
-/// A length in the unit that suits it.
-fn length_text(length: f32) -> String {
-    match length {
-        l if l >= 1e-3 => format!("{:.2} mm", l * 1e3),
-        l if l >= 1e-6 => format!("{:.1} µm", l * 1e6),
-        l if l > 0.0 => "below 1 µm".to_owned(),
-        _ => "0".to_owned(),
-    }
-}
-
-fn decibels(peak: f32) -> f32 {
-    if peak > 0.0 { 20.0 * peak.log10() } else { FLOOR_DB }
-}
-
-fn level_text(level: f32) -> String {
-    if level > FLOOR_DB { format!("{level:+.0} dB") } else { String::new() }
-}
-
-/// Place of a level on a meter, 0 to 1.
-fn share(level: f32) -> f32 {
-    ((level - FLOOR_DB) / (TOP_DB - FLOOR_DB)).clamp(0.0, 1.0)
-}
-
-fn level_colour(level: f32) -> Color32 {
-    match level {
-        l if l >= 0.0 => theme::OVER,
-        l if l >= -6.0 => theme::ACCENT,
-        _ => theme::LEVEL,
-    }
-}
-
-fn level_bar(ui: &Ui, rect: Rect, level: f32) {
-    ui.painter().rect_filled(rect, 2.0, theme::BACKGROUND);
-    let filled = Rect::from_min_size(rect.min, vec2(rect.width() * share(level), rect.height()));
-    ui.painter().rect_filled(filled, 2.0, level_colour(level));
 }

@@ -66,7 +66,7 @@ impl PresetBar {
             }
         }
         if let Some(trouble) = &self.trouble {
-            ui.colored_label(theme::OVER, trouble);
+            ui.colored_label(theme::of(ui).over, trouble);
         }
     }
 

@@ -1,11 +1,16 @@
 //! The editor drawn and used without a window: egui takes the input and tessellates the frame.
 
-use egui::{Event, Modifiers, PointerButton, Pos2, RawInput, Rect, Vec2, pos2};
+use egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, Rect, Vec2, pos2, vec2};
 use nice_plug::prelude::Param;
+use overhear_engine::piece::PieceId;
 use overhear_engine::snapshot::{FIELD_MODES, FieldShapes, KitSnapshot};
 
 use super::knob::Gesture;
+use super::panels::Page;
 use super::*;
+use crate::sound::Sound;
+use crate::strokes::Stroke;
+use crate::view::View;
 
 struct Window {
     context: egui::Context,
@@ -15,6 +20,10 @@ struct Window {
     snapshot: KitSnapshot,
     size: Vec2,
     time: f64,
+    modifiers: Modifiers,
+    strokes: Vec<Stroke>,
+    gestures: Vec<(usize, Gesture)>,
+    sound: Sound,
 }
 
 impl Window {
@@ -23,17 +32,22 @@ impl Window {
         theme::apply(&context);
         Window {
             context,
-            panels: Panels::default(),
+            panels: Panels::new(Library::at(std::path::Path::new("no-such-folder")), View::default()),
             parameters: HostParameters::default(),
             shapes: Arc::new(dish()),
             snapshot: KitSnapshot::default(),
-            size: Vec2::new(980.0, 640.0),
+            size: vec2(980.0, 640.0),
             time: 0.0,
+            modifiers: Modifiers::NONE,
+            strokes: Vec::new(),
+            gestures: Vec::new(),
+            sound: Sound::default(),
         }
     }
 
-    /// One frame with some input: what was done to which parameter, and the triangles drawn.
-    fn frame(&mut self, events: Vec<Event>) -> (Vec<(usize, Gesture)>, usize) {
+    /// One frame with some input; gives the triangles drawn.
+    fn frame(&mut self, mut events: Vec<Event>) -> usize {
+        events.insert(0, Event::ModifiersChanged(self.modifiers));
         self.time += 1.0 / 60.0;
         let input = RawInput {
             screen_rect: Some(Rect::from_min_size(Pos2::ZERO, self.size)),
@@ -42,11 +56,13 @@ impl Window {
             ..RawInput::default()
         };
         let shapes = |_: usize| Some(self.shapes.clone());
-        let mut gestures = Vec::new();
+        let (gestures, strokes) = (&mut self.gestures, &mut self.strokes);
         let mut output = self.context.run_ui(input, |ui| {
             let mut set = |index, gesture| gestures.push((index, gesture));
-            let values = self.parameters.values();
-            self.panels.show(ui, &self.snapshot, &shapes, values, &mut set);
+            let mut play = |stroke| strokes.push(stroke);
+            let (parameters, sound) = (&self.parameters, &self.sound);
+            let inputs = Inputs { snapshot: &self.snapshot, shapes: &shapes, parameters, sound };
+            self.panels.show(ui, &inputs, &mut Hands { set: &mut set, play: &mut play });
         });
         output.textures_delta.clear();
         let shapes = self.context.tessellate(output.shapes, output.pixels_per_point);
@@ -54,13 +70,58 @@ impl Window {
             egui::epaint::Primitive::Mesh(mesh) => mesh.indices.len() / 3,
             egui::epaint::Primitive::Callback(_) => 0,
         });
-        (gestures, triangles.sum())
+        triangles.sum()
     }
 
-    fn press(&mut self, at: Pos2, pressed: bool) -> Vec<(usize, Gesture)> {
-        let button = PointerButton::Primary;
-        let event = Event::PointerButton { pos: at, button, pressed, modifiers: Modifiers::NONE };
-        self.frame(vec![Event::PointerMoved(at), event]).0
+    fn button(&mut self, at: Pos2, button: PointerButton, pressed: bool) {
+        let event = Event::PointerButton { pos: at, button, pressed, modifiers: self.modifiers };
+        self.frame(vec![Event::PointerMoved(at), event]);
+    }
+
+    fn press(&mut self, at: Pos2, pressed: bool) {
+        self.button(at, PointerButton::Primary, pressed);
+    }
+
+    fn click(&mut self, at: Pos2) {
+        self.frame(vec![Event::PointerMoved(at)]);
+        self.press(at, true);
+        self.press(at, false);
+        // Not a second click of the same hand.
+        self.time += 1.0;
+    }
+
+    fn drag(&mut self, from: Pos2, by: Vec2, button: PointerButton) {
+        self.button(from, button, true);
+        for step in 1..=10 {
+            self.frame(vec![Event::PointerMoved(from + by * (step as f32 / 10.0))]);
+        }
+        self.button(from + by, button, false);
+        self.time += 1.0;
+    }
+
+    fn key(&mut self, key: Key) {
+        let event = |pressed| Event::Key {
+            key,
+            physical_key: None,
+            pressed,
+            repeat: false,
+            modifiers: self.modifiers,
+        };
+        let events = vec![event(true), event(false)];
+        self.frame(events);
+    }
+
+    /// Place on the screen of a place on a piece.
+    fn place(&self, slot: usize, radius: f32, angle: f32) -> Pos2 {
+        let (sin, cos) = angle.sin_cos();
+        let body = self.panels.kit_view().bodies()[slot];
+        let eye = self.panels.kit_view().eye(self.panels.picture(), false);
+        eye.project(body.surface(radius * sin, -radius * cos, 0.0)).0
+    }
+
+    /// Does to the parameters what a host would after the gestures since the last call.
+    fn obey(&mut self) -> Vec<(usize, Gesture)> {
+        std::mem::take(&mut self.gestures)
     }
 }
 
@@ -72,34 +133,128 @@ fn dish() -> FieldShapes {
         shape[0] = 1.0 - x * x - y * y;
         shape
     });
-    FieldShapes { shapes: shapes.collect(), points }
+    FieldShapes { shapes: shapes.collect(), points, orders: vec![[0, 1]], tension: 2_000.0 }
 }
 
-/// Middle of the first knob, the selected piece's tuning.
-const FIRST_KNOB: Pos2 = pos2(70.0, 574.0);
+/// Middle of the first knob, the selected piece's tuning, and of its value, in a window of the tests' size.
+const FIRST_KNOB: Pos2 = pos2(235.0, 558.0);
+const FIRST_VALUE: Pos2 = pos2(235.0, 595.0);
+
+/// The snare, which is selected at first, is the second piece of the table.
+const SNARE_TUNE: usize = 3;
 
 #[test]
-fn a_frame_draws_the_surface_and_the_panels() {
+fn a_frame_draws_the_kit_and_the_panels() {
     let mut window = Window::new();
-    let (gestures, triangles) = window.frame(Vec::new());
-    assert!(gestures.is_empty());
-    assert!(triangles > 3_000, "{triangles} triangles");
+    let triangles = window.frame(Vec::new());
+    assert!(window.gestures.is_empty() && window.strokes.is_empty());
+    assert!(triangles > 9_000, "{triangles} triangles");
 }
 
 #[test]
-fn any_size_and_any_snapshot_can_be_drawn() {
+fn any_size_any_page_and_any_snapshot_can_be_drawn() {
     let mut window = Window::new();
     window.snapshot.peak = [f32::NAN, f32::INFINITY];
     for piece in &mut window.snapshot.pieces {
         piece.displacement = [f32::NAN; 32];
         piece.strike.count = 1;
         piece.strike.angle = f32::INFINITY;
+        piece.strike.contact_time = f32::NAN;
         piece.peak = -1.0;
+        piece.energy = f32::NAN;
+        piece.rims.pedal = f32::NAN;
     }
-    for size in [Vec2::new(1.0, 1.0), Vec2::new(760.0, 500.0), Vec2::new(4000.0, 300.0)] {
-        window.size = size;
-        window.frame(Vec::new());
+    for page in Page::ALL {
+        window.panels.open(page.0);
+        for size in [vec2(1.0, 1.0), vec2(800.0, 500.0), vec2(4000.0, 300.0)] {
+            window.size = size;
+            window.frame(Vec::new());
+            window.frame(Vec::new());
+        }
     }
+}
+
+#[test]
+fn a_press_on_each_head_and_plate_strikes_that_piece_at_that_place() {
+    let mut window = Window::new();
+    window.frame(Vec::new());
+    for (slot, piece) in PieceId::KIT.into_iter().enumerate() {
+        let mut struck = 0;
+        for (radius, angle) in [(0.0_f32, 0.0_f32), (0.5, 0.4), (0.6, 1.7), (0.6, -1.8), (0.7, 2.8)] {
+            let at = window.place(slot, radius, angle);
+            window.click(at);
+            let Some(stroke) = window.strokes.pop() else { continue };
+            // What stands before it is struck in its stead.
+            if stroke.piece != piece {
+                continue;
+            }
+            let strike = stroke.strike;
+            let place = |radius: f64, angle: f64| (radius * angle.sin(), -radius * angle.cos());
+            let (x, y) = place(strike.radius, strike.angle);
+            let (u, v) = place(f64::from(radius), f64::from(angle));
+            let away = (x - u).hypot(y - v);
+            assert!(away < if piece.is_drum() { 0.02 } else { 0.2 }, "{piece:?}: {away} off");
+            assert!((0.4..=6.0).contains(&strike.speed), "{} m/s", strike.speed);
+            struck += 1;
+        }
+        assert!(struck >= 2, "{piece:?} was struck {struck} times");
+    }
+    assert!(window.gestures.is_empty());
+}
+
+#[test]
+fn shift_strikes_hardest_alt_softly_and_the_strip_between() {
+    let mut window = Window::new();
+    window.frame(Vec::new());
+    let tom = window.place(2, 0.3, 0.0);
+    let speed = |window: &mut Window, modifiers| {
+        window.modifiers = modifiers;
+        window.click(tom);
+        window.strokes.pop().unwrap().strike.speed
+    };
+    let usual = speed(&mut window, Modifiers::NONE);
+    let hard = speed(&mut window, Modifiers::SHIFT);
+    let soft = speed(&mut window, Modifiers::ALT);
+    assert!((hard - 6.0).abs() < 1e-3, "the dynamics' fastest, not {hard}");
+    assert!(soft < 0.5 * usual && usual < hard, "{soft} {usual} {hard}");
+    // The strip's upper end is the fastest stroke, its lower end the slowest.
+    let strip = window.panels.picture().right_top() + vec2(-25.0, 33.0);
+    window.modifiers = Modifiers::NONE;
+    window.click(strip);
+    assert!((speed(&mut window, Modifiers::NONE) - 6.0).abs() < 0.1);
+    window.click(window.panels.picture().right_bottom() + vec2(-25.0, -33.0));
+    assert!(speed(&mut window, Modifiers::NONE) < 0.45);
+}
+
+#[test]
+fn keys_play_the_pieces_in_the_order_of_the_list() {
+    let mut window = Window::new();
+    window.frame(Vec::new());
+    for key in [Key::Num1, Key::Num5, Key::Num9] {
+        window.key(key);
+    }
+    let pieces: Vec<_> = window.strokes.iter().map(|stroke| stroke.piece).collect();
+    assert_eq!(pieces, [PieceId::Kick, PieceId::Crash, PieceId::HiHat]);
+}
+
+#[test]
+fn dragging_the_floor_turns_the_view_and_dragging_a_head_does_not() {
+    let mut window = Window::new();
+    window.frame(Vec::new());
+    let camera = |window: &Window| window.panels.kit_view().camera;
+    let before = camera(&window);
+    let floor = window.panels.picture().left_bottom() + vec2(30.0, -30.0);
+    window.drag(floor, vec2(60.0, -20.0), PointerButton::Primary);
+    let turned = camera(&window);
+    assert!(turned != before && window.strokes.is_empty());
+    let snare = window.place(1, 0.0, 0.0);
+    window.drag(snare, vec2(60.0, 0.0), PointerButton::Primary);
+    assert_eq!(camera(&window), turned);
+    assert_eq!(window.strokes.len(), 1);
+    window.drag(snare, vec2(60.0, 0.0), PointerButton::Secondary);
+    assert!(camera(&window) != turned && window.strokes.len() == 1);
+    // What is seen is what a project stores.
+    assert_eq!(window.panels.view().camera, camera(&window).numbers());
 }
 
 #[test]
@@ -108,29 +263,23 @@ fn meters_fall_when_the_host_stops() {
     window.snapshot.clock = 1;
     window.snapshot.peak = [1.0, 0.5];
     window.frame(Vec::new());
-    let (left, right) = window.panels.main_levels();
+    let [left, right] = window.panels.main_levels();
     assert!((left - 0.0).abs() < 0.01 && (right + 6.02).abs() < 0.01, "{left} {right}");
     for _ in 0..240 {
         window.frame(Vec::new());
     }
-    assert_eq!(window.panels.main_levels(), (-60.0, -60.0));
+    assert_eq!(window.panels.main_levels(), [-60.0, -60.0]);
 }
 
 #[test]
 fn dragging_a_knob_is_one_gesture_upwards() {
     let mut window = Window::new();
     window.frame(Vec::new());
-    let mut gestures = window.press(FIRST_KNOB, true);
-    for step in 1..=10 {
-        let at = FIRST_KNOB - Vec2::new(0.0, 4.0 * step as f32);
-        gestures.extend(window.frame(vec![Event::PointerMoved(at)]).0);
-    }
-    gestures.extend(window.press(FIRST_KNOB - Vec2::new(0.0, 40.0), false));
-
-    // The snare, which is selected at first, is the second piece of the table.
-    assert!(gestures.iter().all(|&(index, _)| index == 3), "{gestures:?}");
-    assert_eq!(gestures.first(), Some(&(3, Gesture::Begin)));
-    assert_eq!(gestures.last(), Some(&(3, Gesture::End)));
+    window.drag(FIRST_KNOB, vec2(0.0, -40.0), PointerButton::Primary);
+    let gestures = window.obey();
+    assert!(gestures.iter().all(|&(index, _)| index == SNARE_TUNE), "{gestures:?}");
+    assert_eq!(gestures.first(), Some(&(SNARE_TUNE, Gesture::Begin)));
+    assert_eq!(gestures.last(), Some(&(SNARE_TUNE, Gesture::End)));
     let values: Vec<f32> = gestures
         .iter()
         .filter_map(|(_, gesture)| match gesture {
@@ -139,32 +288,96 @@ fn dragging_a_knob_is_one_gesture_upwards() {
         })
         .collect();
     assert!(values.is_sorted() && values.len() >= 8, "{values:?}");
-    let default = window.parameters.values()[3].default_plain_value();
+    let default = window.parameters.values()[SNARE_TUNE].default_plain_value();
     assert!(*values.last().unwrap() > default);
+
+    // The same with Shift goes a tenth as far.
+    window.modifiers = Modifiers::SHIFT;
+    window.drag(FIRST_KNOB, vec2(0.0, -40.0), PointerButton::Primary);
+    let fine = window.obey().into_iter().rev().find_map(|(_, gesture)| match gesture {
+        Gesture::Set(value) => Some(value),
+        _ => None,
+    });
+    assert!(fine.unwrap() - default < 0.2 * (values.last().unwrap() - default));
+}
+
+#[test]
+fn an_edit_is_undone_and_redone() {
+    let mut window = Window::new();
+    window.frame(Vec::new());
+    window.drag(FIRST_KNOB, vec2(0.0, -40.0), PointerButton::Primary);
+    let moved = window.obey();
+    let default = window.parameters.values()[SNARE_TUNE].default_plain_value();
+    window.modifiers = Modifiers::COMMAND;
+    window.key(Key::Z);
+    assert_eq!(
+        window.obey(),
+        [Gesture::Begin, Gesture::Set(default), Gesture::End].map(|gesture| (SNARE_TUNE, gesture))
+    );
+    window.modifiers = Modifiers::COMMAND | Modifiers::SHIFT;
+    window.key(Key::Z);
+    let last = moved[moved.len() - 2].1;
+    assert_eq!(window.obey()[1], (SNARE_TUNE, last));
 }
 
 #[test]
 fn a_double_click_resets() {
     let mut window = Window::new();
     window.frame(Vec::new());
-    let mut gestures = Vec::new();
     for pressed in [true, false, true, false] {
-        gestures.extend(window.press(FIRST_KNOB, pressed));
+        window.press(FIRST_KNOB, pressed);
     }
-    let default = window.parameters.values()[3].default_plain_value();
-    assert_eq!(gestures, [Gesture::Begin, Gesture::Set(default), Gesture::End].map(|g| (3, g)));
+    let default = window.parameters.values()[SNARE_TUNE].default_plain_value();
+    let reset = [Gesture::Begin, Gesture::Set(default), Gesture::End].map(|g| (SNARE_TUNE, g));
+    assert_eq!(window.obey(), reset);
 }
 
 #[test]
-fn clicking_a_piece_shows_its_parameters() {
+fn a_value_can_be_typed() {
     let mut window = Window::new();
     window.frame(Vec::new());
-    let kick = pos2(100.0, 60.0);
-    window.press(kick, true);
-    window.press(kick, false);
-    // Not a third click of the same hand.
-    window.time += 1.0;
-    let gestures = [true, false, true, false].map(|pressed| window.press(FIRST_KNOB, pressed));
-    assert!(gestures.iter().flatten().all(|&(index, _)| index == 0));
-    assert_eq!(gestures.iter().flatten().count(), 3);
+    window.click(FIRST_VALUE);
+    window.frame(Vec::new());
+    let all = Event::Key {
+        key: Key::A,
+        physical_key: None,
+        pressed: true,
+        repeat: false,
+        modifiers: Modifiers::COMMAND,
+    };
+    window.modifiers = Modifiers::COMMAND;
+    window.frame(vec![all]);
+    window.modifiers = Modifiers::NONE;
+    // Digits go into the field and strike nothing.
+    window.frame(vec![Event::Text("250".to_owned())]);
+    window.key(Key::Enter);
+    window.frame(Vec::new());
+    assert!(window.strokes.is_empty());
+    assert_eq!(
+        window.obey(),
+        [Gesture::Begin, Gesture::Set(250.0), Gesture::End].map(|gesture| (SNARE_TUNE, gesture))
+    );
+}
+
+#[test]
+fn clicking_a_piece_in_the_list_shows_its_parameters() {
+    let mut window = Window::new();
+    window.frame(Vec::new());
+    window.click(pos2(80.0, 60.0));
+    window.obey();
+    for pressed in [true, false, true, false] {
+        window.press(FIRST_KNOB, pressed);
+    }
+    let gestures = window.obey();
+    assert!(gestures.len() == 3 && gestures.iter().all(|&(index, _)| index == 0), "{gestures:?}");
+}
+
+#[test]
+fn a_window_opens_as_the_project_remembers_it() {
+    let view = View { page: 1, light: true, piece: 6, camera: [1.0, 0.4, 2.0], zoom: 1.5 };
+    let panels = Panels::new(Library::at(std::path::Path::new("no-such-folder")), view);
+    assert_eq!(panels.view(), view);
+    let odd = View { page: 99, piece: 99, ..view };
+    let panels = Panels::new(Library::at(std::path::Path::new("no-such-folder")), odd);
+    assert_eq!((panels.view().page, panels.view().piece), (0, 8));
 }

@@ -71,6 +71,18 @@ pub enum Task {
     },
     /// Write the manual's pages that come from the code: docs/midi.md and docs/parameters.md
     Docs,
+    /// Take pictures of the built plugin's editor on a virtual display
+    Shots {
+        /// The folder to write to
+        #[arg(short, long, value_name = "FOLDER", default_value = "shots")]
+        out: PathBuf,
+        /// A built CLAP plugin; without it the plugin is built and bundled first
+        #[arg(long, value_name = "FILE")]
+        plugin: Option<PathBuf>,
+        /// Use the display there is
+        #[arg(long, hide = true, requires = "plugin")]
+        here: bool,
+    },
     /// Write the demonstration groove (assets/groove.mid) anew
     #[command(hide = true)]
     Groove {

@@ -18,7 +18,7 @@ impl Display {
     /// If it does not start.
     pub fn start() -> Result<Display> {
         let mut server = Command::new("Xvfb")
-            .args(["-displayfd", "1", "-screen", "0", "1920x1200x24"])
+            .args(["-displayfd", "1", "-screen", "0", "2400x1600x24"])
             .args(["+extension", "GLX", "-nolisten", "tcp"])
             // Left by its last client it would begin anew, and refuse whoever comes meanwhile.
             .arg("-noreset")

@@ -1,0 +1,161 @@
+//! Undo and redo of what hands did to parameters, and two settings to compare.
+//!
+//! An edit is what lies between taking hold of a parameter and letting it go; what is done in one frame, as by a
+//! preset, is one step. Automation and other windows are not hands: undoing puts back what a parameter was when it
+//! was taken hold of, whatever it is now.
+
+use nice_plug::prelude::{FloatParam, Param};
+
+use super::knob::Gesture;
+
+/// Steps that are remembered.
+const DEPTH: usize = 200;
+
+/// One parameter moved, plain values.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Edit {
+    index: usize,
+    from: f32,
+    to: f32,
+}
+
+/// What was done.
+#[derive(Default)]
+pub struct History {
+    done: Vec<Vec<Edit>>,
+    undone: Vec<Vec<Edit>>,
+    /// Held now: from where each was taken and where it was last put.
+    held: Vec<Edit>,
+    /// What this frame has brought.
+    fresh: Vec<Edit>,
+    /// The setting that is not in use: plain values of all parameters.
+    other: Option<Vec<f32>>,
+    /// Whether the second setting is in use.
+    second: bool,
+}
+
+impl History {
+    /// Takes note of a gesture before it is passed on; `value` is what the parameter is now.
+    pub fn note(&mut self, index: usize, gesture: Gesture, value: f32) {
+        match gesture {
+            Gesture::Begin => self.held.push(Edit { index, from: value, to: value }),
+            Gesture::Set(to) => {
+                self.held.iter_mut().filter(|edit| edit.index == index).for_each(|edit| edit.to = to);
+            }
+            Gesture::End => {
+                let Some(place) = self.held.iter().position(|edit| edit.index == index) else { return };
+                let edit = self.held.swap_remove(place);
+                if edit.from != edit.to {
+                    self.fresh.push(edit);
+                }
+            }
+        }
+    }
+
+    /// Ends a frame: what it has brought is a step.
+    pub fn end_frame(&mut self) {
+        if self.fresh.is_empty() {
+            return;
+        }
+        self.done.push(std::mem::take(&mut self.fresh));
+        self.undone.clear();
+        if self.done.len() > DEPTH {
+            self.done.remove(0);
+        }
+    }
+
+    /// Whether there is something to undo.
+    pub fn can_undo(&self) -> bool {
+        !self.done.is_empty()
+    }
+
+    /// Whether there is something to do again.
+    pub fn can_redo(&self) -> bool {
+        !self.undone.is_empty()
+    }
+
+    /// Takes back the latest step.
+    pub fn undo(&mut self, set: &mut dyn FnMut(usize, Gesture)) {
+        let Some(step) = self.done.pop() else { return };
+        step.iter().rev().for_each(|edit| put(edit.index, edit.from, set));
+        self.undone.push(step);
+    }
+
+    /// Does again what was undone last.
+    pub fn redo(&mut self, set: &mut dyn FnMut(usize, Gesture)) {
+        let Some(step) = self.undone.pop() else { return };
+        step.iter().for_each(|edit| put(edit.index, edit.to, set));
+        self.done.push(step);
+    }
+
+    /// Whether the second of two settings is in use.
+    pub fn is_second(&self) -> bool {
+        self.second
+    }
+
+    /// Puts the other setting in place of this one, which is kept; at first both are the same.
+    pub fn swap(&mut self, values: &[FloatParam], set: &mut dyn FnMut(usize, Gesture)) {
+        let present: Vec<f32> = values.iter().map(|value| value.unmodulated_plain_value()).collect();
+        self.second = !self.second;
+        let Some(wanted) = self.other.replace(present.clone()) else { return };
+        for (index, (from, to)) in present.into_iter().zip(wanted).enumerate() {
+            if from != to {
+                self.fresh.push(Edit { index, from, to });
+                put(index, to, set);
+            }
+        }
+    }
+}
+
+/// Moves a parameter in one gesture.
+pub fn put(index: usize, value: f32, set: &mut dyn FnMut(usize, Gesture)) {
+    for gesture in [Gesture::Begin, Gesture::Set(value), Gesture::End] {
+        set(index, gesture);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_drag_is_one_step_and_comes_back() {
+        let mut history = History::default();
+        history.note(3, Gesture::Begin, 10.0);
+        for value in [11.0, 12.0, 15.0] {
+            history.note(3, Gesture::Set(value), 10.0);
+            history.end_frame();
+        }
+        assert!(!history.can_undo(), "it is still held");
+        history.note(3, Gesture::End, 15.0);
+        history.end_frame();
+        let mut moved = Vec::new();
+        history.undo(&mut |index, gesture| moved.push((index, gesture)));
+        assert_eq!(moved, [Gesture::Begin, Gesture::Set(10.0), Gesture::End].map(|gesture| (3, gesture)));
+        moved.clear();
+        history.redo(&mut |index, gesture| moved.push((index, gesture)));
+        assert_eq!(moved[1], (3, Gesture::Set(15.0)));
+        assert!(history.can_undo() && !history.can_redo());
+    }
+
+    #[test]
+    fn what_one_frame_brings_is_one_step() {
+        let mut history = History::default();
+        for index in 0..5 {
+            put(index, 1.0, &mut |index, gesture| history.note(index, gesture, 0.0));
+        }
+        history.end_frame();
+        let mut undone = 0;
+        history.undo(&mut |_, gesture| undone += usize::from(gesture == Gesture::Set(0.0)));
+        assert_eq!(undone, 5);
+        assert!(!history.can_undo());
+    }
+
+    #[test]
+    fn holding_without_moving_is_no_step() {
+        let mut history = History::default();
+        put(0, 2.0, &mut |index, gesture| history.note(index, gesture, 2.0));
+        history.end_frame();
+        assert!(!history.can_undo());
+    }
+}

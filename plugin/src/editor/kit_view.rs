@@ -1,0 +1,297 @@
+//! The kit as it stands, seen in perspective.
+//!
+//! Heads and plates move as their fields do, magnified; sticks replay each stroke; a press on a head or plate
+//! strikes it there. Dragging the floor, or anything with another button, turns the view, the wheel comes nearer.
+
+use std::sync::Arc;
+
+use egui::{Color32, PointerButton, Pos2, Rect, Sense, Shape, Ui, vec2};
+use overhear_engine::piece::PieceId;
+use overhear_engine::snapshot::{FieldShapes, KitSnapshot, PieceSnapshot};
+
+use super::field::{self, Magnifier, Refined};
+use super::theme::{self, Palette};
+
+pub mod bodies;
+pub mod camera;
+pub mod light;
+mod microphones;
+pub mod scene;
+mod shells;
+mod stands;
+mod sticks;
+pub mod surfaces;
+mod target;
+pub mod vector;
+
+use bodies::{Body, Frame};
+use camera::{Camera, Eye};
+use scene::Scene;
+use sticks::Replay;
+use surfaces::{Motion, Tint};
+pub use target::{Target, stroke_near};
+
+/// Pieces of the kit.
+const PIECES: usize = PieceId::KIT.len();
+
+/// Room at the right of a picture that something else lies over, points.
+const BESIDE: f32 = 44.0;
+
+/// Where the kick's beater rests, m from the head.
+const READY: f32 = 0.09;
+
+/// Point of view from which every microphone is seen: turn and height, rad, and distance, m.
+const WIDE: [f32; 3] = [-0.42, 0.30, 4.5];
+
+/// How long a stroke's mark stays, s.
+const MARK_TIME: f64 = 1.0;
+
+/// Gap between the two cymbals of the hi-hat when they touch, m: as much as is seen.
+const CLOSED: f32 = 0.004;
+
+/// What the kit is drawn from.
+pub struct Seen<'a> {
+    pub snapshot: &'a KitSnapshot,
+    /// A piece's mode shapes once it is built, by its slot.
+    pub shapes: &'a dyn Fn(usize) -> Option<Arc<FieldShapes>>,
+    /// Slot of the piece that the panels are about.
+    pub selected: usize,
+    /// Whether microphones are shown.
+    pub microphones: bool,
+}
+
+/// What a hand did.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Done {
+    /// The piece that was pressed on, by its slot.
+    pub chosen: Option<usize>,
+    /// Where it was struck, if it can be struck there.
+    pub struck: Option<Target>,
+}
+
+/// The view of one window.
+pub struct KitView {
+    bodies: [Body; PIECES],
+    pub camera: Camera,
+    /// The point of view from which the microphones are seen.
+    wide: Camera,
+    pub tint: Tint,
+    magnifiers: [Magnifier; PIECES],
+    replays: [Replay; PIECES],
+    /// What is under the pointer.
+    hovered: Option<Target>,
+    /// Whether the button that is down has struck something: then it does not turn the view.
+    striking: bool,
+}
+
+impl KitView {
+    /// The kit from a point of view.
+    pub fn seen_from(camera: Camera) -> KitView {
+        KitView {
+            bodies: Body::kit(),
+            camera,
+            wide: Camera::of(WIDE),
+            tint: Tint::default(),
+            magnifiers: Default::default(),
+            replays: Default::default(),
+            hovered: None,
+            striking: false,
+        }
+    }
+
+    /// Draws the kit into `rect` and says what a hand did with it.
+    pub fn show(&mut self, ui: &mut Ui, rect: Rect, seen: &Seen<'_>) -> Done {
+        let palette = theme::of(ui);
+        let done = self.answer(ui, rect, seen.microphones);
+        let (now, elapsed) = ui.input(|input| (input.time, input.stable_dt));
+        let eye = self.eye(rect, seen.microphones);
+        let mut scene = Scene::new(eye);
+        let painter = ui.painter_at(rect);
+        painter.add(backdrop(rect, palette));
+        painter.add(stands::floor(&scene, &self.bodies, palette));
+        for slot in 0..PIECES {
+            self.piece(&mut scene, slot, seen, (now, elapsed), palette);
+        }
+        let microphones = if seen.microphones { microphones::all(&self.bodies, palette) } else { Vec::new() };
+        microphones::draw(&mut scene, &microphones, palette);
+        painter.add(scene.finish());
+        microphones::names(&painter, &eye, &microphones, palette);
+        self.caption(ui, rect, palette);
+        done
+    }
+
+    /// What is seen through a rectangle: the kit, or all the microphones too.
+    pub fn eye(&self, rect: Rect, wide: bool) -> Eye {
+        // The strip of speeds lies over the right.
+        let free = Rect::from_min_max(rect.min, rect.max - vec2(BESIDE.min(0.5 * rect.width()), 0.0));
+        if wide { self.wide.through(free) } else { self.camera.through(free) }
+    }
+
+    fn camera_mut(&mut self, wide: bool) -> &mut Camera {
+        if wide { &mut self.wide } else { &mut self.camera }
+    }
+
+    /// The kit's bodies, where they stand by default.
+    #[cfg(test)]
+    pub fn bodies(&self) -> &[Body; PIECES] {
+        &self.bodies
+    }
+
+    /// Whether a stick or a mark is still to be seen.
+    pub fn replays(&self, snapshot: &KitSnapshot, now: f64) -> bool {
+        self.replays.iter().zip(&snapshot.pieces).any(|(replay, piece)| {
+            replay.is_on(&piece.strike, now) || (replay.count > 0 && replay.since_touch(now) < MARK_TIME)
+        })
+    }
+
+    /// Lets strokes from before the window was opened rest.
+    pub fn forget_strokes(&mut self, snapshot: &KitSnapshot) {
+        for (replay, piece) in self.replays.iter_mut().zip(&snapshot.pieces) {
+            replay.count = piece.strike.count;
+        }
+    }
+
+    /// Turns, zooms, strikes.
+    fn answer(&mut self, ui: &mut Ui, rect: Rect, wide: bool) -> Done {
+        let response = ui.interact(rect, ui.scope_id().with("kit"), Sense::click_and_drag());
+        let eye = self.eye(rect, wide);
+        let pointer = response.hover_pos().filter(|at| rect.contains(*at));
+        self.hovered = pointer.and_then(|at| target::under(&self.bodies, &eye, at));
+        let mut done = Done::default();
+        let pressed = |button| ui.input(|input| input.pointer.button_pressed(button));
+        if response.contains_pointer() && pressed(PointerButton::Primary) {
+            self.striking = self.hovered.is_some_and(|target| target.on_surface);
+            done.chosen = self.hovered.map(|target| target.slot);
+            done.struck = self.hovered.filter(|target| target.on_surface);
+        }
+        let turns = response.dragged_by(PointerButton::Primary) && !self.striking;
+        let other = [PointerButton::Secondary, PointerButton::Middle];
+        if turns || other.into_iter().any(|button| response.dragged_by(button)) {
+            let drag = response.drag_delta();
+            self.camera_mut(wide).orbit(drag.x, drag.y);
+        }
+        if response.contains_pointer() {
+            let (wheel, pinch) = ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
+            self.camera_mut(wide).zoom((wheel * 0.003).exp() * pinch);
+        }
+        if self.hovered.is_some_and(|target| target.on_surface) {
+            ui.set_cursor_icon(egui::CursorIcon::Crosshair);
+        }
+        done
+    }
+
+    fn piece(
+        &mut self,
+        scene: &mut Scene,
+        slot: usize,
+        seen: &Seen<'_>,
+        (now, elapsed): (f64, f32),
+        palette: &Palette,
+    ) {
+        let state = &seen.snapshot.pieces[slot];
+        let mut body = self.bodies[slot];
+        stands::stand(scene, &body, palette);
+        if body.piece == PieceId::HiHat {
+            close(scene, &mut body, state, palette);
+        }
+        let accent = palette.pieces[slot];
+        let field = (seen.shapes)(slot).map(|shapes| field::displacement(&shapes, &state.displacement));
+        let field = field.unwrap_or_else(|| vec![0.0; overhear_engine::snapshot::FIELD_POINTS]);
+        self.magnifiers[slot].follow(&field, elapsed);
+        let factor = self.magnifiers[slot].factor(body.tallest());
+        let scaled: Vec<f32> = field.iter().map(|z| z * factor).collect();
+        let heights = field::refined(&scaled);
+        self.replays[slot].follow(&state.strike, now);
+        let hovered = self.hovered.is_some_and(|target| target.slot == slot);
+        let since = self.replays[slot].since_touch(now);
+        let flash = if since < 0.0 { 0.0 } else { (1.0 - since / 0.25).max(0.0) as f32 };
+        let glow = flash.max(if hovered { 0.6 } else { 0.0 });
+        let motion = Motion { heights: &heights, tint: self.tint, accent, glow };
+        let ring = if hovered || seen.selected == slot { accent } else { Color32::TRANSPARENT };
+        shells::shell(scene, &body, ring, palette);
+        surfaces::moving(scene, &body, &motion, palette);
+        if ring != Color32::TRANSPARENT && !body.piece.is_drum() {
+            shells::circle(scene, &body.frame, 1.005 * body.radius, 0.0, 2.0, ring);
+        }
+        self.stroke(scene, slot, &body, state, &heights, now, palette);
+    }
+
+    /// The stick of the latest stroke and the mark it leaves.
+    #[allow(clippy::too_many_arguments)]
+    fn stroke(
+        &self,
+        scene: &mut Scene,
+        slot: usize,
+        body: &Body,
+        state: &PieceSnapshot,
+        heights: &Refined,
+        now: f64,
+        palette: &Palette,
+    ) {
+        let (strike, replay) = (&state.strike, &self.replays[slot]);
+        if !(strike.radius.is_finite() && strike.angle.is_finite()) {
+            return;
+        }
+        let (sin, cos) = strike.angle.sin_cos();
+        let (x, y) = (strike.radius * sin, -strike.radius * cos);
+        let landing = body.surface(x, y, field::height_at(heights, x, y));
+        // A beater rests where it is ready.
+        let ready = (body.piece == PieceId::Kick).then_some(READY);
+        if let Some(height) = replay.height(strike, now).or(ready) {
+            sticks::draw(scene, body, landing, height, palette);
+        }
+        let age = (replay.since_touch(now) / MARK_TIME) as f32;
+        if strike.count > 0 && (0.0..1.0).contains(&age) {
+            let colour = palette.pieces[slot].gamma_multiply(1.0 - age);
+            let frame = Frame { centre: landing, ..body.frame };
+            let radius = (0.008 + 0.6 * age * body.radius).min(body.radius);
+            shells::circle(scene, &frame, radius, 0.004, 2.0, colour);
+        }
+    }
+
+    /// Names what is under the pointer.
+    fn caption(&self, ui: &Ui, rect: Rect, palette: &Palette) {
+        let Some((target, at)) = self.hovered.zip(ui.input(|input| input.pointer.hover_pos())) else {
+            return;
+        };
+        let text = target.text();
+        let font = theme::caption();
+        let galley = ui.painter().layout_no_wrap(text, font, palette.text);
+        let size = galley.size() + vec2(16.0, 8.0);
+        let left = (at.x + 14.0).min(rect.max.x - size.x - 4.0).max(rect.min.x);
+        let top = (at.y + 16.0).min(rect.max.y - size.y - 4.0).max(rect.min.y);
+        let frame = Rect::from_min_size(Pos2::new(left, top), size);
+        let painter = ui.painter_at(rect);
+        painter.rect_filled(frame, 4.0, palette.panel.gamma_multiply(0.94));
+        let edge = Rect::from_min_size(frame.min, vec2(3.0, size.y));
+        painter.rect_filled(edge, 2.0, palette.pieces[target.slot]);
+        painter.galley(frame.min + vec2(9.0, 4.0), galley, palette.text);
+    }
+}
+
+/// Brings the upper cymbal of the hi-hat to where the pedal has it, and draws the lower.
+fn close(scene: &mut Scene, body: &mut Body, state: &PieceSnapshot, palette: &Palette) {
+    let gap = overhear_engine::hi_hat::GAP as f32;
+    let down = state.rims.pedal.clamp(0.0, gap);
+    let place = body.frame.at(0.0, 0.0, -gap - CLOSED);
+    let normal = vector::scale(body.frame.normal, -1.0);
+    surfaces::still(scene, body, Frame { centre: place, normal, ..body.frame }, palette);
+    body.frame.centre = body.frame.at(0.0, 0.0, -down);
+}
+
+/// The room behind the kit.
+fn backdrop(rect: Rect, palette: &Palette) -> Shape {
+    let mut mesh = egui::epaint::Mesh::default();
+    let [top, bottom] = palette.stage;
+    for (at, colour) in [
+        (rect.left_top(), top),
+        (rect.right_top(), top),
+        (rect.left_bottom(), bottom),
+        (rect.right_bottom(), bottom),
+    ] {
+        mesh.colored_vertex(at, colour);
+    }
+    mesh.add_triangle(0, 1, 2);
+    mesh.add_triangle(1, 2, 3);
+    Shape::mesh(mesh)
+}

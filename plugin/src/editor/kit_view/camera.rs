@@ -1,0 +1,167 @@
+//! The point of view: a camera that circles the kit, and what it sees through a rectangle of the screen.
+
+use egui::{Pos2, Rect, vec2};
+
+use crate::view::View;
+
+use super::vector::{V3, add, cross, dot, scale, sub, unit};
+
+/// Half the field of view across the shorter side, as a tangent: as of a 50 mm lens.
+const APERTURE: f32 = 0.36;
+
+/// Nothing is taken to be nearer, m.
+pub const NEAREST: f32 = 0.05;
+
+/// Heights of the eye above the horizon, rad: from the floor to nearly overhead.
+const PITCH: (f32, f32) = (-0.15, 1.5);
+
+/// Distances from the middle of the kit, m.
+const DISTANCE: (f32, f32) = (0.7, 6.0);
+
+/// Middle of the kit, m.
+const MIDDLE: V3 = [0.08, 0.66, -0.30];
+
+/// Where the eye is, seen from the middle of the kit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Camera {
+    /// Turn about the vertical, rad; 0 is from behind the drummer, above 0 to the drummer's right.
+    pub yaw: f32,
+    /// Height above the horizon, rad.
+    pub pitch: f32,
+    /// Distance, m.
+    pub distance: f32,
+}
+
+impl Default for Camera {
+    fn default() -> Camera {
+        Camera::of(View::default().camera)
+    }
+}
+
+impl Camera {
+    /// A camera by its turn, height and distance, within the room.
+    pub fn of([yaw, pitch, distance]: [f32; 3]) -> Camera {
+        Camera { yaw, pitch: pitch.clamp(PITCH.0, PITCH.1), distance: distance.clamp(DISTANCE.0, DISTANCE.1) }
+    }
+
+    /// Turn, height and distance.
+    pub fn numbers(&self) -> [f32; 3] {
+        [self.yaw, self.pitch, self.distance]
+    }
+
+    /// Turns by a drag, points.
+    pub fn orbit(&mut self, right: f32, down: f32) {
+        /// Turn for each point dragged, rad.
+        const TURN: f32 = 0.007;
+        self.yaw = (self.yaw - right * TURN).rem_euclid(std::f32::consts::TAU);
+        self.pitch = (self.pitch + down * TURN).clamp(PITCH.0, PITCH.1);
+    }
+
+    /// Comes nearer by a factor.
+    pub fn zoom(&mut self, factor: f32) {
+        if factor.is_finite() && factor > 0.0 {
+            self.distance = (self.distance / factor).clamp(DISTANCE.0, DISTANCE.1);
+        }
+    }
+
+    /// What is seen of it through `rect`.
+    pub fn through(&self, rect: Rect) -> Eye {
+        let ((sin_yaw, cos_yaw), (sin, cos)) = (self.yaw.sin_cos(), self.pitch.sin_cos());
+        let out = [sin_yaw * cos, sin, -cos_yaw * cos];
+        Eye::new(rect, MIDDLE, out, self.distance)
+    }
+}
+
+/// Perspective from a place onto a rectangle of the screen.
+#[derive(Debug, Clone, Copy)]
+pub struct Eye {
+    place: V3,
+    right: V3,
+    up: V3,
+    forward: V3,
+    centre: Pos2,
+    /// Points for a tangent of one.
+    scale: f32,
+}
+
+impl Eye {
+    /// An eye at a distance (m) in the direction `out` from what it looks at.
+    pub fn new(rect: Rect, target: V3, out: V3, distance: f32) -> Eye {
+        let forward = scale(unit(out), -1.0);
+        let right = unit(cross([0.0, 1.0, 0.0], forward));
+        let up = cross(forward, right);
+        // A wide window shows more to the sides, a narrow one stays whole.
+        let shorter = rect.height().min(rect.width() / 1.25).max(1.0);
+        let place = add(target, scale(unit(out), distance));
+        Eye { place, right, up, forward, centre: rect.center(), scale: 0.5 * shorter / APERTURE }
+    }
+
+    /// Where it is, m.
+    pub fn place(&self) -> V3 {
+        self.place
+    }
+
+    /// Place on the screen, and distance along the line of sight, m.
+    pub fn project(&self, point: V3) -> (Pos2, f32) {
+        let to = sub(point, self.place);
+        let depth = dot(to, self.forward).max(NEAREST);
+        let scale = self.scale / depth;
+        (self.centre + scale * vec2(dot(to, self.right), -dot(to, self.up)), depth)
+    }
+
+    /// Points on the screen of a length (m) at a depth (m).
+    pub fn points(&self, length: f32, depth: f32) -> f32 {
+        length * self.scale / depth.max(NEAREST)
+    }
+
+    /// Direction in which a place of the screen lies; not of length one.
+    pub fn ray(&self, at: Pos2) -> V3 {
+        let offset = (at - self.centre) / self.scale;
+        add(self.forward, add(scale(self.right, offset.x), scale(self.up, -offset.y)))
+    }
+
+    /// Whether a face at `point` with that normal is seen from its front.
+    pub fn faces(&self, point: V3, normal: V3) -> bool {
+        dot(sub(self.place, point), normal) > 0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn window() -> Rect {
+        Rect::from_min_size(Pos2::ZERO, vec2(800.0, 600.0))
+    }
+
+    #[test]
+    fn from_behind_the_drummer_right_is_right_and_the_audience_is_far() {
+        let eye = Camera { yaw: 0.0, pitch: 0.5, distance: 3.0 }.through(window());
+        let (left, _) = eye.project([-0.5, 0.7, -0.3]);
+        let (right, _) = eye.project([0.5, 0.7, -0.3]);
+        assert!(left.x < right.x);
+        let (_, near) = eye.project([0.0, 0.7, -1.0]);
+        let (_, far) = eye.project([0.0, 0.7, 1.0]);
+        assert!(near < far);
+    }
+
+    #[test]
+    fn a_ray_goes_through_what_is_seen_there() {
+        let eye = Camera::default().through(window());
+        let point = [0.3, 0.6, 0.1];
+        let (at, depth) = eye.project(point);
+        let there = add(eye.place(), scale(eye.ray(at), depth));
+        assert!(sub(there, point).iter().all(|difference| difference.abs() < 1e-4), "{there:?}");
+    }
+
+    #[test]
+    fn no_drag_and_no_wheel_leaves_the_room() {
+        let mut camera = Camera::default();
+        camera.orbit(1e6, 1e6);
+        camera.zoom(1e9);
+        assert!(camera.pitch <= PITCH.1 && camera.distance >= DISTANCE.0);
+        camera.zoom(f32::NAN);
+        camera.zoom(0.0);
+        assert!(camera.distance.is_finite());
+    }
+}

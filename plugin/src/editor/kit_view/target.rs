@@ -1,0 +1,152 @@
+//! What lies under the pointer: which piece, where on it, and which note plays that.
+
+use egui::Pos2;
+use overhear_engine::piece::PieceId;
+use overhear_engine::strike::Striker;
+
+use super::bodies::{Body, Kind};
+use super::camera::Eye;
+use super::vector::{V3, add, dot, scale, sub};
+use crate::midi_map::{BEYOND, MAP, Meaning, Row, Stroke};
+use crate::outputs::title;
+
+/// A place on a piece.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Target {
+    /// The piece, by its place in [`PieceId::KIT`].
+    pub slot: usize,
+    /// Whether it is the struck surface; otherwise it is what holds it.
+    pub on_surface: bool,
+    /// Distance from the centre as a share of the radius, 0 to 1.
+    pub radius: f32,
+    /// Direction seen from the centre, rad; 0 is toward the player.
+    pub angle: f32,
+}
+
+impl Target {
+    pub fn piece(&self) -> PieceId {
+        PieceId::KIT[self.slot]
+    }
+
+    /// Piece, place and note in a line.
+    pub fn text(&self) -> String {
+        let name = title(self.piece());
+        if !self.on_surface {
+            return name.to_owned();
+        }
+        let place = format!("{name}, {:.2} of the radius", self.radius);
+        match stroke_near(self.piece(), f64::from(self.radius)) {
+            Some((row, _)) => format!("{place} · note {} {}", row.note, row.name),
+            None => place,
+        }
+    }
+}
+
+/// The note that strikes a piece nearest to a distance from its centre (share of the radius), and how; of strokes with
+/// the tip.
+pub fn stroke_near(piece: PieceId, radius: f64) -> Option<(&'static Row, &'static Stroke)> {
+    let strokes = MAP.iter().chain(&BEYOND).filter_map(|row| match &row.meaning {
+        Meaning::Strikes(stroke) if stroke.piece == piece => Some((row, stroke)),
+        _ => None,
+    });
+    let tip = |stroke: &Stroke| !matches!(stroke.striker, Striker::CrossStick | Striker::RimShot);
+    let away = |stroke: &Stroke| (stroke.radius - radius).abs();
+    strokes.filter(|(_, stroke)| tip(stroke)).min_by(|a, b| away(a.1).total_cmp(&away(b.1)))
+}
+
+/// What is under a place of the screen: the nearest surface or shell there.
+pub fn under(bodies: &[Body], eye: &Eye, at: Pos2) -> Option<Target> {
+    let (from, ray) = (eye.place(), eye.ray(at));
+    let hits = bodies.iter().enumerate().flat_map(|(slot, body)| {
+        [on_surface(body, from, ray), on_shell(body, from, ray)].into_iter().flatten().map(
+            move |(far, place)| {
+                let (radius, angle) = place.unwrap_or_default();
+                (far, Target { slot, on_surface: place.is_some(), radius, angle })
+            },
+        )
+    });
+    hits.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, target)| target)
+}
+
+/// How far along the ray, and radius and angle there.
+type Hit = (f32, Option<(f32, f32)>);
+
+fn on_surface(body: &Body, from: V3, ray: V3) -> Option<Hit> {
+    let frame = &body.frame;
+    let cymbal = matches!(body.kind, Kind::Cymbal { .. });
+    // A head is struck from its front; a plate can be touched from below but is seen there only.
+    let steep = dot(ray, frame.normal);
+    if steep >= -1e-4 && !cymbal {
+        return None;
+    }
+    // A plate is met at the height of its bow, where most of it lies.
+    let height = if cymbal { body.profile(0.6) } else { 0.0 };
+    let far = dot(sub(frame.at(0.0, 0.0, height), from), frame.normal) / steep;
+    let place = sub(add(from, scale(ray, far)), frame.centre);
+    let (x, y) = (dot(place, frame.right) / body.radius, dot(place, frame.away) / body.radius);
+    let radius = x.hypot(y);
+    (far > 0.0 && far.is_finite() && radius <= 1.0).then(|| (far, Some((radius, x.atan2(-y)))))
+}
+
+/// The nearer side of the shell, as a cylinder.
+fn on_shell(body: &Body, from: V3, ray: V3) -> Option<Hit> {
+    let depth = match body.kind {
+        Kind::Drum { depth, .. } | Kind::Kettle { depth } => depth,
+        Kind::Cymbal { .. } => return None,
+    };
+    let normal = body.frame.normal;
+    let flat = |x: V3| sub(x, scale(normal, dot(x, normal)));
+    let (start, along) = (flat(sub(from, body.frame.centre)), flat(ray));
+    let (a, b) = (dot(along, along), dot(start, along));
+    let c = dot(start, start) - body.radius * body.radius;
+    let inside = b * b - a * c;
+    if a < 1e-6 || inside < 0.0 {
+        return None;
+    }
+    let far = (-b - inside.sqrt()) / a;
+    let height = dot(sub(add(from, scale(ray, far)), body.frame.centre), normal);
+    (far > 0.0 && (-depth..=0.0).contains(&height)).then_some((far, None))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::camera::Camera;
+    use super::*;
+    use egui::{Rect, vec2};
+
+    #[test]
+    fn every_piece_is_found_where_it_is_seen() {
+        let bodies = Body::kit();
+        let eye = Camera::default().through(Rect::from_min_size(Pos2::ZERO, vec2(900.0, 600.0)));
+        for (slot, body) in bodies.iter().enumerate() {
+            let mut found = 0;
+            for (radius, angle) in
+                [(0.0_f32, 0.0_f32), (0.5, 0.0), (0.5, 1.6), (0.5, -1.6), (0.8, 2.6), (0.7, -2.4)]
+            {
+                let (sin, cos) = angle.sin_cos();
+                let (at, _) = eye.project(body.surface(radius * sin, -radius * cos, 0.0));
+                let Some(target) = under(&bodies, &eye, at).filter(|target| target.slot == slot) else {
+                    continue;
+                };
+                assert!(target.on_surface);
+                let away = (target.radius * target.angle.sin() - radius * sin)
+                    .hypot(target.radius * target.angle.cos() - radius * cos);
+                // A plate is flat to the pointer.
+                assert!(away < if body.piece.is_drum() { 0.01 } else { 0.2 }, "{:?}: {away}", body.piece);
+                found += 1;
+            }
+            assert!(found >= 2, "{:?} is hidden", body.piece);
+        }
+    }
+
+    #[test]
+    fn what_is_struck_has_a_note() {
+        for piece in PieceId::KIT {
+            for radius in [0.0, 0.3, 0.6, 0.95] {
+                assert!(stroke_near(piece, radius).is_some_and(|(_, stroke)| stroke.piece == piece));
+            }
+        }
+        let ride = |radius| stroke_near(PieceId::Ride, radius).unwrap().0.note;
+        assert_eq!((ride(0.05), ride(0.6)), (53, 51));
+    }
+}

@@ -1,0 +1,145 @@
+//! The page of physics: what the strokes did, in diagrams.
+//!
+//! About the selected piece: the force of its latest stroke, its surface near by or one of its modes alone, its modes,
+//! and how its pitch glides; about the kit: energies and the spectrum of what is heard.
+
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+use egui::{Rect, Ui, pos2};
+use overhear_engine::piece::PieceId;
+use overhear_engine::snapshot::{FieldShapes, KitSnapshot};
+
+use super::theme;
+use crate::sound::Sound;
+
+mod closeup;
+mod energy;
+mod force;
+mod glide;
+mod modes;
+mod spectrum;
+
+use closeup::Closeup;
+use spectrum::Spectrum;
+
+/// Pieces of the kit.
+const PIECES: usize = PieceId::KIT.len();
+
+/// How far back energies and pitches are drawn, s.
+const MEMORY: f64 = 3.0;
+
+/// Space between diagrams, points.
+const GAP: f32 = 8.0;
+
+/// What was at a time.
+struct Moment {
+    /// s of the editor's time.
+    time: f64,
+    /// Vibration energy, J, by slot.
+    energy: [f32; PIECES],
+    /// How far pitch is above its own, cents, by slot.
+    cents: [f32; PIECES],
+}
+
+/// The page of one window.
+pub struct Physics {
+    moments: VecDeque<Moment>,
+    closeup: Closeup,
+    spectrum: Spectrum,
+    /// The mode that is shown alone, and of which piece.
+    mode: Option<(usize, usize)>,
+}
+
+/// What the page is drawn from.
+pub struct Seen<'a> {
+    pub snapshot: &'a KitSnapshot,
+    pub shapes: Option<Arc<FieldShapes>>,
+    pub selected: usize,
+    pub sound: &'a Sound,
+}
+
+impl Physics {
+    pub fn new() -> Physics {
+        Physics {
+            moments: VecDeque::new(),
+            closeup: Closeup::default(),
+            spectrum: Spectrum::new(),
+            mode: None,
+        }
+    }
+
+    /// Takes note of a snapshot; `shapes` gives a slot's mode shapes once it is built.
+    pub fn follow(
+        &mut self,
+        now: f64,
+        snapshot: &KitSnapshot,
+        shapes: &dyn Fn(usize) -> Option<Arc<FieldShapes>>,
+    ) {
+        let energy = std::array::from_fn(|slot| snapshot.pieces[slot].energy);
+        let cents = std::array::from_fn(|slot| {
+            let tension = shapes(slot).map_or(0.0, |shapes| shapes.tension);
+            glide::cents(PieceId::KIT[slot], snapshot.pieces[slot].stretch, tension)
+        });
+        self.moments.push_back(Moment { time: now, energy, cents });
+        while self.moments.front().is_some_and(|moment| now - moment.time > MEMORY) {
+            self.moments.pop_front();
+        }
+    }
+
+    /// How far a piece's pitch is above its own just now, cents: the mean of late, as it sways with every period.
+    pub fn cents(&self, slot: usize) -> f32 {
+        const LATE: usize = 6;
+        let late = self.moments.iter().rev().take(LATE).map(|moment| moment.cents[slot]);
+        late.sum::<f32>() / LATE.min(self.moments.len()).max(1) as f32
+    }
+
+    /// Whether the page moves by itself.
+    pub fn moves_on(&self) -> bool {
+        self.mode.is_some()
+    }
+
+    /// Draws the page.
+    pub fn show(&mut self, ui: &mut Ui, rect: Rect, seen: &Seen<'_>) {
+        let slot = seen.selected;
+        if self.mode.is_some_and(|(of, _)| of != slot) {
+            self.mode = None;
+        }
+        let piece = &seen.snapshot.pieces[slot];
+        let accent = theme::of(ui).pieces[slot];
+        let now = ui.input(|input| input.time);
+        let (left, right) = halves(rect, 0.56, true);
+        let (upper, lower) = halves(left, 0.36, false);
+        let (middle, bottom) = halves(lower, 0.5, false);
+        force::show(ui, upper, slot, &piece.strike, accent);
+        let (energies, glides) = halves(middle, 0.58, true);
+        energy::show(ui, energies, seen.snapshot);
+        glide::show(ui, glides, &self.moments, (slot, now), accent);
+        self.spectrum.show(ui, bottom, seen.sound);
+        let (near, list) = halves(right, 0.48, false);
+        let mode = self.mode.map(|(_, mode)| mode);
+        self.closeup.show(ui, near, seen, mode);
+        if let Some(mode) = modes::show(ui, list, piece, seen.shapes.as_deref(), mode, accent) {
+            let chosen = Some((slot, mode));
+            self.mode = if self.mode == chosen { None } else { chosen };
+        }
+    }
+}
+
+/// Two parts of a rectangle with a gap between, beside each other or one over the other.
+fn halves(rect: Rect, share: f32, beside: bool) -> (Rect, Rect) {
+    let gap = 0.5 * GAP;
+    if beside {
+        let x = rect.min.x + share * rect.width();
+        (
+            Rect::from_min_max(rect.min, pos2(x - gap, rect.max.y)),
+            Rect::from_min_max(pos2(x + gap, rect.min.y), rect.max),
+        )
+    } else {
+        let y = rect.min.y + share * rect.height();
+        (
+            Rect::from_min_max(rect.min, pos2(rect.max.x, y - gap)),
+            Rect::from_min_max(pos2(rect.min.x, y + gap), rect.max),
+        )
+    }
+}

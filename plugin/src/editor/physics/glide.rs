@@ -1,0 +1,91 @@
+//! How far a stretched head's pitch is above its own.
+//!
+//! The engine tells the energy `E` that the stretch holds. From its model (see
+//! [`stretch`](overhear_engine::drum::stretch)) with `C = A E_film h / (16 (1 - nu))`, `E = C S^2` and the added tension is
+//! `dT = 4 C S / A`, so `dT = 4 sqrt(C E) / A`. Pitch goes as the root of the tension: `600 log2(1 + dT / T)` cents. A
+//! drum's air and other head hold some of its pitch, so that it glides by less: this is the head's own glide.
+
+use std::collections::VecDeque;
+
+use egui::{Color32, Rect, Ui};
+use overhear_engine::drum::DrumSpec;
+use overhear_engine::membrane::MembraneSpec;
+use overhear_engine::piece::PieceId;
+
+use super::{MEMORY, Moment};
+use crate::editor::plot::Plot;
+
+/// Glide of a head whose stretch holds an energy (J) at a tension at rest (N/m), cents; nothing of what is no drum.
+pub fn cents(piece: PieceId, stretch: f32, tension: f32) -> f32 {
+    let Some(head) = head(piece) else { return 0.0 };
+    if !(stretch > 0.0 && tension > 0.0) {
+        return 0.0;
+    }
+    let area = head.area();
+    let film = &head.material;
+    let stiffness = area * film.youngs_modulus * head.thickness / (16.0 * (1.0 - film.poisson_ratio));
+    let added = 4.0 * (stiffness * f64::from(stretch)).sqrt() / area;
+    (600.0 * (1.0 + added / f64::from(tension)).log2()) as f32
+}
+
+fn head(piece: PieceId) -> Option<MembraneSpec> {
+    let drum = match piece {
+        PieceId::Kick => DrumSpec::kick(),
+        PieceId::Snare => DrumSpec::snare(),
+        PieceId::RackTom => DrumSpec::rack_tom(),
+        PieceId::FloorTom => DrumSpec::floor_tom(),
+        PieceId::Timpani => DrumSpec::timpani(),
+        _ => return None,
+    };
+    Some(drum.batter.membrane)
+}
+
+/// Draws the glide of a piece over time; of a plate its energy, which tells how it decays.
+pub(super) fn show(
+    ui: &Ui,
+    rect: Rect,
+    moments: &VecDeque<Moment>,
+    (slot, now): (usize, f64),
+    accent: Color32,
+) {
+    let drum = head(PieceId::KIT[slot]).is_some();
+    let present = moments.back();
+    let (title, remark) = if drum {
+        let most = moments.iter().map(|moment| moment.cents[slot]).fold(0.0, f32::max);
+        ("Pitch glide", format!("up to +{most:.0} cents"))
+    } else {
+        let energy = present.map_or(0.0, |moment| moment.energy[slot]);
+        ("Decay", crate::editor::plot::energy_text(energy))
+    };
+    let plot = Plot::new(ui, rect, title, &remark);
+    let top = moments.iter().map(|moment| moment.cents[slot]).fold(20.0, f32::max);
+    let points: Vec<_> = moments
+        .iter()
+        .map(|moment| {
+            let x = 1.0 - ((now - moment.time) / MEMORY) as f32;
+            let y = if drum { moment.cents[slot] / (1.1 * top) } else { decades(moment.energy[slot]) };
+            plot.at(x, y)
+        })
+        .collect();
+    plot.curve(&points, accent);
+    plot.ends(&format!("{MEMORY:.0} s ago"), "now");
+}
+
+/// Place of an energy (J) between a sleeping piece's and a hard stroke's, 0 to 1.
+fn decades(energy: f32) -> f32 {
+    ((energy.max(1e-10).log10() + 10.0) / 10.5).clamp(0.0, 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_head_at_rest_is_at_its_pitch_and_a_stretched_one_above() {
+        assert_eq!(cents(PieceId::RackTom, 0.0, 2_000.0), 0.0);
+        assert_eq!(cents(PieceId::Crash, 1.0, 2_000.0), 0.0);
+        assert_eq!(cents(PieceId::RackTom, f32::NAN, 2_000.0), 0.0);
+        let [weak, hard] = [1e-4, 1e-2].map(|stretch| cents(PieceId::RackTom, stretch, 2_000.0));
+        assert!(weak > 0.0 && hard > 5.0 * weak && hard < 1_200.0, "{weak} {hard}");
+    }
+}

@@ -1,0 +1,149 @@
+//! The page of the kit: the picture, how hard hands strike it, and what of it is shown.
+
+use egui::{Align2, Key, Rect, Sense, Ui, pos2, vec2};
+use overhear_engine::piece::PieceId;
+use overhear_engine::strike::{Strike, Striker};
+
+use super::kit_view::surfaces::Tint;
+use super::kit_view::{KitView, Seen, Target, stroke_near};
+use super::theme;
+use crate::parameters::find;
+use crate::strokes::Stroke;
+
+/// Slowest stroke of a hand, m/s: as of a note's lowest velocity.
+const SLOWEST: f32 = 0.4;
+
+/// Width of the strip of speeds, points.
+const STRIP: f32 = 34.0;
+
+/// Keys that play the pieces, in the order of the list.
+const KEYS: [Key; 9] =
+    [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6, Key::Num7, Key::Num8, Key::Num9];
+
+/// How hard hands strike.
+pub struct Stage {
+    /// Place on the strip, 0 (slowest) to 1 (as fast as a note can be).
+    place: f32,
+}
+
+impl Default for Stage {
+    fn default() -> Stage {
+        Stage { place: 0.75 }
+    }
+}
+
+impl Stage {
+    /// Speed of a hand at a place on the strip, m/s, where the fastest is `dynamics`.
+    fn speed(&self, ui: &Ui, dynamics: f32) -> f32 {
+        // Shift strikes as hard as can be, Alt barely.
+        let (hard, soft) = ui.input(|input| (input.modifiers.shift, input.modifiers.alt));
+        let place = if hard {
+            1.0
+        } else if soft {
+            0.2
+        } else {
+            self.place
+        };
+        SLOWEST * (dynamics.max(SLOWEST) / SLOWEST).powf(place)
+    }
+
+    /// Draws the picture; `dynamics` is the fastest stroke, m/s. Says which piece was chosen.
+    pub fn show(
+        &mut self,
+        ui: &mut Ui,
+        rect: Rect,
+        kit: &mut KitView,
+        seen: &Seen<'_>,
+        dynamics: f32,
+        play: &mut dyn FnMut(Stroke),
+    ) -> Option<usize> {
+        let speed = self.speed(ui, dynamics);
+        let done = kit.show(ui, rect, seen);
+        if let Some(target) = done.struck {
+            play(aimed(&target, speed));
+        }
+        if let Some(slot) = pressed_key(ui) {
+            let target = usual(PieceId::KIT[slot]);
+            play(aimed(&Target { slot, ..target }, speed));
+        }
+        let strip =
+            Rect::from_min_max(pos2(rect.max.x - STRIP - 8.0, rect.min.y + 12.0), rect.max - vec2(8.0, 12.0));
+        self.strip(ui, strip, dynamics, speed);
+        tint_switch(ui, rect, kit);
+        done.chosen
+    }
+
+    /// The strip of speeds: press or drag it.
+    fn strip(&mut self, ui: &mut Ui, rect: Rect, dynamics: f32, speed: f32) {
+        let palette = theme::of(ui);
+        let response = ui.interact(rect, ui.scope_id().with("speed"), Sense::click_and_drag());
+        let groove = Rect::from_min_max(
+            pos2(rect.center().x - 4.0, rect.min.y + 20.0),
+            pos2(rect.center().x + 4.0, rect.max.y - 20.0),
+        );
+        if let Some(at) = response.interact_pointer_pos() {
+            self.place = ((groove.max.y - at.y) / groove.height().max(1.0)).clamp(0.0, 1.0);
+        }
+        let share = (speed / SLOWEST).ln() / (dynamics.max(1.01 * SLOWEST) / SLOWEST).ln();
+        let painter = ui.painter();
+        painter.rect_filled(rect, theme::CORNER, palette.panel.gamma_multiply(0.85));
+        painter.rect_filled(groove, 4.0, palette.raised);
+        let top = groove.max.y - share.clamp(0.0, 1.0) * groove.height();
+        painter.rect_filled(Rect::from_min_max(pos2(groove.min.x, top), groove.max), 4.0, palette.accent);
+        painter.circle_filled(pos2(groove.center().x, top), 7.0, palette.text);
+        let text = |at, text: String| {
+            painter.text(at, Align2::CENTER_CENTER, text, theme::caption(), palette.text);
+        };
+        text(pos2(rect.center().x, rect.min.y + 10.0), format!("{speed:.1}"));
+        text(pos2(rect.center().x, rect.max.y - 10.0), "m/s".to_owned());
+        response.on_hover_text(
+            "How fast a click strikes, in metres a second.\nShift: as fast as can be; Alt: softly. Keys 1 to 9 strike the pieces.",
+        );
+    }
+}
+
+/// Lets hands choose what colour shows.
+fn tint_switch(ui: &mut Ui, rect: Rect, kit: &mut KitView) {
+    let place = Rect::from_min_size(rect.min + vec2(10.0, 8.0), vec2(190.0, 24.0));
+    ui.scope_builder(egui::UiBuilder::new().max_rect(place), |ui| {
+        ui.horizontal(|ui| {
+            ui.selectable_value(&mut kit.tint, Tint::Displacement, "Displacement")
+                .on_hover_text("Up is warm, down is cold");
+            ui.selectable_value(&mut kit.tint, Tint::Energy, "Energy")
+                .on_hover_text("The more a place moves the more it has of its piece's colour");
+        });
+    });
+}
+
+/// The piece whose key has just been pressed, unless something is being typed.
+fn pressed_key(ui: &Ui) -> Option<usize> {
+    if ui.memory(|memory| memory.focused().is_some()) {
+        return None;
+    }
+    ui.input(|input| KEYS.iter().position(|&key| input.key_pressed(key)))
+}
+
+/// Where drummers strike a piece.
+fn usual(piece: PieceId) -> Target {
+    let radius = match piece {
+        PieceId::Kick => 0.1,
+        PieceId::Crash | PieceId::Splash | PieceId::HiHat => 0.9,
+        PieceId::Ride => 0.6,
+        PieceId::Timpani => 0.7,
+        _ => 0.3,
+    };
+    Target { slot: 0, on_surface: true, radius, angle: 0.0 }
+}
+
+/// A stroke at a place: with what the nearest note is played with.
+fn aimed(target: &Target, speed: f32) -> Stroke {
+    let near = stroke_near(target.piece(), f64::from(target.radius));
+    let striker = near.map_or(Striker::Stick, |(_, stroke)| stroke.striker);
+    let (radius, angle) = (f64::from(target.radius), f64::from(target.angle));
+    Stroke { piece: target.piece(), strike: Strike { speed: f64::from(speed), radius, angle, striker } }
+}
+
+/// Index of the parameter that says how fast the fastest stroke is.
+pub fn dynamics() -> usize {
+    find("dynamics").map_or(0, |(index, _)| index)
+}

@@ -1,0 +1,137 @@
+//! Strokes played by hand on the editor's picture, on their way to the audio thread.
+//!
+//! A bounded queue without locks: whoever looks at the kit puts strokes in, `process` takes them out at the
+//! start of its next buffer. When nobody renders, the queue fills up and further strokes are lost, as those on a kit nobody
+//! hears.
+
+use std::sync::Arc;
+
+use crossbeam::queue::ArrayQueue;
+use overhear_engine::piece::PieceId;
+use overhear_engine::strike::Strike;
+
+use crate::performer::Performer;
+
+/// Strokes that wait at most: more than a hand plays between two buffers.
+const WAITING: usize = 32;
+
+/// A stroke on a piece.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stroke {
+    /// The piece.
+    pub piece: PieceId,
+    /// How fast, where, with what.
+    pub strike: Strike,
+}
+
+/// The queue; clones are ends of the same.
+#[derive(Clone)]
+pub struct Strokes {
+    queue: Arc<ArrayQueue<Stroke>>,
+}
+
+impl Default for Strokes {
+    fn default() -> Strokes {
+        Strokes { queue: Arc::new(ArrayQueue::new(WAITING)) }
+    }
+}
+
+impl Strokes {
+    /// Sends a stroke, unless too many wait already.
+    pub fn play(&self, stroke: Stroke) {
+        // Lost strokes are no loss: see above.
+        let _ = self.queue.push(stroke);
+    }
+
+    /// Lets the performer play everything that waits, at the next sample.
+    ///
+    /// # Real-time
+    /// No allocation, no lock; at most as many strokes as can wait.
+    pub fn deliver(&self, performer: &mut Performer) {
+        for _ in 0..WAITING {
+            let Some(Stroke { piece, strike }) = self.queue.pop() else { return };
+            performer.strike(piece, &strike);
+        }
+    }
+
+    /// Forgets what waits, as after a time in which nothing was rendered.
+    pub fn clear(&self) {
+        while self.queue.pop().is_some() {}
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use overhear_engine::piece::{BuildOptions, Piece, Quality};
+    use overhear_engine::snapshot::KitSnapshot;
+    use overhear_engine::strike::Striker;
+
+    const RATE: f64 = 48_000.0;
+
+    fn stroke(piece: PieceId, speed: f64, radius: f64, angle: f64) -> Stroke {
+        Stroke { piece, strike: Strike { speed, radius, angle, striker: Striker::Stick } }
+    }
+
+    fn performer(pieces: &[PieceId]) -> Performer {
+        let mut performer = Performer::new(RATE);
+        for &id in pieces {
+            let options = BuildOptions { quality: Quality::Eco, ..BuildOptions::new(RATE) };
+            performer.install(Box::new(Piece::new(id, &options).unwrap()));
+        }
+        performer
+    }
+
+    fn heard(performer: &mut Performer) -> Vec<f32> {
+        let (mut left, mut right) = (vec![0.0; 9600], vec![0.0; 9600]);
+        performer.render(&mut left, &mut right);
+        left
+    }
+
+    #[test]
+    fn a_stroke_of_a_hand_strikes_that_piece_there_and_is_heard() {
+        let mut performer = performer(&[PieceId::RackTom, PieceId::Splash]);
+        let strokes = Strokes::default();
+        let silence = heard(&mut performer);
+        assert!(silence.iter().all(|&sample| sample == 0.0));
+        strokes.play(stroke(PieceId::RackTom, 3.0, 0.4, -1.1));
+        strokes.deliver(&mut performer);
+        let sound = heard(&mut performer);
+        assert!(sound.iter().any(|sample| sample.abs() > 0.01), "nothing is heard");
+        let mut snapshot = KitSnapshot::default();
+        performer.snapshot(&mut snapshot);
+        let [tom, splash] =
+            [PieceId::RackTom, PieceId::Splash].map(|piece| snapshot.pieces[piece.slot().unwrap()].strike);
+        assert_eq!((tom.count, tom.speed, tom.radius, tom.angle), (1, 3.0, 0.4, -1.1));
+        assert_eq!(splash.count, 0);
+    }
+
+    #[test]
+    fn elsewhere_sounds_different() {
+        let sound = |radius: f64| {
+            let mut performer = performer(&[PieceId::RackTom]);
+            let strokes = Strokes::default();
+            strokes.play(stroke(PieceId::RackTom, 3.0, radius, 0.0));
+            strokes.deliver(&mut performer);
+            heard(&mut performer)
+        };
+        let [middle, rim] = [0.0, 0.8].map(sound);
+        let difference: f32 = middle.iter().zip(&rim).map(|(a, b)| (a - b).powi(2)).sum();
+        let energy: f32 = middle.iter().map(|a| a * a).sum();
+        assert!(difference > 0.1 * energy, "{difference} of {energy}");
+    }
+
+    #[test]
+    fn a_full_queue_loses_strokes_and_nothing_else() {
+        let mut performer = performer(&[PieceId::Splash]);
+        let strokes = Strokes::default();
+        for _ in 0..1_000 {
+            strokes.play(stroke(PieceId::Splash, 1.0, 0.5, 0.0));
+        }
+        strokes.deliver(&mut performer);
+        let mut snapshot = KitSnapshot::default();
+        performer.snapshot(&mut snapshot);
+        assert_eq!(snapshot.pieces[PieceId::Splash.slot().unwrap()].strike.count, WAITING as u32);
+        strokes.clear();
+    }
+}

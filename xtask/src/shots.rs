@@ -1,0 +1,219 @@
+//! `shots`: pictures of the built plugin's editor.
+//!
+//! Opens the editor of the built CLAP in the embedded host, in a window of a display that nobody looks at, plays,
+//! and writes what is seen. What is shown is set as a project would: by the view in the plugin's state.
+
+mod window;
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use anyhow::{Context, Result, ensure};
+use serde_json::{Value, json};
+
+use crate::host::{Bundle, Event, Instance, Processor, What};
+use crate::suite::display::Display;
+use crate::workspace::Format;
+use crate::{bundle, output};
+use window::HostWindow;
+
+/// Sample rate, Hz, and samples of a buffer.
+const RATE: f64 = 48_000.0;
+const BLOCK: usize = 1024;
+
+/// Bytes of a state that say how long its text is.
+const LENGTH: usize = 8;
+
+/// Size of a window as designed, points.
+const SIZE: [u32; 2] = [1080, 700];
+
+/// One picture: what is shown, what is played, and how long after it is taken.
+struct Shot {
+    name: &'static str,
+    page: u8,
+    piece: u8,
+    /// Notes and velocities, a beat apart; the picture is taken after the last.
+    notes: &'static [(u8, f32)],
+    /// From the last note to the picture.
+    wait: Duration,
+}
+
+/// From one note to the next: so that meters and energies show all of them.
+const BEAT: Duration = Duration::from_millis(250);
+
+const fn shot(name: &'static str, page: u8, piece: u8, notes: &'static [(u8, f32)], wait: u64) -> Shot {
+    Shot { name, page, piece, notes, wait: Duration::from_millis(wait) }
+}
+
+/// The pictures, in the order they are taken; pieces sound on from one to the next, so the one at rest is the first.
+const SHOTS: &[Shot] = &[
+    shot("kit", 0, 1, &[], 600),
+    shot("rack-tom", 0, 2, &[(48, 1.0)], 230),
+    shot("crash", 0, 4, &[(49, 0.95)], 230),
+    shot(
+        "physics",
+        1,
+        2,
+        &[(36, 0.9), (42, 0.7), (38, 0.8), (51, 0.8), (36, 0.8), (49, 0.8), (41, 0.9), (48, 1.0)],
+        330,
+    ),
+    shot("mix", 2, 2, &[(41, 0.9), (38, 0.9)], 200),
+    shot("microphones", 3, 1, &[], 400),
+    shot("midi", 4, 1, &[], 400),
+    shot("settings", 5, 1, &[], 400),
+];
+
+/// Takes every picture and writes them to `folder`; of the plugin at `plugin`, or of one that is built first.
+///
+/// # Errors
+/// If there is no display to draw on, the plugin does not build, or its editor does not show.
+pub fn run(folder: &Path, plugin: Option<PathBuf>) -> Result<()> {
+    let plugin = match plugin {
+        Some(plugin) => plugin,
+        None => {
+            let mut bundles = bundle::run()?.into_iter();
+            let clap = bundles.find(|(format, _)| *format == Format::Clap);
+            clap.context("the build made no CLAP bundle")?.1
+        }
+    };
+    let display = Display::start()?;
+    // The display is found through the environment, which a process must not change under its own threads.
+    let status = Command::new(std::env::current_exe()?)
+        .args(["shots", "--here", "--out"])
+        .arg(folder)
+        .arg("--plugin")
+        .arg(plugin)
+        .env("DISPLAY", display.name())
+        .env("LIBGL_ALWAYS_SOFTWARE", "1")
+        .status()
+        .context("cannot start over under the display")?;
+    ensure!(status.success(), "no pictures could be taken");
+    Ok(())
+}
+
+/// Takes every picture on the display of the environment.
+///
+/// # Errors
+/// If the plugin does not load or its editor does not show.
+pub fn here(folder: &Path, plugin: &Path) -> Result<()> {
+    std::fs::create_dir_all(folder).with_context(|| format!("cannot make `{}`", folder.display()))?;
+    let bundle = Bundle::load(plugin)?;
+    let mut instance = bundle.instantiate()?;
+    let (notes, played) = channel();
+    let play = move |processor: &mut Processor| play(processor, &played);
+    instance.run_beside(RATE, 1..=BLOCK as u32, play, |instance| {
+        for (light, theme) in [(false, "dark"), (true, "light")] {
+            for zoom in [1, 2] {
+                for shot in SHOTS {
+                    let path = folder.join(format!("{}-{theme}-{zoom}x.png", shot.name));
+                    let png = take(instance, shot, (light, zoom), &notes)?;
+                    output::write(&path, &png)?;
+                    println!("{}", path.display());
+                }
+                thread::sleep(Duration::from_secs(8));
+            }
+        }
+        drop(notes);
+        Ok(())
+    })
+}
+
+/// Opens the editor, plays, and takes the picture.
+fn take(
+    instance: &mut Instance,
+    shot: &Shot,
+    (light, zoom): (bool, u32),
+    notes: &Sender<(u8, f32)>,
+) -> Result<Vec<u8>> {
+    let state = with_view(&instance.save_state()?, shot, light, zoom)?;
+    instance.load_state(&state)?;
+    let window = instance.open_editor(|width, height| {
+        let window = HostWindow::open(width, height)?;
+        Ok((window.id(), window))
+    })?;
+    window.wait(instance)?;
+    for (place, note) in shot.notes.iter().enumerate() {
+        if place > 0 {
+            pass(instance, BEAT);
+        }
+        notes.send(*note).context("nobody plays")?;
+    }
+    // Where the processor draws, more points take longer.
+    pass(instance, shot.wait * zoom);
+    let png = window.png()?;
+    instance.close_editor()?;
+    Ok(png)
+}
+
+/// Lets time pass, as a host does.
+fn pass(instance: &mut Instance, time: Duration) {
+    let until = Instant::now() + time;
+    while Instant::now() < until {
+        instance.answer();
+        thread::sleep(Duration::from_millis(5));
+    }
+}
+
+/// A state that shows what a shot wants.
+fn with_view(state: &[u8], shot: &Shot, light: bool, zoom: u32) -> Result<Vec<u8>> {
+    // The length comes before the text.
+    let text = state.get(LENGTH..).context("the plugin's state is too short")?;
+    let mut state: Value = serde_json::from_slice(text).context("the plugin's state is no JSON")?;
+    let fields = state.get_mut("fields").and_then(Value::as_object_mut).context("the state has no fields")?;
+    let known = fields.get("view").and_then(Value::as_str).context("the state has no view")?;
+    let mut view: Value = serde_json::from_str(known)?;
+    let usual = view.as_array_mut().context("the view is no list")?;
+    ensure!(usual.len() == 5, "the view has other fields than this command knows");
+    (usual[0], usual[1], usual[2], usual[4]) =
+        (json!(shot.page), json!(light), json!(shot.piece), json!(zoom));
+    fields.insert("view".into(), view.to_string().into());
+    fields.insert("window".into(), json!(SIZE).to_string().into());
+    let text = serde_json::to_vec(&state)?;
+    Ok([&(text.len() as u64).to_le_bytes()[..], &text].concat())
+}
+
+/// Plays in real time what is sent, until nobody sends any more.
+fn play(processor: &mut Processor, notes: &Receiver<(u8, f32)>) -> Result<()> {
+    let (mut left, mut right) = ([0.0; BLOCK], [0.0; BLOCK]);
+    let length = Duration::from_secs_f64(BLOCK as f64 / RATE);
+    let mut due = Instant::now();
+    loop {
+        let mut events = Vec::new();
+        loop {
+            use std::sync::mpsc::TryRecvError;
+            match notes.try_recv() {
+                Ok((key, velocity)) => {
+                    events.push(Event { offset: 0, what: What::NoteOn { channel: 9, key, velocity } });
+                }
+                Err(TryRecvError::Empty) => break,
+                Err(TryRecvError::Disconnected) => return Ok(()),
+            }
+        }
+        processor.process(&events, &mut left, &mut right)?;
+        due += length;
+        // What is late is not caught up with: a picture needs no steady sound.
+        let now = Instant::now();
+        due = due.max(now);
+        thread::sleep(due - now);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_view_is_put_into_a_state_that_has_one() {
+        let state = json!({"fields": {"view": "[0,false,1,[0.5,0.5,2.0],1.0]", "window": "[1,2]"}});
+        let bytes = |state: &Value| [&[0; LENGTH][..], &serde_json::to_vec(state).unwrap()].concat();
+        let changed = with_view(&bytes(&state), &SHOTS[1], true, 2).unwrap();
+        assert_eq!(changed[..LENGTH], (changed.len() as u64 - 8).to_le_bytes());
+        let changed: Value = serde_json::from_slice(&changed[LENGTH..]).unwrap();
+        assert_eq!(changed["fields"]["view"], "[0,true,2,[0.5,0.5,2.0],2]");
+        assert_eq!(changed["fields"]["window"], "[1080,700]");
+        assert!(with_view(&bytes(&json!({"fields": {}})), &SHOTS[1], true, 2).is_err());
+    }
+}
