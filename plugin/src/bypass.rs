@@ -1,6 +1,6 @@
 //! Bypass: what a host's own switch does to an instrument.
 //!
-//! There is nothing to pass through, so the instrument falls silent: its outputs fade within [`FADE`], and notes strike
+//! There is nothing to pass through, so the instrument falls silent: its outputs fade within ten milliseconds, and notes strike
 //! nothing. What rings goes on ringing unheard and controllers are followed, so that the kit is where it would be when it
 //! is heard again.
 

@@ -5,7 +5,7 @@
 //! [builder](crate::builder)'s thread; the editor sees [snapshots](crate::monitor) only.
 //!
 //! The framework calls `process` once per slice between parameter changes, so that values moved
-//! here at its start are sample-accurate. Notes do not cut slices and are met in [`events`], each at its
+//! here at its start are sample-accurate. Notes do not cut slices and are met among the events, each at its
 //! sample; one may lie right behind the slice.
 
 use std::marker::PhantomData;
