@@ -55,7 +55,7 @@ use window::Farewell;
 /// From one frame to the next while the kit plays: 60 a second.
 const FRAME_INTERVAL: Duration = Duration::from_micros(16_667);
 
-/// The same where the processor draws: a tenth of it at most.
+/// The same where the processor draws, which costs tens of milliseconds: ten a second.
 const SOFTWARE_INTERVAL: Duration = Duration::from_millis(100);
 
 /// From one frame to the next while nothing sounds; [`watch`] wakes the window when something does.

@@ -55,8 +55,15 @@ impl Strokes {
     }
 
     /// Forgets what waits, as after a time in which nothing was rendered.
+    ///
+    /// # Real-time
+    /// As [`deliver`](Self::deliver): a hand that goes on playing does not hold it up.
     pub fn clear(&self) {
-        while self.queue.pop().is_some() {}
+        for _ in 0..WAITING {
+            if self.queue.pop().is_none() {
+                return;
+            }
+        }
     }
 }
 

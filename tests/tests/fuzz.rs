@@ -4,6 +4,9 @@
 //! long ones are ignored: `cargo test --package overhear-tests --features traps --test fuzz -- --ignored`. What plays is
 //! watched by an allocator that counts.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+
 use assert_no_alloc::{AllocDisabler, assert_no_alloc, violation_count};
 use overhear::parameters::PARAMETERS;
 use overhear::performer::Performer;
@@ -116,12 +119,20 @@ fn twelve_thousand_random_events_at_every_rate_stay_finite_and_fall_asleep() {
 }
 
 #[test]
-#[ignore = "takes an hour; run before a release"]
+#[ignore = "takes half an hour on two cores; run before a release"]
 fn a_million_random_events_stay_finite_and_fall_asleep() {
-    for seed in 0..100 {
-        play(1_000 + seed, RATES[seed as usize % RATES.len()], 10_000, 16);
-        println!("{} of 1,000,000 events", (seed + 1) * 10_000);
-    }
+    let next = AtomicUsize::new(0);
+    let work = || {
+        while let seed @ 0..100 = next.fetch_add(1, Ordering::Relaxed) {
+            play(1_000 + seed as u64, RATES[seed % RATES.len()], 10_000, 16);
+            println!("seed {seed} of 100, 10,000 events each");
+        }
+    };
+    thread::scope(|scope| {
+        for _ in 0..thread::available_parallelism().map_or(1, usize::from) {
+            scope.spawn(work);
+        }
+    });
 }
 
 /// A few bytes of something changed, cut out, doubled or made up.
