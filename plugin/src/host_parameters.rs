@@ -108,6 +108,19 @@ impl HostParameters {
         self.programs.get().filter(|_| heard && follows)?.get(number)
     }
 
+    /// Whether the parameters are where a program sets them.
+    ///
+    /// # Real-time
+    /// Look-ups; no allocation, no lock.
+    pub fn are_at(&self, program: &Program) -> bool {
+        program.values.iter().all(|&(index, plain)| {
+            let (parameter, value) = (PARAMETERS.get(index), self.values.get(index));
+            parameter.zip(value).is_some_and(|(parameter, value)| {
+                parameter.snap(value.unmodulated_plain_value()) == parameter.snap(plain)
+            })
+        })
+    }
+
     /// The parameters, in the order of [`PARAMETERS`].
     pub fn values(&self) -> &[FloatParam] {
         &self.values

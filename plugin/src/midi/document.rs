@@ -58,7 +58,8 @@ fn programs() -> String {
         "| from {} | your own presets by name, as `cargo xtask presets list` shows them |\n\n\
          Numbers count from 0. A program change moves every parameter that the preset sets at its sample, unless \
          `program_changes` is off or the channel is not heard; the host is told. Your own presets are numbered when \
-         an instance is first activated. CLAP hosts only: VST3 has no program changes among its events.",
+         an instance is first activated. CLAP hosts only: VST3 has no program changes among its events, and the program \
+         without a host ignores them.",
         FACTORY.len()
     );
     text

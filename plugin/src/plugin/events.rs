@@ -174,7 +174,10 @@ impl Message {
             What::Pressure(pressure) => performer.pressure(number, pressure, channel),
             What::Controller(value) => performer.control_change(number, value, channel),
             What::Program => {
-                if let Some(program) = parameters.program(number, channel) {
+                // Where nobody has moved the parameters for it, as in the framework's own program, they would be back
+                // with the next slice.
+                let program = parameters.program(number, channel);
+                if let Some(program) = program.filter(|program| parameters.are_at(program)) {
                     performer.program_change(program, channel);
                 }
             }

@@ -85,6 +85,26 @@ fn a_note_takes_the_place_and_the_pitch_that_come_with_it() {
 }
 
 #[test]
+fn a_program_change_that_moved_no_parameter_changes_nothing() {
+    let parameters = HostParameters::default();
+    parameters.read_programs();
+    let sound = |program: Option<u8>| {
+        let mut performer = Performer::new(RATE);
+        performer.install_kit(RATE).unwrap();
+        let change = program.map(|program| NoteEvent::MidiProgramChange { timing: 0, channel: 9, program });
+        let mut events = change.into_iter().chain([note(0)]);
+        let (mut left, mut right) = (vec![0.0; 2_000], vec![0.0; 2_000]);
+        let mut main = [left.as_mut_slice(), right.as_mut_slice()];
+        let mut buffers = Buffers::new(&mut main, &mut []).unwrap();
+        play(&mut performer, &mut buffers, &parameters, || events.next());
+        left
+    };
+    let jazz = parameters.program(2, 9).expect("a preset of this number");
+    assert!(!parameters.are_at(jazz) && parameters.are_at(parameters.program(0, 9).unwrap()));
+    assert!(sound(Some(2)) == sound(None));
+}
+
+#[test]
 fn more_notes_at_a_sample_than_can_wait_are_all_struck() {
     let mut performer = Performer::new(RATE);
     let (mut left, mut right) = ([0.0; 64], [0.0; 64]);
