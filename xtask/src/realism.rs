@@ -27,7 +27,7 @@ use crate::progress::Progress;
 use crate::settings::{self, PieceSetting};
 use crate::wav::{Bits, WavFile};
 
-pub use report::{PieceReport, Report, Stroke};
+pub use report::{PieceReport, Report, Row, Stroke};
 pub use subject::{SUBJECTS, Subject, subjects};
 
 /// Speeds of the strokes unless told otherwise, m/s: soft, medium, hard.
