@@ -1,3 +1,7 @@
-//! What the integration tests build and measure with: the laboratory that `cargo xtask report` uses, too.
+//! What the integration tests build and measure with: the laboratory that `cargo xtask report` uses too, and a trap for
+//! system calls.
+
+#[cfg(all(target_os = "linux", any(target_arch = "x86_64", target_arch = "aarch64")))]
+pub mod system_calls;
 
 pub use overhear_lab::*;

@@ -140,7 +140,7 @@ fn pieces(sheet: &mut Sheet, report: &Value) -> Result<()> {
         let tops =
             tiers.iter().enumerate().map(|(tier, name)| (at as f64 + 0.2 * tier as f64, cost(piece, name)));
         let bars = tops.filter(|(_, cost)| cost.is_finite()).flat_map(|(x, cost)| {
-            let (_, bar) = comb("", &[x], 0.06, [0.01, cost]);
+            let (_, bar) = comb("", &[x], [0.01, cost]);
             bar
         });
         ((*piece).to_owned(), bars.collect())

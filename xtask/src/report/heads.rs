@@ -131,8 +131,8 @@ fn spectrum() -> Result<Plot<'static>> {
     let below =
         |modes: &[f64]| modes.iter().copied().filter(|hz| (50.0..500.0).contains(hz)).collect::<Vec<_>>();
     let lines: Vec<Line> = vec![
-        comb("vacuum", &below(&in_vacuum), 0.3, [-80.0, -68.0]),
-        comb("air and kettle", &below(&loaded), 0.3, [-66.0, -54.0]),
+        comb("vacuum", &below(&in_vacuum), [-80.0, -68.0]),
+        comb("air and kettle", &below(&loaded), [-66.0, -54.0]),
         ("heard".to_owned(), levels.iter().map(|&(hz, db)| (hz, (db - top).max(-80.0))).collect()),
     ];
     Ok(Plot {

@@ -214,17 +214,23 @@ fn delays(sheet: &mut Sheet) -> Result<()> {
             drums.iter().filter(near).flat_map(|&to| [from, to].map(|at| plan(layout.pieces[at].centre)));
         (PieceId::KIT[from].name().to_owned(), points.collect())
     };
-    let overheads = ("overheads".to_owned(), layout.overheads.map(plan).to_vec());
+    let panel = |title: &str, drum: bool| {
+        let pieces = (0..PieceId::KIT.len()).filter(|&at| PieceId::KIT[at].is_drum() == drum);
+        (title.to_owned(), pieces.map(way).collect())
+    };
     sheet.plot(
         "map",
-        "The kit from above, the drummer below: ways from each piece to the drums that hear it",
+        "The kit from above, the drummer below: ways of sound from each piece to the drums that hear it",
         &Plot {
-            across: Axis::linear("m to the drummer's right", -1.2..1.6),
+            across: Axis::linear("m to the drummer's right", -1.0..1.7),
             up: Axis::linear("m toward the audience", -1.0..0.3),
-            panels: vec![(String::new(), (0..PieceId::KIT.len()).map(way).chain([overheads]).collect())],
+            panels: vec![panel("from drums", true), panel("from cymbals", false)],
         },
     )
 }
+
+/// Between one way and the next.
+const PEN_UP: (f64, f64) = (f64::NAN, f64::NAN);
 
 fn sympathy(sheet: &mut Sheet, kit: &mut Kit) {
     sheet.heading("Sympathy");

@@ -26,7 +26,7 @@ const LINES: [RGBColor; 9] = [
     RGBColor(220, 110, 180),
 ];
 
-/// A line: its name and its points.
+/// A line: its name and its points; one that is not a number lifts the pen.
 pub type Line = (String, Vec<(f64, f64)>);
 
 /// How values become places.
@@ -126,6 +126,7 @@ impl Plot<'_> {
     {
         chart
             .configure_mesh()
+            .x_labels(if self.panels.len() > 1 { 6 } else { 11 })
             .x_desc(self.across.name)
             .y_desc(self.up.name)
             .x_label_formatter(&|x| short(*x))
@@ -136,7 +137,9 @@ impl Plot<'_> {
             .label_style(("sans-serif", 16).into_font().color(&INK))
             .draw()?;
         for ((name, points), &color) in lines.iter().zip(LINES.iter().cycle()) {
-            let drawn = chart.draw_series(LineSeries::new(points.iter().copied(), color.stroke_width(2)))?;
+            let strokes = points.split(|point| point.0.is_nan()).filter(|stroke| !stroke.is_empty());
+            let strokes = strokes.map(|stroke| PathElement::new(stroke.to_vec(), color.stroke_width(2)));
+            let drawn = chart.draw_series(strokes)?;
             if !name.is_empty() {
                 drawn
                     .label(name)
@@ -160,8 +163,8 @@ fn short(value: f64) -> String {
     if plain { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
-/// Bars at some places, half of each as wide as said, as one line.
-pub fn comb(name: &str, places: &[f64], half: f64, [foot, top]: [f64; 2]) -> Line {
-    let bar = |&x: &f64| [(x - half, foot), (x - half, top), (x + half, top), (x + half, foot)];
-    (name.to_owned(), places.iter().flat_map(bar).collect())
+/// Upright lines at some places.
+pub fn comb(name: &str, places: &[f64], [foot, top]: [f64; 2]) -> Line {
+    let upright = |&x: &f64| [(x, foot), (x, top), (f64::NAN, f64::NAN)];
+    (name.to_owned(), places.iter().flat_map(upright).collect())
 }

@@ -41,7 +41,7 @@ pub fn page() -> Result<Page> {
         "Area of the point source that would radiate as much as each mode of the struck head does",
         &Plot {
             across: Axis::log("Hz", 50.0..3000.0),
-            up: Axis::log("m²", 1e-6..1.0),
+            up: Axis::log("m²", 1e-4..1.0),
             panels: [PieceId::RackTom, PieceId::Timpani].map(|id| (id.name().to_owned(), areas(id))).into(),
         },
     )?;
@@ -145,7 +145,7 @@ fn areas(id: PieceId) -> Vec<Line> {
     let modes = round_piece(id, RATE).modes();
     let of = |m: u32| {
         let of_order = modes.iter().filter(move |mode| mode.body == "batter" && mode.m == m);
-        let points = of_order.map(|mode| (mode.frequency_hz, mode.radiation.max(1e-6)));
+        let points = of_order.map(|mode| (mode.frequency_hz, mode.radiation.max(1e-4)));
         let mut points: Vec<(f64, f64)> = points.filter(|point| (50.0..3000.0).contains(&point.0)).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         (format!("m = {m}"), points)

@@ -52,7 +52,7 @@ pub fn page() -> Result<Page> {
         "Decay time of each octave, here and in recordings (median)",
         &Plot {
             across: Axis::log("Hz", 100.0..10_000.0),
-            up: Axis::log("T60, s", 0.05..10.0),
+            up: Axis::log("T60, s", 0.05..30.0),
             panels: ["kick", "rack-tom", "floor-tom", "crash"]
                 .map(|name| (name.to_owned(), decays(&report, name)))
                 .into(),
