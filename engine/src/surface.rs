@@ -459,6 +459,10 @@ impl Surface {
         if !finite {
             self.reset();
         }
+        if !strikers && self.beyond.as_ref().is_some_and(NonlinearForce::is_inside_out) {
+            // Turned back, as a drummer would; what it still trembles by is cut off.
+            self.rest();
+        }
         let moving = self.wires.as_ref().is_some_and(|wires| wires.on && !wires.parked);
         if moving && !strikers && self.energy() < wires::STILL {
             self.park_wires();

@@ -1,4 +1,5 @@
 use std::f64::consts::TAU;
+use std::sync::{Arc, Mutex};
 
 use super::*;
 use crate::contact::Material;
@@ -44,6 +45,19 @@ fn surface(stiffness: f64, stride: u32) -> Surface {
     let weights = (0..MODES).map(|k| stiffness.sqrt() * (1.0 + k as f64)).collect();
     surface.set_potential(Box::new(Quartic(weights)), MODES, stride);
     surface
+}
+
+/// A surface of one mode, the same everywhere.
+fn one_mode(mode: Mode) -> Surface {
+    let index = ShapeIndex { radial: 0, rows: 1, m: 0, member: Member::Cosine, axis: 0.0 };
+    Surface::new(SurfaceParts {
+        modes: vec![mode],
+        shapes: ShapeTable::new(&vec![1.0; ShapeTable::radii().len()], vec![index]),
+        transfer: vec![[1.0, 0.0]],
+        material: Material::FILM,
+        lossless: false,
+        sample_rate: 44_100.0,
+    })
 }
 
 fn hit(speed: f64) -> Strike {
@@ -172,4 +186,45 @@ fn a_stretching_surface_has_no_offset() {
         let peak = sound.iter().fold(0.0_f32, |peak, x| peak.max(x.abs()));
         assert!(mean.abs() < 5e-5 * f64::from(peak), "dome {dome}, stride {stride}: {mean} of {peak}");
     }
+}
+
+/// Where [`TwoPlaces`] rests inside out, m.
+const INSIDE_OUT_AT: f64 = 0.15;
+
+/// A dome of one mode that rests at `a`, turned inside out, as well as at 0: `U + k q^2 / 2 = k q^2 (1 - q / a)^2 / 2`.
+struct TwoPlaces {
+    stiffness: f64,
+    /// Where it is.
+    place: Arc<Mutex<f64>>,
+}
+
+impl Potential for TwoPlaces {
+    fn evaluate(&mut self, displacement: &[f32], gradient: &mut [f32]) -> Evaluation {
+        let (k, a, q) = (self.stiffness, INSIDE_OUT_AT, f64::from(displacement[0]));
+        gradient.fill(0.0);
+        gradient[0] = (k * q * q * (2.0 * q / a - 3.0) / a) as f32;
+        *self.place.lock().unwrap() = q;
+        let below = |q: f64| k * q * q * q * (1.0 - 0.5 * q / a) / a;
+        Evaluation { energy: -below(q), depth: below(q.abs().min(1.5 * a)) }
+    }
+}
+
+#[test]
+fn what_was_beaten_inside_out_comes_back_to_rest() {
+    let (mass, omega) = (0.05, TAU * 30.0);
+    let mut turned = 0;
+    for speed in [1.0, 8.0, 12.0, 16.0, 20.0, 24.0] {
+        let mut surface = one_mode(Mode { omega, sigma: 15.0, mass });
+        let place = Arc::default();
+        let dome = TwoPlaces { stiffness: mass * omega * omega, place: Arc::clone(&place) };
+        surface.set_potential(Box::new(dome), 1, 1);
+        surface.strike(&hit(speed));
+        let most = (0..20).map(|_| {
+            run(&mut surface, 4_410);
+            *place.lock().unwrap()
+        });
+        turned += u32::from(most.fold(0.0, f64::max) > 0.99 * INSIDE_OUT_AT);
+        assert!(surface.energy() < 1e-20, "{speed} m/s: {} J", surface.energy());
+    }
+    assert!((1..6).contains(&turned), "{turned} turned inside out");
 }
