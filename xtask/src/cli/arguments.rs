@@ -376,13 +376,13 @@ pub struct RealismArguments {
     #[arg(long, value_name = "M/S,M/S,...", value_delimiter = ',', value_parser = speed,
           default_values_t = realism::SPEEDS)]
     speeds: Vec<f64>,
-    /// Tune or muffle a piece, as in snare_tune=180 or kick_muffle=.4; repeatable
+    /// Move a parameter from its default, as in snare_tune=180 or quality=offline; repeatable
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
     /// Print one JSON object (see docs/commands.md)
     #[arg(long)]
     pub json: bool,
-    /// Keep the sounds in this folder, as 32-bit float, 20 Pa being full scale
+    /// Keep the sounds in this folder, as 32-bit float
     #[arg(long, value_name = "DIR")]
     wav: Option<PathBuf>,
 }
@@ -397,7 +397,7 @@ impl RealismArguments {
         speeds.sort_by(f64::total_cmp);
         speeds.dedup();
         let subjects = realism::subjects(&self.pieces)?;
-        let settings = realism::settings(&subjects, &self.set)?;
+        let settings = settings::parse(&self.set)?;
         Ok(realism::Request { subjects, speeds, settings, wav: self.wav })
     }
 }

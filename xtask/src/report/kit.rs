@@ -209,10 +209,9 @@ fn delays(sheet: &mut Sheet) -> Result<()> {
     sheet.table(&head, (0..PieceId::KIT.len()).map(row));
     let plan = |[x, _, z]: [f64; 3]| (x, z);
     let way = |from: usize| -> Line {
-        let near = |to: &&usize| **to != from;
-        let points =
-            drums.iter().filter(near).flat_map(|&to| [from, to].map(|at| plan(layout.pieces[at].centre)));
-        (PieceId::KIT[from].name().to_owned(), points.collect())
+        let place = |at: usize| plan(layout.pieces[at].centre);
+        let ways = drums.iter().filter(|&&to| to != from).flat_map(|&to| [place(from), place(to), PEN_UP]);
+        (PieceId::KIT[from].name().to_owned(), ways.collect())
     };
     let panel = |title: &str, drum: bool| {
         let pieces = (0..PieceId::KIT.len()).filter(|&at| PieceId::KIT[at].is_drum() == drum);

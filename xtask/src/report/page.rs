@@ -11,8 +11,6 @@ use super::plot::Plot;
 pub struct Page {
     /// Its name: the file is `name.md`.
     pub name: &'static str,
-    /// Its heading.
-    pub title: &'static str,
     /// The page itself.
     pub markdown: String,
     /// What it claims.
@@ -146,16 +144,21 @@ impl Sheet {
         }
         for Claim { what, figure, reference, source, met } in &claims {
             let met = match met {
-                Some(true) => "yes",
-                Some(false) => "**no**",
-                None => "told",
+                Some(true) => MET,
+                Some(false) => MISSED,
+                None => "| told |",
             };
-            let _ = writeln!(markdown, "| {what} | {figure} | {reference} | {source} | {met} |");
+            let _ = writeln!(markdown, "| {what} | {figure} | {reference} | {source} {met}");
         }
         markdown.push_str(&body);
-        Page { name, title, markdown, claims, pictures }
+        Page { name, markdown, claims, pictures }
     }
 }
+
+/// How the row of a claim ends that is met, and of one that is not.
+pub const MET: &str = "| yes |";
+/// See [`MET`].
+pub const MISSED: &str = "| **no** |";
 
 /// How many claims are met, and of how many that can be.
 pub fn tally(claims: &[Claim]) -> [usize; 2] {
