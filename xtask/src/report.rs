@@ -22,7 +22,10 @@ mod realism;
 pub mod snare;
 
 use std::fmt::Write;
+use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
 use std::time::Instant;
 
 use anyhow::Result;
@@ -69,8 +72,25 @@ pub fn run(names: &[String], folder: &Path) -> Result<()> {
         return Err(bad_input!("no page is called `{unknown}`, accepted: {}", known.join(", ")));
     }
     std::fs::create_dir_all(folder)?;
-    for (name, measure) in PAGES {
-        if names.is_empty() || names.iter().any(|asked| asked == name) {
+    let asked =
+        PAGES.into_iter().filter(|(name, _)| names.is_empty() || names.iter().any(|asked| asked == name));
+    // Costs are measured with nothing beside them.
+    let (alone, others): (Vec<_>, Vec<_>) = asked.partition(|(name, _)| *name == "cost");
+    write_all(&others, folder)?;
+    write_all(&alone, folder)?;
+    let there = |(name, _): (&'static str, Measure)| {
+        let text = std::fs::read_to_string(folder.join(format!("{name}.md"))).ok()?;
+        Some((name, text))
+    };
+    let written: Vec<_> = PAGES.into_iter().filter_map(there).collect();
+    output::write(&folder.join("README.md"), index(&written).as_bytes())
+}
+
+/// Measures and writes pages, as many at once as there are cores.
+fn write_all(pages: &[(&str, Measure)], folder: &Path) -> Result<()> {
+    let next = AtomicUsize::new(0);
+    let work = || -> Result<()> {
+        while let Some((name, measure)) = pages.get(next.fetch_add(1, Ordering::Relaxed)) {
             let begun = Instant::now();
             let page = measure()?;
             for (file, bytes) in &page.pictures {
@@ -80,13 +100,15 @@ pub fn run(names: &[String], folder: &Path) -> Result<()> {
             let [met, of] = page::tally(&page.claims);
             eprintln!("{name}: {met} of {of} met, {:.0} s", begun.elapsed().as_secs_f64());
         }
-    }
-    let there = |(name, _): (&'static str, Measure)| {
-        let text = std::fs::read_to_string(folder.join(format!("{name}.md"))).ok()?;
-        Some((name, text))
+        Ok(())
     };
-    let pages: Vec<_> = PAGES.into_iter().filter_map(there).collect();
-    output::write(&folder.join("README.md"), index(&pages).as_bytes())
+    let cores = thread::available_parallelism().map_or(1, usize::from).min(pages.len());
+    thread::scope(|scope| {
+        let threads: Vec<_> = (0..cores).map(|_| scope.spawn(work)).collect();
+        let joined =
+            threads.into_iter().map(|thread| thread.join().unwrap_or_else(|panic| resume_unwind(panic)));
+        joined.collect()
+    })
 }
 
 /// The page that lists all pages, given by name and text, and every claim that is not met.
