@@ -84,6 +84,12 @@ pub enum Task {
         /// A built CLAP plugin; without it the plugin is built and bundled first
         #[arg(long, value_name = "FILE")]
         plugin: Option<PathBuf>,
+        /// Count what an open window costs instead
+        #[arg(long)]
+        cost: bool,
+        /// Only in the dark palette at 1x
+        #[arg(long, conflicts_with = "cost")]
+        glance: bool,
         /// Use the display there is
         #[arg(long, hide = true, requires = "plugin")]
         here: bool,
