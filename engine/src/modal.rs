@@ -25,10 +25,14 @@ pub mod folded;
 pub mod front;
 pub mod simd;
 
+use std::f64::consts::TAU;
+
 use aligned_vec::{AVec, ConstAlign};
 
 use simd::driven::Drive;
 use simd::{Kernels, LANES};
+
+use crate::snapshot::{OCTAVES, octave_of};
 
 pub use simd::{EARS, MAX_DRIVES};
 
@@ -410,6 +414,18 @@ impl ModalBody {
     /// Vibration energy, J.
     pub fn energy(&self) -> f64 {
         (0..self.modes.len()).map(|k| self.mode_energy(k)).sum()
+    }
+
+    /// Vibration energy of the modes of each octave, J.
+    ///
+    /// # Real-time
+    /// Linear in the number of modes.
+    pub fn energy_by_octave(&self) -> [f32; OCTAVES] {
+        let mut octaves = [0.0; OCTAVES];
+        for k in 0..self.modes.len() {
+            octaves[octave_of(self.modes[k].omega / TAU)] += self.mode_energy(k) as f32;
+        }
+        octaves
     }
 
     /// Energy of its motion alone, J: nothing of a body that something holds bent.

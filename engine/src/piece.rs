@@ -356,6 +356,7 @@ impl Piece {
         let body = self.voice.surface().body();
         into.ready = true;
         into.energy = self.energy() as f32;
+        into.octaves = body.energy_by_octave();
         into.stretch = self.voice.surface().beyond().map_or(0.0, |force| force.energy() as f32);
         into.strike = self.last_strike();
         into.wires = self.wires();

@@ -8,6 +8,22 @@ pub const FIELD_MODES: usize = 32;
 /// Points of the displacement field: the centre and 6 rings of 24 spokes.
 pub const FIELD_POINTS: usize = 1 + 6 * 24;
 
+/// Octaves by which the energy of a piece is told.
+pub const OCTAVES: usize = 10;
+
+/// Where the first octave begins, Hz. What is below counts in it, what is beyond the last in that.
+pub const FIRST_OCTAVE: f64 = 32.0;
+
+/// The octave that a frequency (Hz) is in.
+///
+/// # Real-time
+/// The exponent of a number: no logarithm.
+pub fn octave_of(hertz: f64) -> usize {
+    const BIAS: usize = 1_023;
+    let exponent = ((hertz / FIRST_OCTAVE).max(1.0).to_bits() >> 52) as usize;
+    exponent.saturating_sub(BIAS).min(OCTAVES - 1)
+}
+
 /// Steps of a stroke's force over time.
 pub const FORCE_STEPS: usize = 96;
 
@@ -85,7 +101,7 @@ pub struct StrikeSnapshot {
 pub struct WireSnapshot {
     /// Landings of all groups.
     pub landings: u32,
-    /// Groups off the head now.
+    /// Groups off the head now, a bit each in the order of [`PLACES`](crate::surface::wires::PLACES).
     pub aloft: u32,
     /// When a group last lifted off, s after the stroke; 0 if none has.
     pub last_lift: f32,
@@ -124,6 +140,8 @@ pub struct PieceSnapshot {
     pub peak: f32,
     /// Vibration energy, J.
     pub energy: f32,
+    /// What of it is in the modes of each octave, J.
+    pub octaves: [f32; OCTAVES],
     /// What of it is held beyond the modes: by the stretch of a head or a plate, J.
     pub stretch: f32,
     /// Displacement of the lowest modes, m; see [`FieldShapes`] for their shapes.
@@ -148,6 +166,7 @@ impl Default for PieceSnapshot {
             ready: false,
             peak: 0.0,
             energy: 0.0,
+            octaves: [0.0; OCTAVES],
             stretch: 0.0,
             displacement: [0.0; FIELD_MODES],
             modes: [ModeSnapshot::default(); FIELD_MODES],
@@ -213,6 +232,18 @@ impl FieldShapes {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn octaves_double_from_their_first_and_end_at_their_last() {
+        for octave in 0..OCTAVES {
+            let low = FIRST_OCTAVE * f64::from(1 << octave);
+            assert_eq!([octave_of(low), octave_of(1.5 * low), octave_of(1.999 * low)], [octave; 3]);
+        }
+        assert_eq!(
+            [0.0, 1.0, f64::NAN, 1e9, f64::INFINITY].map(octave_of),
+            [0, 0, 0, OCTAVES - 1, OCTAVES - 1]
+        );
+    }
 
     #[test]
     fn a_trace_keeps_its_peak_and_its_length_however_long_it_grows() {

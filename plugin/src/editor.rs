@@ -10,8 +10,8 @@ use std::error::Error;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
+use cpu_time::ThreadTime;
 use glow::HasContext;
-
 use nice_plug::context::gui::GuiContext;
 use nice_plug::editor::dpi::{LogicalSize, NativeSize, PhysicalSize};
 use nice_plug::editor::{HostMethods, SpawnedEditor};
@@ -37,6 +37,8 @@ mod knobs;
 mod levels;
 mod list;
 mod mix;
+mod pace;
+mod pairs;
 mod panels;
 mod physics;
 mod playing;
@@ -48,18 +50,10 @@ mod theme;
 mod watch;
 mod window;
 
+use pace::Pace;
 use panels::{Hands, Inputs, Panels};
 use watch::Watch;
 use window::Farewell;
-
-/// From one frame to the next while the kit plays: 60 a second.
-const FRAME_INTERVAL: Duration = Duration::from_micros(16_667);
-
-/// The same where the processor draws, which costs tens of milliseconds: ten a second.
-const SOFTWARE_INTERVAL: Duration = Duration::from_millis(100);
-
-/// From one frame to the next while nothing sounds; [`watch`] wakes the window when something does.
-const RESTING_INTERVAL: Duration = Duration::from_millis(1_500);
 
 /// The framework's own way of asking for frames would do so before the window is shown.
 const NEVER: Duration = Duration::from_secs(24 * 60 * 60);
@@ -163,8 +157,9 @@ struct App {
     panels: Panels,
     /// From the first frame on.
     watch: Option<Watch>,
-    /// From one frame to the next while something moves.
-    interval: Duration,
+    pace: Pace,
+    /// What the thread that draws had taken when the latest frame began.
+    taken: Option<Duration>,
 }
 
 impl App {
@@ -176,7 +171,8 @@ impl App {
             gui: None,
             panels: Panels::new(Library::default(), view),
             watch: None,
-            interval: FRAME_INTERVAL,
+            pace: Pace::default(),
+            taken: None,
         }
     }
 }
@@ -194,7 +190,7 @@ impl NiceEguiApp for App {
         theme::choose(&context, light);
         self.gui = Some(gui);
         if draws_in_software(frame) {
-            self.interval = SOFTWARE_INTERVAL;
+            self.pace = Pace::in_software();
         }
         // Peaks and strokes from while no window was open are old news.
         self.panels.forget(&self.sources.viewer.latest());
@@ -204,10 +200,10 @@ impl NiceEguiApp for App {
     fn ui(&mut self, ui: &mut egui::Ui, frame: &mut Frame) {
         let Some(gui) = &self.gui else { return };
         frame.set_clear_color(as_written(theme::of(ui).background));
-        self.watch.get_or_insert_with(|| {
-            let (sound, parameters) = (self.sources.viewer.sound().clone(), self.sources.parameters.clone());
-            Watch::new(ui.ctx().clone(), sound, parameters)
+        let watch = self.watch.get_or_insert_with(|| {
+            Watch::new(ui.ctx().clone(), self.sources.viewer.clone(), self.sources.parameters.clone())
         });
+        let seen = watch.look();
         let mut snapshot = self.sources.viewer.latest();
         snapshot.late_buffers = self.sources.parameters.deadlines().late();
         let shapes = |slot| self.sources.shapes.of(slot);
@@ -223,7 +219,16 @@ impl NiceEguiApp for App {
         let now = ui.input(|input| input.time);
         let sounds = snapshot.pieces.iter().any(|piece| piece.peak > AUDIBLE);
         let moves = sounds || self.panels.moves_on(&snapshot, now);
-        ui.ctx().request_repaint_after(if moves { self.interval } else { RESTING_INTERVAL });
+        watch.drawn(seen, moves);
+        // From frame to frame: what is painted after this function is in it.
+        let taken = ThreadTime::now().as_duration();
+        if let Some(before) = self.taken.replace(taken) {
+            self.pace.drew(taken.saturating_sub(before));
+        }
+        if let Some(wait) = self.pace.next(now, moves) {
+            // Not through egui, which passes on no request while it has a sooner one of its own.
+            frame.baseview_window().request_redraw_after(wait);
+        }
     }
 
     fn resized(&mut self, size: WindowSize) {

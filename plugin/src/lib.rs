@@ -26,6 +26,7 @@ pub mod monitor;
 pub mod outputs;
 pub mod parameters;
 pub mod performer;
+pub mod placing;
 #[cfg(feature = "framework")]
 pub mod plugin;
 pub mod presets;

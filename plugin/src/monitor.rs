@@ -3,6 +3,7 @@
 //! The audio thread copies a snapshot about 85 times a second and never waits; the editor takes
 //! the latest and never holds it up.
 
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use overhear_engine::snapshot::KitSnapshot;
@@ -22,6 +23,7 @@ pub struct Publisher {
     snapshots: Input<KitSnapshot>,
     latest: KitSnapshot,
     sound: Sound,
+    news: Arc<AtomicU64>,
     /// Samples from one snapshot to the next.
     interval: usize,
     /// Samples since the latest.
@@ -33,6 +35,7 @@ pub struct Publisher {
 pub struct Viewer {
     snapshots: Arc<Mutex<Output<KitSnapshot>>>,
     sound: Sound,
+    news: Arc<AtomicU64>,
 }
 
 /// Both ends.
@@ -40,8 +43,9 @@ pub fn monitor() -> (Publisher, Viewer) {
     let (input, output) = TripleBuffer::default().split();
     let latest = KitSnapshot::default();
     let sound = Sound::default();
-    let publisher = Publisher { snapshots: input, latest, sound: sound.clone(), interval: 1, elapsed: 0 };
-    (publisher, Viewer { snapshots: Arc::new(Mutex::new(output)), sound })
+    let news = Arc::new(AtomicU64::new(news(&latest)));
+    let viewer = Viewer { snapshots: Arc::new(Mutex::new(output)), sound: sound.clone(), news: news.clone() };
+    (Publisher { snapshots: input, latest, sound, news, interval: 1, elapsed: 0 }, viewer)
 }
 
 impl Publisher {
@@ -78,7 +82,7 @@ impl Publisher {
         if !self.snapshots.consumed() {
             carry_peaks(&former, &mut self.latest);
         }
-        self.sound.set_loud(self.latest.pieces.iter().any(|piece| piece.peak > AUDIBLE));
+        self.news.store(news(&self.latest), Ordering::Relaxed);
         self.snapshots.write(self.latest);
     }
 }
@@ -89,10 +93,32 @@ impl Viewer {
         &self.sound
     }
 
+    /// A number that changes whenever a picture at rest would: without a look at the snapshots, whose peaks count as
+    /// seen once somebody looked.
+    pub fn news(&self) -> u64 {
+        self.news.load(Ordering::Relaxed)
+    }
+
     /// The latest snapshot.
     pub fn latest(&self) -> KitSnapshot {
         *self.snapshots.lock().unwrap_or_else(PoisonError::into_inner).read()
     }
+}
+
+/// Whether anything can be heard, and how often what rarely happens has happened, as one number (FNV-1a).
+fn news(snapshot: &KitSnapshot) -> u64 {
+    /// Steps of a pedal that are worth a picture: tenths of a millimetre.
+    const PEDAL_STEPS: f32 = 1e4;
+    let loud = snapshot.pieces.iter().any(|piece| piece.peak > AUDIBLE);
+    let whole = [u32::from(loud), u32::from(snapshot.clock > 0), snapshot.missed_runs];
+    let pieces = snapshot.pieces.iter().flat_map(|piece| {
+        let pedal = (piece.rims.pedal * PEDAL_STEPS) as u32;
+        [u32::from(piece.ready), piece.strike.count, piece.quarantines, pedal]
+    });
+    whole
+        .into_iter()
+        .chain(pieces)
+        .fold(0xCBF2_9CE4_8422_2325, |mixed, word| (mixed ^ u64::from(word)).wrapping_mul(0x0100_0000_01B3))
 }
 
 /// Raises the peaks of a snapshot to those of the one before.
@@ -126,6 +152,27 @@ mod tests {
             clock = now;
         }
         assert!((80..=90).contains(&seen), "{seen} in a second");
+    }
+
+    #[test]
+    fn a_stroke_is_news_and_silence_is_not() {
+        let rest = KitSnapshot { clock: 32, ..KitSnapshot::default() };
+        let later = KitSnapshot { clock: 64, ..rest };
+        assert_eq!(news(&rest), news(&later));
+        let changed = |change: fn(&mut KitSnapshot)| {
+            let mut other = rest;
+            change(&mut other);
+            news(&other)
+        };
+        for other in [
+            changed(|kit| kit.pieces[4].strike.count = 1),
+            changed(|kit| kit.pieces[0].peak = 0.1),
+            changed(|kit| kit.pieces[8].ready = true),
+            changed(|kit| kit.pieces[8].rims.pedal = 0.01),
+            changed(|kit| kit.clock = 0),
+        ] {
+            assert_ne!(other, news(&rest));
+        }
     }
 
     #[test]

@@ -7,7 +7,7 @@
 //! of the range and lose its last bits; rounding to a step finds them again, so that a project, a
 //! preset and a command line that ask for the same value get the same samples.
 
-use overhear_engine::kit::Control;
+use overhear_engine::kit::{Control, Microphone};
 use overhear_engine::piece::PieceId;
 #[cfg(doc)]
 use {
@@ -45,10 +45,23 @@ pub enum Drives {
     Percent(Control),
     /// The tuning of a cymbal, given in semitones where the engine takes a ratio.
     Semitones(PieceId),
+    /// Where a pair of microphones stands, from where it does by default.
+    Stand(Microphone, Stand),
     /// How notes become strokes.
     Playing(Manner),
     /// How pieces are built: acts once they have been built anew.
     Building(Construction),
+}
+
+/// What of where a pair of microphones stands a parameter moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stand {
+    /// Up, cm.
+    Height,
+    /// Away from the drummer, cm.
+    Depth,
+    /// How far the two are apart, percent.
+    Width,
 }
 
 /// What of [`Style`](crate::midi::playing::Style) a parameter moves.
@@ -250,7 +263,7 @@ mod tests {
     use overhear_engine::piece::Piece;
 
     /// Changing this list breaks every project that was ever saved.
-    const FROZEN_IDS: [&str; 80] = [
+    const FROZEN_IDS: [&str; 86] = [
         "kktune", "kkmuff", "kklevl", "sntune", "snmuff", "snlevl", "rttune", "rtmuff", "rtlevl", "fttune",
         "ftmuff", "ftlevl", "crtune", "crmuff", "crlevl", "rdtune", "rdmuff", "rdlevl", "sptune", "spmuff",
         "splevl", "master", "dynam", "snprel", "snwire", "tptune", "tpmuff", "tplevl", "kkpan", "snpan",
@@ -259,6 +272,7 @@ mod tests {
         "spstik", "tpstik", "velcur", "humpla", "humspd", "notmap", "midchn", "chokes", "poscc", "qualit",
         "offqua", "kkreso", "snreso", "rtreso", "ftreso", "cllevl", "ohlevl", "rmlevl", "hear", "sympat",
         "clip", "hhtune", "hhmuff", "hhlevl", "hhpan", "hhplac", "hhstik", "hhpedl", "workrs", "progch",
+        "ohup", "ohaway", "ohwide", "rmup", "rmaway", "rmwide",
     ];
 
     #[test]

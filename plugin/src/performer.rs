@@ -9,8 +9,8 @@ use std::sync::Arc;
 use no_denormals::no_denormals;
 use overhear_engine::error::SpecError;
 use overhear_engine::hi_hat::foot::SPEED;
-use overhear_engine::kit::{Control, Crew, Kit, Stereo};
-use overhear_engine::layout::Layout;
+use overhear_engine::kit::{Control, Crew, Kit, Microphone, Stereo};
+use overhear_engine::layout::{Layout, Pair};
 use overhear_engine::piece::{Piece, PieceId};
 use overhear_engine::snapshot::KitSnapshot;
 use overhear_engine::strike::{Strike, Striker};
@@ -21,6 +21,7 @@ use crate::midi::maps::NoteMap;
 use crate::midi::playing::{ChokeRule, Grip, Playing};
 use crate::midi_map::Foot;
 use crate::parameters::{Drives, Manner, PARAMETERS};
+use crate::placing;
 use crate::presets::Program;
 
 pub use crate::midi::playing::velocity_from_midi;
@@ -34,6 +35,8 @@ const MOST_BEND: f32 = 48.0;
 /// A kit and who plays it.
 pub struct Performer {
     kit: Kit,
+    /// Where the overheads and the room's pair stand unless parameters move them.
+    usual: [Pair; 2],
     /// Values as asked for, `[parameter]`: hosts repeat all of them with every buffer.
     asked: [f32; PARAMETERS.len()],
     /// Plain values, `[parameter]`.
@@ -62,8 +65,10 @@ impl Performer {
     }
 
     fn at(kit: Kit, assignments: Arc<Assignments>) -> Performer {
+        let usual = [kit.layout().overheads, kit.layout().room];
         let mut performer = Performer {
             kit,
+            usual,
             asked: [f32::NAN; PARAMETERS.len()],
             values: [f32::NAN; PARAMETERS.len()],
             playing: Playing::new(assignments),
@@ -294,9 +299,22 @@ impl Performer {
             Drives::Control(Control::Tuning(piece)) | Drives::Semitones(piece) => self.tune(piece),
             Drives::Control(control) => flushed(|| self.kit.set(control, value)),
             Drives::Percent(control) => flushed(|| self.kit.set(control, value / 100.0)),
+            Drives::Stand(pair, _) => self.place(pair),
             Drives::Playing(manner) => self.set_manner(manner, value),
             // The builder reads it; new pieces will arrive.
             Drives::Building(_) => {}
+        }
+    }
+
+    /// Puts a pair of microphones where the parameters want it.
+    fn place(&mut self, pair: Microphone) {
+        let usual = if pair == Microphone::Room { self.usual[1] } else { self.usual[0] };
+        let places = placing::places(usual, pair, &|index| self.values.get(index).copied());
+        let layout = self.kit.layout();
+        let present = if pair == Microphone::Room { layout.room } else { layout.overheads };
+        // What stays where it is must not fade over.
+        if places != present {
+            flushed(|| self.kit.place(pair, places));
         }
     }
 

@@ -4,7 +4,7 @@
 //! reads gets newer samples in the place of older ones: a crack in one picture, which the next has not.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU32, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicU32, AtomicUsize, Ordering};
 
 /// Samples that are kept; a power of two.
 pub const KEPT: usize = 16_384;
@@ -22,22 +22,13 @@ struct Ring {
     written: AtomicUsize,
     /// Sample rate, Hz, as bits.
     rate: AtomicU32,
-    /// Whether anything can be heard.
-    loud: AtomicBool,
 }
 
 impl Default for Sound {
     fn default() -> Sound {
         let samples = (0..KEPT).map(|_| AtomicU32::new(0)).collect();
         let rate = AtomicU32::new(48_000.0_f32.to_bits());
-        Sound {
-            ring: Arc::new(Ring {
-                samples,
-                written: AtomicUsize::new(0),
-                rate,
-                loud: AtomicBool::new(false),
-            }),
-        }
+        Sound { ring: Arc::new(Ring { samples, written: AtomicUsize::new(0), rate }) }
     }
 }
 
@@ -50,19 +41,6 @@ impl Sound {
     /// The sample rate, Hz.
     pub fn rate(&self) -> f32 {
         f32::from_bits(self.ring.rate.load(Ordering::Relaxed))
-    }
-
-    /// Tells whether anything can be heard.
-    ///
-    /// # Real-time
-    /// One store.
-    pub fn set_loud(&self, loud: bool) {
-        self.ring.loud.store(loud, Ordering::Relaxed);
-    }
-
-    /// Whether anything can be heard.
-    pub fn is_loud(&self) -> bool {
-        self.ring.loud.load(Ordering::Relaxed)
     }
 
     /// Adds what both outputs play, as their mean.

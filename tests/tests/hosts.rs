@@ -5,6 +5,9 @@
 
 #[path = "hosts/description.rs"]
 mod description;
+#[cfg(target_os = "linux")]
+#[path = "hosts/hand.rs"]
+mod hand;
 #[path = "hosts/identity.rs"]
 mod identity;
 #[path = "hosts/lifecycle.rs"]

@@ -96,8 +96,17 @@ fn dispatch(task: Task) -> Result<()> {
         Task::Report { pages, output } => report::run(&pages, &output.unwrap_or_else(report::folder)),
         Task::Presets { folder, task } => presets(folder.as_deref(), task),
         Task::Docs => manual::write(),
-        Task::Shots { out, plugin: Some(plugin), here: true } => shots::here(&out, &plugin),
-        Task::Shots { out, plugin, .. } => shots::run(&out, plugin),
+        Task::Shots { out, plugin, cost, glance, here } => {
+            let aim = match (cost, glance) {
+                (true, _) => shots::Aim::Cost,
+                (_, true) => shots::Aim::Glance(out),
+                _ => shots::Aim::Pictures(out),
+            };
+            match plugin {
+                Some(plugin) if here => shots::here(&aim, &plugin),
+                plugin => shots::run(&aim, plugin),
+            }
+        }
         Task::Groove { output } => output::write(&output, &groove::file()),
     }
 }

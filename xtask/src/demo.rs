@@ -1,8 +1,8 @@
 //! `demo`: from a fresh clone to a groove you can hear.
 //!
 //! Sets up, builds, bundles, loads the built CLAP into the embedded host, plays
-//! `assets/groove.mid` through it at 48 kHz, writes `demo.wav` and `demo.png`, and says how loud each
-//! piece is at each microphone and what it cost.
+//! `assets/groove.mid` through it at 48 kHz, writes `demo.wav` and `demo.png`, says how loud each
+//! piece is at each microphone and what it cost, and takes pictures of the editor where there is what that needs.
 
 use std::path::{Path, PathBuf};
 
@@ -14,9 +14,10 @@ use crate::progress::Progress;
 use crate::render::{Style, takes};
 use crate::song::Song;
 use crate::stage::Stage;
+use crate::system::{self, WINDOW_LIBRARIES, XVFB};
 use crate::wav::{Bits, WavFile};
 use crate::workspace::Format;
-use crate::{bundle, output, picture, workspace};
+use crate::{bundle, output, picture, shots, workspace};
 
 /// Sample rate of the demonstration, Hz.
 const RATE: u32 = 48_000;
@@ -32,7 +33,7 @@ const BLOCK: u32 = 256;
 /// # Errors
 /// If something is missing, does not build, or does not sound as it must.
 pub fn run(folder: &Path) -> Result<()> {
-    let step = |number: u32, what: &str| eprintln!("[{number}/4] {what}");
+    let step = |number: u32, what: &str| eprintln!("[{number}/5] {what}");
     let (wav, png) = (folder.join("demo.wav"), folder.join("demo.png"));
     step(1, "building and bundling the plugin (some minutes the first time)");
     let clap = clap_bundle()?;
@@ -50,7 +51,16 @@ pub fn run(folder: &Path) -> Result<()> {
     file.write(&[&left, &right])?;
     file.finish()?;
     output::write(&png, &picture::png("Overhear: assets/groove.mid", &left, &right, RATE)?)?;
+    step(5, "taking pictures of the editor");
+    let shots = folder.join("demo-shots");
+    // A machine that only renders has no use for a display, and its groove is none the worse.
+    let looked = system::ensure(&[XVFB, WINDOW_LIBRARIES])
+        .and_then(|()| shots::run(&shots::Aim::Glance(shots.clone()), Some(clap.clone())));
     report(&take, &played, &levels, [&wav, &png, &clap]);
+    match looked {
+        Ok(()) => println!("editor   {}", shots.display()),
+        Err(reason) => println!("editor   no pictures: {reason:#}"),
+    }
     ensure!(played.peak <= 1.0, "the mix is clipped: its peak is {:.3}", played.peak);
     let silent: Vec<_> =
         levels.iter().filter(|row| row.peaks.contains(&0.0)).map(|row| row.piece.name()).collect();

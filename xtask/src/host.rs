@@ -22,7 +22,7 @@ use crate::bad_input;
 pub use event::{Event, What};
 pub use handlers::Requests;
 pub use instance::{AudioPort, Instance, NotePort, ParameterInfo};
-pub use processor::Processor;
+pub use processor::{Processor, Touch};
 
 /// What a plugin says of itself.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -1,32 +1,32 @@
-//! `realism`: every piece by itself, struck softly to hard, beside recordings of real ones.
+//! `realism`: every piece in the kit, struck softly to hard in several places, beside recordings of real ones.
 //!
-//! Each piece is rendered as `hear` renders it, with the stroke its ordinary note gives it and the
-//! kit's default muffling; the [`features`] are measured and set beside the [`mod@reference`]. What is
-//! heard is the piece's own listening point: no neighbours, no room, no mix.
+//! The kit is the plugin's at its defaults, played by the plugin's performer. Each stroke is heard twice: by the piece's close
+//! microphone alone, and in the full mix, both as the mean of left and right. The [`features`] are measured and set beside
+//! the [`mod@reference`]; what is compared is the median over the places.
 
+mod ears;
 pub mod features;
 pub mod reference;
 mod report;
 mod subject;
 mod table;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 
 use anyhow::Result;
-use overhear_engine::kit::Control;
-use overhear_engine::piece::{BuildOptions, PieceId, Quality};
 use overhear_engine::strike::Strike;
 
-use crate::bad_input;
-use crate::hear;
 use crate::output::Folder;
 use crate::progress::Progress;
-use crate::settings::{self, PieceSetting};
+use crate::settings::Setting;
 use crate::wav::{Bits, WavFile};
 
+use ears::Stand;
+
+pub use ears::Ear;
 pub use report::{PieceReport, Report, Stroke};
 pub use subject::{SUBJECTS, Subject, subjects};
 
@@ -34,7 +34,7 @@ pub use subject::{SUBJECTS, Subject, subjects};
 pub const SPEEDS: [f64; 3] = [1.5, 3.0, 5.0];
 
 /// Sample rate, Hz.
-const RATE: f64 = 48_000.0;
+const RATE: u32 = 48_000;
 
 /// How long drums and cymbals are heard, s: until each octave has fallen by more than 25 dB.
 const DRUM_SECONDS: f64 = 4.0;
@@ -47,86 +47,88 @@ pub struct Request {
     pub subjects: Vec<Subject>,
     /// Speeds of the strokes, m/s, ascending.
     pub speeds: Vec<f64>,
-    /// Tuning and muffling, where it is not the kit's; each of one of the pieces.
-    pub settings: Vec<(PieceId, PieceSetting)>,
+    /// Parameters that are not at their default.
+    pub settings: Vec<Setting>,
     /// A folder to keep the sounds in.
     pub wav: Option<PathBuf>,
 }
 
-/// Reads the values of `--set`, each for the piece it acts on.
-///
-/// # Errors
-/// [`BadInput`](crate::error::BadInput) with the value and what is accepted.
-pub fn settings(subjects: &[Subject], assignments: &[String]) -> Result<Vec<(PieceId, PieceSetting)>> {
-    let read = |text: &String| {
-        let acts = |subject: &&Subject| text.trim().starts_with(&subject.piece.name().replace('-', "_"));
-        let &Subject { piece, .. } = subjects.iter().find(acts).ok_or_else(|| {
-            let names = subjects.iter().map(|subject| subject.name).collect::<Vec<_>>().join(", ");
-            bad_input!("`{text}` acts on no piece that is measured: {names}")
-        })?;
-        let settings = settings::parse_for_piece(piece, std::slice::from_ref(text))?;
-        Ok(settings.into_iter().map(move |setting| (piece, setting)).collect::<Vec<_>>())
-    };
-    Ok(assignments.iter().map(read).collect::<Result<Vec<_>>>()?.concat())
+/// One stroke of a subject.
+#[derive(Debug, Clone, Copy)]
+struct Job {
+    subject: Subject,
+    speed: f64,
+    place: f64,
 }
 
-/// Renders and measures everything, on as many threads as there are cores.
+impl Request {
+    /// Every stroke: subject by subject, speed by speed, place by place.
+    fn jobs(&self) -> Vec<Job> {
+        let mut jobs = Vec::new();
+        for &subject in &self.subjects {
+            for &speed in &self.speeds {
+                jobs.extend(subject.places.map(|place| Job { subject, speed, place }));
+            }
+        }
+        jobs
+    }
+}
+
+/// Renders and measures everything, on as many threads as there are cores, each with a kit of its own.
 ///
 /// # Errors
 /// [`BadInput`](crate::error::BadInput) if a sound cannot be written.
 pub fn run(request: &Request) -> Result<Report> {
     let _folder = request.wav.as_deref().map(Folder::new).transpose()?;
-    let jobs: Vec<(Subject, f64)> = request
-        .subjects
-        .iter()
-        .flat_map(|&subject| request.speeds.iter().map(move |&speed| (subject, speed)))
-        .collect();
+    let jobs = request.jobs();
     let next = AtomicUsize::new(0);
-    let done: Mutex<Vec<Option<Result<Stroke>>>> = Mutex::new(jobs.iter().map(|_| None).collect());
+    let done: Mutex<Vec<Option<[Stroke; 2]>>> = Mutex::new(vec![None; jobs.len()]);
     let progress = Mutex::new(Progress::new("realism", jobs.len() as u64));
-    let work = || {
+    let work = || -> Result<()> {
+        let mut stand = Stand::new(RATE, &request.settings)?;
         loop {
             let index = next.fetch_add(1, Ordering::Relaxed);
-            let Some(&(subject, speed)) = jobs.get(index) else {
-                return;
-            };
-            let result = stroke(&subject, speed, request);
+            let Some(job) = jobs.get(index) else { return Ok(()) };
+            let strokes = job.strike(&mut stand, request.wav.as_deref())?;
             progress.lock().unwrap_or_else(PoisonError::into_inner).advance(1);
-            done.lock().unwrap_or_else(PoisonError::into_inner)[index] = Some(result);
+            done.lock().unwrap_or_else(PoisonError::into_inner)[index] = Some(strokes);
         }
     };
-    let cores = thread::available_parallelism().map_or(1, usize::from);
-    thread::scope(|scope| (0..cores.min(jobs.len())).for_each(|_| drop(scope.spawn(work))));
+    let cores = thread::available_parallelism().map_or(1, usize::from).min(jobs.len());
+    thread::scope(|scope| {
+        let threads: Vec<_> = (0..cores).map(|_| scope.spawn(work)).collect();
+        let joined = threads
+            .into_iter()
+            .map(|thread| thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
+        joined.collect::<Result<()>>()
+    })?;
     let done = done.into_inner().unwrap_or_else(PoisonError::into_inner);
-    let strokes = done.into_iter().flatten().collect::<Result<Vec<Stroke>>>()?;
-    let per_piece = request.subjects.iter().zip(strokes.chunks(request.speeds.len().max(1)));
-    let pieces = per_piece.map(|(subject, strokes)| PieceReport::new(subject, strokes)).collect();
-    Ok(Report::new(RATE, request.speeds.clone(), pieces))
+    let strokes: Vec<[Stroke; 2]> = done.into_iter().flatten().collect();
+    Ok(Report::new(RATE, request, &strokes))
 }
 
-/// Renders one stroke, keeps it if asked to, and measures it.
-fn stroke(subject: &Subject, speed: f64, asked: &Request) -> Result<Stroke> {
-    let piece = subject.piece;
-    let strike = Strike { speed, ..subject.strike() };
-    let muffling = Control::Muffling(piece);
-    let mut settings = vec![PieceSetting { control: muffling, value: settings::default_muffling(piece) }];
-    settings.extend(subject.pedal());
-    settings.extend(asked.settings.iter().filter(|(of, _)| *of == piece).map(|(_, setting)| *setting));
-    // Nothing that rests where it is needs time to get there.
-    settings.retain(|setting| setting.control != muffling || setting.value > 0.0);
-    let seconds = if piece.is_drum() { DRUM_SECONDS } else { CYMBAL_SECONDS };
-    // Nobody waits for it: what a bounce sounds like.
-    let options = BuildOptions { quality: Quality::Offline, ..BuildOptions::new(RATE) };
-    let request = hear::Request { piece, strike, settings, options, seconds, wav: None };
-    let sound = hear::render(&request)?;
-    if let Some(folder) = &asked.wav {
-        let path = folder.join(format!("{}-{speed}.wav", subject.name));
-        let mut file = WavFile::create(&path, Bits::Float32, RATE as u32, 1, sound.samples.len() as u64)?;
-        file.write(&[&sound.samples])?;
-        file.finish()?;
+impl Job {
+    /// Renders the stroke, keeps what each ear hears if asked to, and measures it.
+    fn strike(&self, stand: &mut Stand, folder: Option<&Path>) -> Result<[Stroke; 2]> {
+        let Job { subject, speed, place } = *self;
+        let strike = Strike { speed, radius: place, ..subject.strike() };
+        let seconds = if subject.piece.is_drum() { DRUM_SECONDS } else { CYMBAL_SECONDS };
+        let heard = stand.strike(subject.piece, &strike, subject.pedal(), seconds)?;
+        if let Some(folder) = folder {
+            for (ear, sound) in Ear::ALL.into_iter().zip(&heard) {
+                let name = format!("{}-{speed}-at-{place}-{}.wav", subject.name, ear.name());
+                let (path, frames) = (folder.join(name), sound.len() as u64);
+                let mut file = WavFile::create(&path, Bits::Float32, RATE, 1, frames)?;
+                file.write(&[sound])?;
+                file.finish()?;
+            }
+        }
+        let rate = f64::from(RATE);
+        Ok(heard.map(|sound| Stroke {
+            features: features::measure(&sound, rate),
+            level_db: features::level_db(&sound, rate),
+        }))
     }
-    let samples = &sound.samples;
-    Ok(Stroke { features: features::measure(samples, RATE), level_db: features::level_db(samples, RATE) })
 }
 
 #[cfg(test)]
@@ -142,10 +144,16 @@ mod tests {
             wav: None,
         });
         let report = report.unwrap();
-        let piece = &report.pieces[0];
-        assert_eq!(piece.features.len(), reference::figures("rack-tom").len());
-        assert!(piece.features.iter().all(|row| row.values.len() == 2));
-        assert!(piece.features.iter().filter(|row| row.values[0].is_some()).count() > 12);
+        assert_eq!(report.pieces.iter().map(|piece| piece.heard).collect::<Vec<_>>(), Ear::ALL);
+        for piece in &report.pieces {
+            assert_eq!(piece.features.len(), reference::figures("rack-tom").len());
+            assert!(piece.features.iter().all(|row| row.values.len() == 2));
+            assert!(piece.features.iter().filter(|row| row.values[0].is_some()).count() > 12);
+            // The soft stroke is no stroke that the goals are about.
+            assert_eq!(piece.firm.of, piece.features.len());
+        }
+        // What the microphone over the rim hears is not what the overheads add up to.
+        assert_ne!(report.pieces[0].features[0].values, report.pieces[1].features[0].values);
         assert!(report.to_string().contains("rack-tom"));
     }
 }

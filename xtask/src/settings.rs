@@ -131,7 +131,7 @@ pub fn parse_for_piece(id: PieceId, assignments: &[String]) -> Result<Vec<PieceS
                 }
                 Drives::Control(control) => PieceSetting { control, value },
                 // Not among those accepted.
-                Drives::Percent(_) | Drives::Playing(_) | Drives::Building(_) => {
+                Drives::Percent(_) | Drives::Stand(..) | Drives::Playing(_) | Drives::Building(_) => {
                     PieceSetting { control: Control::Master, value }
                 }
             })

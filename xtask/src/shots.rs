@@ -3,6 +3,7 @@
 //! Opens the editor of the built CLAP in the embedded host, in a window of a display that nobody looks at, plays,
 //! and writes what is seen. What is shown is set as a project would: by the view in the plugin's state.
 
+mod cost;
 mod window;
 
 use std::path::{Path, PathBuf};
@@ -51,26 +52,39 @@ const fn shot(name: &'static str, page: u8, piece: u8, notes: &'static [(u8, f32
 /// The pictures, in the order they are taken; pieces sound on from one to the next, so the one at rest is the first.
 const SHOTS: &[Shot] = &[
     shot("kit", 0, 1, &[], 600),
-    shot("rack-tom", 0, 2, &[(48, 1.0)], 230),
-    shot("crash", 0, 4, &[(49, 0.95)], 230),
+    shot("rack-tom", 0, 2, &[(48, 1.0)], 420),
+    shot("crash", 0, 4, &[(49, 0.95)], 420),
     shot(
         "physics",
         1,
         2,
         &[(36, 0.9), (42, 0.7), (38, 0.8), (51, 0.8), (36, 0.8), (49, 0.8), (41, 0.9), (48, 1.0)],
-        330,
+        500,
     ),
+    shot("cascade", 1, 4, &[(38, 0.6), (49, 1.0)], 1_100),
+    shot("wires", 1, 1, &[(36, 0.8), (38, 0.9)], 420),
     shot("mix", 2, 2, &[(41, 0.9), (38, 0.9)], 200),
     shot("microphones", 3, 1, &[], 400),
     shot("midi", 4, 1, &[], 400),
     shot("settings", 5, 1, &[], 400),
 ];
 
-/// Takes every picture and writes them to `folder`; of the plugin at `plugin`, or of one that is built first.
+/// What is done with the editor.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Aim {
+    /// Every picture is taken and written to a folder.
+    Pictures(PathBuf),
+    /// The same in the dark palette at 1x only.
+    Glance(PathBuf),
+    /// What it costs is counted and printed.
+    Cost,
+}
+
+/// Opens the editor of the plugin at `plugin`, or of one that is built first, on a display of its own.
 ///
 /// # Errors
 /// If there is no display to draw on, the plugin does not build, or its editor does not show.
-pub fn run(folder: &Path, plugin: Option<PathBuf>) -> Result<()> {
+pub fn run(aim: &Aim, plugin: Option<PathBuf>) -> Result<()> {
     let plugin = match plugin {
         Some(plugin) => plugin,
         None => {
@@ -81,39 +95,55 @@ pub fn run(folder: &Path, plugin: Option<PathBuf>) -> Result<()> {
     };
     let display = Display::start()?;
     // The display is found through the environment, which a process must not change under its own threads.
-    let status = Command::new(std::env::current_exe()?)
-        .args(["shots", "--here", "--out"])
-        .arg(folder)
+    let mut again = Command::new(std::env::current_exe()?);
+    again.args(["shots", "--here"]);
+    match aim {
+        Aim::Pictures(folder) => again.arg("--out").arg(folder),
+        Aim::Glance(folder) => again.arg("--glance").arg("--out").arg(folder),
+        Aim::Cost => again.arg("--cost"),
+    };
+    let status = again
         .arg("--plugin")
         .arg(plugin)
         .env("DISPLAY", display.name())
         .env("LIBGL_ALWAYS_SOFTWARE", "1")
         .status()
         .context("cannot start over under the display")?;
-    ensure!(status.success(), "no pictures could be taken");
+    ensure!(status.success(), "the editor could not be seen");
     Ok(())
 }
 
-/// Takes every picture on the display of the environment.
+/// The same on the display of the environment.
 ///
 /// # Errors
 /// If the plugin does not load or its editor does not show.
-pub fn here(folder: &Path, plugin: &Path) -> Result<()> {
+pub fn here(aim: &Aim, plugin: &Path) -> Result<()> {
+    match aim {
+        Aim::Pictures(folder) => pictures(folder, plugin, &[(false, 1), (false, 2), (true, 1), (true, 2)]),
+        Aim::Glance(folder) => pictures(folder, plugin, &[(false, 1)]),
+        Aim::Cost => cost::here(plugin),
+    }
+}
+
+/// Takes every picture in each of the looks: whether it is light, and how large everything is.
+fn pictures(folder: &Path, plugin: &Path, looks: &[(bool, u32)]) -> Result<()> {
     std::fs::create_dir_all(folder).with_context(|| format!("cannot make `{}`", folder.display()))?;
     let bundle = Bundle::load(plugin)?;
     let mut instance = bundle.instantiate()?;
     let (notes, played) = channel();
     let play = move |processor: &mut Processor| play(processor, &played);
     instance.run_beside(RATE, 1..=BLOCK as u32, play, |instance| {
-        for (light, theme) in [(false, "dark"), (true, "light")] {
-            for zoom in [1, 2] {
-                for shot in SHOTS {
-                    let path = folder.join(format!("{}-{theme}-{zoom}x.png", shot.name));
-                    let png = take(instance, shot, (light, zoom), &notes)?;
-                    output::write(&path, &png)?;
-                    println!("{}", path.display());
-                }
-                thread::sleep(Duration::from_secs(8));
+        for (set, &(light, zoom)) in looks.iter().enumerate() {
+            if set > 0 {
+                // So that the next one at rest is.
+                pass(instance, Duration::from_secs(8));
+            }
+            let theme = if light { "light" } else { "dark" };
+            for shot in SHOTS {
+                let path = folder.join(format!("{}-{theme}-{zoom}x.png", shot.name));
+                let png = take(instance, shot, (light, zoom), &notes)?;
+                output::write(&path, &png)?;
+                println!("{}", path.display());
             }
         }
         drop(notes);
@@ -128,7 +158,7 @@ fn take(
     (light, zoom): (bool, u32),
     notes: &Sender<(u8, f32)>,
 ) -> Result<Vec<u8>> {
-    let state = with_view(&instance.save_state()?, shot, light, zoom)?;
+    let state = with_view(&instance.save_state()?, shot, (light, zoom), SIZE)?;
     instance.load_state(&state)?;
     let window = instance.open_editor(|width, height| {
         let window = HostWindow::open(width, height)?;
@@ -145,6 +175,8 @@ fn take(
     pass(instance, shot.wait * zoom);
     let png = window.png()?;
     instance.close_editor()?;
+    // The window goes after what is in it.
+    drop(window);
     Ok(png)
 }
 
@@ -158,7 +190,7 @@ fn pass(instance: &mut Instance, time: Duration) {
 }
 
 /// A state that shows what a shot wants.
-fn with_view(state: &[u8], shot: &Shot, light: bool, zoom: u32) -> Result<Vec<u8>> {
+fn with_view(state: &[u8], shot: &Shot, (light, zoom): (bool, u32), size: [u32; 2]) -> Result<Vec<u8>> {
     // The length comes before the text.
     let text = state.get(LENGTH..).context("the plugin's state is too short")?;
     let mut state: Value = serde_json::from_slice(text).context("the plugin's state is no JSON")?;
@@ -170,7 +202,7 @@ fn with_view(state: &[u8], shot: &Shot, light: bool, zoom: u32) -> Result<Vec<u8
     (usual[0], usual[1], usual[2], usual[4]) =
         (json!(shot.page), json!(light), json!(shot.piece), json!(zoom));
     fields.insert("view".into(), view.to_string().into());
-    fields.insert("window".into(), json!(SIZE).to_string().into());
+    fields.insert("window".into(), json!(size).to_string().into());
     let text = serde_json::to_vec(&state)?;
     Ok([&(text.len() as u64).to_le_bytes()[..], &text].concat())
 }
@@ -209,11 +241,11 @@ mod tests {
     fn a_view_is_put_into_a_state_that_has_one() {
         let state = json!({"fields": {"view": "[0,false,1,[0.5,0.5,2.0],1.0]", "window": "[1,2]"}});
         let bytes = |state: &Value| [&[0; LENGTH][..], &serde_json::to_vec(state).unwrap()].concat();
-        let changed = with_view(&bytes(&state), &SHOTS[1], true, 2).unwrap();
+        let changed = with_view(&bytes(&state), &SHOTS[1], (true, 2), SIZE).unwrap();
         assert_eq!(changed[..LENGTH], (changed.len() as u64 - 8).to_le_bytes());
         let changed: Value = serde_json::from_slice(&changed[LENGTH..]).unwrap();
         assert_eq!(changed["fields"]["view"], "[0,true,2,[0.5,0.5,2.0],2]");
         assert_eq!(changed["fields"]["window"], "[1080,700]");
-        assert!(with_view(&bytes(&json!({"fields": {}})), &SHOTS[1], true, 2).is_err());
+        assert!(with_view(&bytes(&json!({"fields": {}})), &SHOTS[1], (true, 2), SIZE).is_err());
     }
 }

@@ -246,3 +246,19 @@ fn ring(body: &mut ModalBody, pickup: &Pickup, out: &mut [f32]) {
     let [far, few] = others.each_mut().map(|row| &mut row[..out.len()]);
     body.ring(0, pickup, [out, far, few]);
 }
+
+#[test]
+fn the_energies_of_the_octaves_are_the_energy() {
+    use crate::snapshot::{FIRST_OCTAVE, OCTAVES};
+    for octave in [0, 4, OCTAVES - 1] {
+        let hertz = 1.4 * FIRST_OCTAVE * f64::from(1 << octave);
+        let (mut body, port) = single(hertz, 1.0, 0.2, 96_000.0);
+        (0..20).for_each(|_| {
+            body.push(&port, 3.0);
+            body.step();
+        });
+        let octaves = body.energy_by_octave();
+        assert!((f64::from(octaves[octave]) / body.energy() - 1.0).abs() < 1e-6 && body.energy() > 0.0);
+        assert_eq!(octaves.iter().filter(|&&energy| energy > 0.0).count(), 1);
+    }
+}

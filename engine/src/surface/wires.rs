@@ -115,7 +115,7 @@ impl SnareWires {
         }
     }
 
-    /// What is to be seen of them; `aloft` groups are off the head.
+    /// What is to be seen of them; `aloft` has a bit for each group off the head.
     pub fn snapshot(&self, aloft: u32) -> WireSnapshot {
         WireSnapshot { landings: self.landings, aloft, last_lift: (self.last_lift as f64 * self.dt) as f32 }
     }
@@ -197,8 +197,9 @@ impl Surface {
 
     /// What the wires have done since the latest stroke.
     pub fn wires(&self) -> WireSnapshot {
-        let aloft = self.points.iter().skip(FIRST_WIRE).filter(|point| point.present && !point.touching);
-        self.wires.as_ref().map_or_else(WireSnapshot::default, |wires| wires.snapshot(aloft.count() as u32))
+        let groups = self.points.iter().skip(FIRST_WIRE).map(|point| point.present && !point.touching);
+        let aloft = groups.enumerate().fold(0, |bits, (group, aloft)| bits | (u32::from(aloft) << group));
+        self.wires.as_ref().map_or_else(WireSnapshot::default, |wires| wires.snapshot(aloft))
     }
 
     /// Lets the wires lie still where they are.

@@ -6,11 +6,13 @@
 use std::sync::Arc;
 
 use egui::{Color32, PointerButton, Pos2, Rect, Sense, Shape, Ui, vec2};
+use overhear_engine::kit::Microphone;
 use overhear_engine::piece::PieceId;
-use overhear_engine::snapshot::{FieldShapes, KitSnapshot, PieceSnapshot};
+use overhear_engine::snapshot::{FieldShapes, KitSnapshot, PieceSnapshot, StrikeSnapshot};
 
 use super::field::{self, Magnifier, Refined};
 use super::theme::{self, Palette};
+use crate::parameters::Stand;
 
 pub mod bodies;
 pub mod camera;
@@ -26,6 +28,7 @@ pub mod vector;
 
 use bodies::{Body, Frame};
 use camera::{Camera, Eye};
+use microphones::{Held, Shown};
 use scene::Scene;
 use sticks::Replay;
 use surfaces::{Motion, Tint};
@@ -56,8 +59,26 @@ pub struct Seen<'a> {
     pub shapes: &'a dyn Fn(usize) -> Option<Arc<FieldShapes>>,
     /// Slot of the piece that the panels are about.
     pub selected: usize,
-    /// Whether microphones are shown.
-    pub microphones: bool,
+    /// A parameter's plain value by its index, if microphones are shown.
+    pub microphones: Option<&'a dyn Fn(usize) -> Option<f32>>,
+}
+
+/// When a frame is drawn, and in which colours.
+#[derive(Clone, Copy)]
+struct Now {
+    /// s of the editor's time.
+    time: f64,
+    /// Since the frame before, s.
+    elapsed: f32,
+    palette: &'static Palette,
+}
+
+/// A piece and the latest stroke on it.
+struct Struck<'a> {
+    slot: usize,
+    body: Body,
+    strike: &'a StrikeSnapshot,
+    heights: &'a Refined,
 }
 
 /// What a hand did.
@@ -67,6 +88,19 @@ pub struct Done {
     pub chosen: Option<usize>,
     /// Where it was struck, if it can be struck there.
     pub struck: Option<Target>,
+    /// What it did with a pair of microphones.
+    pub moved: Option<Moved>,
+}
+
+/// What a hand does with a pair of microphones.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Moved {
+    /// It takes hold of it.
+    Taken(Microphone),
+    /// It drags it: by how much parameters move.
+    Dragged(Microphone, [(Stand, f32); 2]),
+    /// It lets go.
+    Released(Microphone),
 }
 
 /// The view of one window.
@@ -80,6 +114,8 @@ pub struct KitView {
     replays: [Replay; PIECES],
     /// What is under the pointer.
     hovered: Option<Target>,
+    /// The microphone in the hand.
+    held: Option<Held>,
     /// Whether the button that is down has struck something: then it does not turn the view.
     striking: bool,
 }
@@ -95,6 +131,7 @@ impl KitView {
             magnifiers: Default::default(),
             replays: Default::default(),
             hovered: None,
+            held: None,
             striking: false,
         }
     }
@@ -102,17 +139,19 @@ impl KitView {
     /// Draws the kit into `rect` and says what a hand did with it.
     pub fn show(&mut self, ui: &mut Ui, rect: Rect, seen: &Seen<'_>) -> Done {
         let palette = theme::of(ui);
-        let done = self.answer(ui, rect, seen.microphones);
-        let (now, elapsed) = ui.input(|input| (input.time, input.stable_dt));
-        let eye = self.eye(rect, seen.microphones);
+        let wide = seen.microphones.is_some();
+        let microphones =
+            seen.microphones.map(|value| microphones::all(&self.bodies, value, palette)).unwrap_or_default();
+        let done = self.answer(ui, rect, &microphones);
+        let now = ui.input(|input| Now { time: input.time, elapsed: input.unstable_dt, palette });
+        let eye = self.eye(rect, wide);
         let mut scene = Scene::new(eye);
         let painter = ui.painter_at(rect);
         painter.add(backdrop(rect, palette));
         painter.add(stands::floor(&scene, &self.bodies, palette));
         for slot in 0..PIECES {
-            self.piece(&mut scene, slot, seen, (now, elapsed), palette);
+            self.piece(&mut scene, slot, seen, now);
         }
-        let microphones = if seen.microphones { microphones::all(&self.bodies, palette) } else { Vec::new() };
         microphones::draw(&mut scene, &microphones, palette);
         painter.add(scene.finish());
         microphones::names(&painter, &eye, &microphones, palette);
@@ -152,15 +191,23 @@ impl KitView {
     }
 
     /// Turns, zooms, strikes.
-    fn answer(&mut self, ui: &mut Ui, rect: Rect, wide: bool) -> Done {
+    fn answer(&mut self, ui: &mut Ui, rect: Rect, shown: &[Shown]) -> Done {
+        let wide = !shown.is_empty();
         let response = ui.interact(rect, ui.scope_id().with("kit"), Sense::click_and_drag());
         let eye = self.eye(rect, wide);
         let pointer = response.hover_pos().filter(|at| rect.contains(*at));
         self.hovered = pointer.and_then(|at| target::under(&self.bodies, &eye, at));
         let mut done = Done::default();
         let pressed = |button| ui.input(|input| input.pointer.button_pressed(button));
+        let near = pointer.and_then(|at| microphones::under(shown, &eye, at));
+        if near.is_some() || self.held.is_some() {
+            self.hovered = None;
+            ui.set_cursor_icon(egui::CursorIcon::Move);
+        }
+        done.moved = self.move_pair(ui, &response, near, &eye);
         if response.contains_pointer() && pressed(PointerButton::Primary) {
-            self.striking = self.hovered.is_some_and(|target| target.on_surface);
+            // What holds a microphone does not turn the view either.
+            self.striking = near.is_some() || self.hovered.is_some_and(|target| target.on_surface);
             done.chosen = self.hovered.map(|target| target.slot);
             done.struck = self.hovered.filter(|target| target.on_surface);
         }
@@ -180,30 +227,42 @@ impl KitView {
         done
     }
 
-    fn piece(
+    /// Takes hold of a microphone, drags it, lets it go.
+    fn move_pair(
         &mut self,
-        scene: &mut Scene,
-        slot: usize,
-        seen: &Seen<'_>,
-        (now, elapsed): (f64, f32),
-        palette: &Palette,
-    ) {
+        ui: &Ui,
+        response: &egui::Response,
+        near: Option<Held>,
+        eye: &Eye,
+    ) -> Option<Moved> {
+        if response.drag_started_by(PointerButton::Primary) && self.held.is_none() {
+            // A drag is one once the pointer has left where it pressed.
+            let pressed = ui.input(|input| input.pointer.press_origin());
+            self.held = near.filter(|_| pressed.is_some_and(|at| response.rect.contains(at)));
+            return self.held.map(|held| Moved::Taken(held.pair));
+        }
+        let held = self.held?;
+        if response.drag_stopped() || !response.dragged() {
+            self.held = None;
+            return Some(Moved::Released(held.pair));
+        }
+        let deep = ui.input(|input| input.modifiers.shift);
+        Some(Moved::Dragged(held.pair, held.dragged(eye, response.drag_delta(), deep)))
+    }
+
+    fn piece(&mut self, scene: &mut Scene, slot: usize, seen: &Seen<'_>, now: Now) {
         let state = &seen.snapshot.pieces[slot];
+        let palette = now.palette;
         let mut body = self.bodies[slot];
         stands::stand(scene, &body, palette);
         if body.piece == PieceId::HiHat {
             close(scene, &mut body, state, palette);
         }
         let accent = palette.pieces[slot];
-        let field = (seen.shapes)(slot).map(|shapes| field::displacement(&shapes, &state.displacement));
-        let field = field.unwrap_or_else(|| vec![0.0; overhear_engine::snapshot::FIELD_POINTS]);
-        self.magnifiers[slot].follow(&field, elapsed);
-        let factor = self.magnifiers[slot].factor(body.tallest());
-        let scaled: Vec<f32> = field.iter().map(|z| z * factor).collect();
-        let heights = field::refined(&scaled);
-        self.replays[slot].follow(&state.strike, now);
+        let heights = self.heights(slot, &body, seen, now.elapsed);
+        self.replays[slot].follow(&state.strike, now.time);
         let hovered = self.hovered.is_some_and(|target| target.slot == slot);
-        let since = self.replays[slot].since_touch(now);
+        let since = self.replays[slot].since_touch(now.time);
         let flash = if since < 0.0 { 0.0 } else { (1.0 - since / 0.25).max(0.0) as f32 };
         let glow = flash.max(if hovered { 0.6 } else { 0.0 });
         let motion = Motion { heights: &heights, tint: self.tint, accent, glow };
@@ -213,22 +272,24 @@ impl KitView {
         if ring != Color32::TRANSPARENT && !body.piece.is_drum() {
             shells::circle(scene, &body.frame, 1.005 * body.radius, 0.0, 2.0, ring);
         }
-        self.stroke(scene, slot, &body, state, &heights, now, palette);
+        let struck = Struck { slot, body, strike: &state.strike, heights: &heights };
+        self.stroke(scene, &struck, now);
+    }
+
+    /// Heights of a surface as they are drawn, m.
+    fn heights(&mut self, slot: usize, body: &Body, seen: &Seen<'_>, elapsed: f32) -> Refined {
+        let modes = &seen.snapshot.pieces[slot].displacement;
+        let field = (seen.shapes)(slot).map(|shapes| field::displacement(&shapes, modes));
+        let field = field.unwrap_or_else(|| vec![0.0; overhear_engine::snapshot::FIELD_POINTS]);
+        self.magnifiers[slot].follow(&field, elapsed);
+        let factor = self.magnifiers[slot].factor(body.tallest());
+        field::refined(&field.iter().map(|z| z * factor).collect::<Vec<_>>())
     }
 
     /// The stick of the latest stroke and the mark it leaves.
-    #[allow(clippy::too_many_arguments)]
-    fn stroke(
-        &self,
-        scene: &mut Scene,
-        slot: usize,
-        body: &Body,
-        state: &PieceSnapshot,
-        heights: &Refined,
-        now: f64,
-        palette: &Palette,
-    ) {
-        let (strike, replay) = (&state.strike, &self.replays[slot]);
+    fn stroke(&self, scene: &mut Scene, struck: &Struck<'_>, now: Now) {
+        let Struck { slot, body, strike, heights } = struck;
+        let replay = &self.replays[*slot];
         if !(strike.radius.is_finite() && strike.angle.is_finite()) {
             return;
         }
@@ -237,12 +298,12 @@ impl KitView {
         let landing = body.surface(x, y, field::height_at(heights, x, y));
         // A beater rests where it is ready.
         let ready = (body.piece == PieceId::Kick).then_some(READY);
-        if let Some(height) = replay.height(strike, now).or(ready) {
-            sticks::draw(scene, body, landing, height, palette);
+        if let Some(height) = replay.height(strike, now.time).or(ready) {
+            sticks::draw(scene, body, landing, height, now.palette);
         }
-        let age = (replay.since_touch(now) / MARK_TIME) as f32;
+        let age = (replay.since_touch(now.time) / MARK_TIME) as f32;
         if strike.count > 0 && (0.0..1.0).contains(&age) {
-            let colour = palette.pieces[slot].gamma_multiply(1.0 - age);
+            let colour = now.palette.pieces[*slot].gamma_multiply(1.0 - age);
             let frame = Frame { centre: landing, ..body.frame };
             let radius = (0.008 + 0.6 * age * body.radius).min(body.radius);
             shells::circle(scene, &frame, radius, 0.004, 2.0, colour);

@@ -35,7 +35,8 @@ impl Default for Levels {
 impl Levels {
     /// Takes in a snapshot, `elapsed` seconds after the last.
     pub fn follow(&mut self, snapshot: &KitSnapshot, elapsed: f32) {
-        let fall = FALL * elapsed.clamp(0.0, 0.1);
+        // Where the processor draws, frames are far apart; after a rest there is nothing to fall.
+        let fall = FALL * elapsed.clamp(0.0, 0.5);
         // A host that stopped leaves its last snapshot behind: its peaks count once.
         let fresh = if snapshot.clock == self.clock { 0.0 } else { 1.0 };
         self.clock = snapshot.clock;

@@ -13,6 +13,7 @@ use super::kit_view::{KitView, Seen};
 use super::knob::Gesture;
 use super::levels::Levels;
 use super::mix::Mix;
+use super::pairs::PairHand;
 use super::physics::Physics;
 use super::playing::PlayingPanel;
 use super::presets::PresetBar;
@@ -102,6 +103,7 @@ pub struct Panels {
     presets: PresetBar,
     playing: PlayingPanel,
     history: History,
+    pair: PairHand,
     /// Where the kit was drawn last.
     picture: Rect,
     /// The latest snapshot.
@@ -128,6 +130,7 @@ impl Panels {
             presets: PresetBar::new(library),
             playing: PlayingPanel::default(),
             history: History::default(),
+            pair: PairHand::default(),
             picture: Rect::ZERO,
             former: KitSnapshot::default(),
             latest: Latest::default(),
@@ -156,7 +159,7 @@ impl Panels {
 
     /// Draws one frame.
     pub fn show(&mut self, ui: &mut Ui, inputs: &Inputs<'_>, hands: &mut Hands<'_>) {
-        let elapsed = ui.input(|input| input.stable_dt);
+        let elapsed = ui.input(|input| input.unstable_dt);
         self.levels.follow(inputs.snapshot, elapsed);
         self.latest.follow(&self.former, inputs.snapshot);
         self.former = *inputs.snapshot;
@@ -183,7 +186,9 @@ impl Panels {
             self.header(ui, header, inputs, &mut set);
             list::show(ui, beside, &mut self.selected, inputs.snapshot, &self.levels);
             match self.page {
-                Page::Kit | Page::Microphones => self.kit(ui, page, inputs, &mut set, hands.play),
+                Page::Kit | Page::Microphones => {
+                    self.kit(ui, page, inputs, &mut Hands { set: &mut set, play: hands.play })
+                }
                 Page::Physics => {
                     let shapes = (inputs.shapes)(self.selected);
                     let seen = physics::Seen {
@@ -216,32 +221,37 @@ impl Panels {
     }
 
     /// The picture and the knobs of the selected piece.
-    fn kit(
-        &mut self,
-        ui: &mut Ui,
-        rect: Rect,
-        inputs: &Inputs<'_>,
-        set: &mut dyn FnMut(usize, Gesture),
-        play: &mut dyn FnMut(Stroke),
-    ) {
+    fn kit(&mut self, ui: &mut Ui, rect: Rect, inputs: &Inputs<'_>, hands: &mut Hands<'_>) {
         let (picture, below) = rect.split_top_bottom_at_y(rect.max.y - knobs::PANEL_HEIGHT);
         let picture = Rect::from_min_max(picture.min, picture.max - vec2(0.0, GAP));
         self.picture = picture;
-        let microphones = self.page == Page::Microphones;
-        let (snapshot, shapes) = (inputs.snapshot, inputs.shapes);
-        let seen = Seen { snapshot, shapes, selected: self.selected, microphones };
         let values = inputs.parameters.values();
-        let dynamics = values.get(stage::dynamics()).map_or(6.0, |value| value.unmodulated_plain_value());
-        if let Some(slot) = self.stage.show(ui, picture, &mut self.kit, &seen, dynamics, play) {
-            self.selected = slot;
+        let plain = |index: usize| Some(values.get(index)?.unmodulated_plain_value());
+        let microphones = self.page == Page::Microphones;
+        let seen = Seen {
+            snapshot: inputs.snapshot,
+            shapes: inputs.shapes,
+            selected: self.selected,
+            microphones: microphones.then_some(&plain as &dyn Fn(usize) -> Option<f32>),
+        };
+        let dynamics = plain(stage::dynamics()).unwrap_or(6.0);
+        let done = self.stage.show(ui, picture, &mut self.kit, &seen, dynamics, hands.play);
+        self.selected = done.chosen.unwrap_or(self.selected);
+        if let Some(moved) = done.moved {
+            self.pair.act(moved, values, hands.set);
         }
         let palette = theme::of(ui);
-        let group = if microphones {
-            ("Microphones", palette.accent)
-        } else {
-            (title(PieceId::KIT[self.selected]), palette.pieces[self.selected])
-        };
-        knobs::panel(ui, below, group, values, set);
+        let own = (title(PieceId::KIT[self.selected]), palette.pieces[self.selected]);
+        let groups =
+            [("Microphones", palette.accent), ("Overheads", palette.accent), ("Room", palette.accent)];
+        let groups = if microphones { &groups[..] } else { &[own][..] };
+        let width = below.width() / groups.len() as f32;
+        for (place, group) in groups.iter().enumerate() {
+            let left = below.min.x + place as f32 * width;
+            let right = left + width - if place + 1 < groups.len() { GAP } else { 0.0 };
+            let part = Rect::from_x_y_ranges(left..=right, below.y_range());
+            knobs::panel(ui, part, *group, values, hands.set);
+        }
     }
 
     /// What is about the kit as a whole, and the window.

@@ -1,30 +1,38 @@
 //! The page of physics: what the strokes did, in diagrams.
 //!
-//! About the selected piece: the force of its latest stroke, its surface near by or one of its modes alone, its modes,
-//! and how its pitch glides; about the kit: energies and the spectrum of what is heard.
+//! About the selected piece: the force of its latest stroke, its surface near by or one of its modes alone, its modes;
+//! of a drum how its pitch glides, of one with wires what they do, of a plate how far it bends and how its energy wanders
+//! through the octaves. About the kit: energies and the spectrum of what is heard.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
 
 use egui::{Rect, Ui, pos2};
 use overhear_engine::piece::PieceId;
-use overhear_engine::snapshot::{FieldShapes, KitSnapshot};
+use overhear_engine::snapshot::{FieldShapes, KitSnapshot, OCTAVES};
 
 use super::theme;
 use crate::sound::Sound;
 
+mod bending;
+mod cascade;
 mod closeup;
 mod energy;
 mod force;
 mod glide;
 mod modes;
 mod spectrum;
+mod wires;
 
 use closeup::Closeup;
 use spectrum::Spectrum;
+use wires::Wires;
 
 /// Pieces of the kit.
 const PIECES: usize = PieceId::KIT.len();
+
+/// The piece with snare wires, by its place in the kit.
+const SNARE: usize = 1;
 
 /// How far back energies and pitches are drawn, s.
 const MEMORY: f64 = 3.0;
@@ -36,10 +44,12 @@ const GAP: f32 = 8.0;
 struct Moment {
     /// s of the editor's time.
     time: f64,
-    /// Vibration energy, J, by slot.
-    energy: [f32; PIECES],
     /// How far pitch is above its own, cents, by slot.
     cents: [f32; PIECES],
+    /// Largest displacement over thickness, by slot; of plates.
+    bending: [f32; PIECES],
+    /// Energy of the modes of each octave, J, by slot.
+    octaves: [[f32; OCTAVES]; PIECES],
 }
 
 /// The page of one window.
@@ -47,6 +57,7 @@ pub struct Physics {
     moments: VecDeque<Moment>,
     closeup: Closeup,
     spectrum: Spectrum,
+    wires: Wires,
     /// The mode that is shown alone, and of which piece.
     mode: Option<(usize, usize)>,
 }
@@ -65,6 +76,7 @@ impl Physics {
             moments: VecDeque::new(),
             closeup: Closeup::default(),
             spectrum: Spectrum::new(),
+            wires: Wires::default(),
             mode: None,
         }
     }
@@ -76,12 +88,17 @@ impl Physics {
         snapshot: &KitSnapshot,
         shapes: &dyn Fn(usize) -> Option<Arc<FieldShapes>>,
     ) {
-        let energy = std::array::from_fn(|slot| snapshot.pieces[slot].energy);
-        let cents = std::array::from_fn(|slot| {
+        let of_pieces = |value: &dyn Fn(usize) -> f32| std::array::from_fn(value);
+        let cents = of_pieces(&|slot| {
             let tension = shapes(slot).map_or(0.0, |shapes| shapes.tension);
             glide::cents(PieceId::KIT[slot], snapshot.pieces[slot].stretch, tension)
         });
-        self.moments.push_back(Moment { time: now, energy, cents });
+        let bending = of_pieces(&|slot| {
+            bending::of(PieceId::KIT[slot], &snapshot.pieces[slot], shapes(slot).as_deref())
+        });
+        let octaves = snapshot.pieces.map(|piece| piece.octaves);
+        self.moments.push_back(Moment { time: now, cents, bending, octaves });
+        self.wires.follow(&snapshot.pieces[SNARE].wires, now);
         while self.moments.front().is_some_and(|moment| now - moment.time > MEMORY) {
             self.moments.pop_front();
         }
@@ -94,9 +111,12 @@ impl Physics {
         late.sum::<f32>() / LATE.min(self.moments.len()).max(1) as f32
     }
 
-    /// Whether the page moves by itself.
+    /// Whether the page moves by itself: a mode that swings, or a past that has not gone by yet.
     pub fn moves_on(&self) -> bool {
-        self.mode.is_some()
+        /// Less than this is at rest in every diagram, J.
+        const LEAST: f32 = 1e-9;
+        let moved = |moment: &Moment| moment.octaves.iter().flatten().any(|&energy| energy > LEAST);
+        self.mode.is_some() || self.moments.iter().any(moved)
     }
 
     /// Draws the page.
@@ -111,10 +131,21 @@ impl Physics {
         let (left, right) = halves(rect, 0.56, true);
         let (upper, lower) = halves(left, 0.36, false);
         let (middle, bottom) = halves(lower, 0.5, false);
-        force::show(ui, upper, slot, &piece.strike, accent);
-        let (energies, glides) = halves(middle, 0.58, true);
+        let plate = bending::thickness(PieceId::KIT[slot]).is_some();
+        let wires = slot == SNARE;
+        let (force, beside) = if plate || wires { halves(upper, 0.6, true) } else { (upper, upper) };
+        force::show(ui, force, slot, &piece.strike, accent);
+        let (energies, below) = halves(middle, 0.5, true);
         energy::show(ui, energies, seen.snapshot);
-        glide::show(ui, glides, &self.moments, (slot, now), accent);
+        if wires {
+            self.wires.show(ui, beside, &piece.wires, now, accent);
+        }
+        if plate {
+            bending::show(ui, beside, &self.moments, (slot, now), accent);
+            cascade::show(ui, below, &self.moments, (slot, now));
+        } else {
+            glide::show(ui, below, &self.moments, (slot, now), accent);
+        }
         self.spectrum.show(ui, bottom, seen.sound);
         let (near, list) = halves(right, 0.48, false);
         let mode = self.mode.map(|(_, mode)| mode);

@@ -73,6 +73,17 @@ impl Plot {
         self.painter.line(points.to_vec(), Stroke::new(1.6, colour));
     }
 
+    /// Draws a line through places.
+    pub fn line(&self, points: Vec<Pos2>, colour: Color32) {
+        self.painter.line(points, Stroke::new(1.4, colour));
+    }
+
+    /// Says what a height (points of the screen) stands for, at the left above it.
+    pub fn remark_at(&self, y: f32, text: &str) {
+        let at = pos2(self.area.min.x, y - 1.0);
+        self.painter.text(at, Align2::LEFT_BOTTOM, text, theme::small(), self.palette.faint);
+    }
+
     /// Says in the middle why there is nothing to see.
     pub fn nothing(&self, why: &str) {
         let colour = self.palette.faint;

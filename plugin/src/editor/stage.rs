@@ -5,7 +5,7 @@ use overhear_engine::piece::PieceId;
 use overhear_engine::strike::{Strike, Striker};
 
 use super::kit_view::surfaces::Tint;
-use super::kit_view::{KitView, Seen, Target, stroke_near};
+use super::kit_view::{Done, KitView, Seen, Target, stroke_near};
 use super::theme;
 use crate::parameters::find;
 use crate::strokes::Stroke;
@@ -47,7 +47,7 @@ impl Stage {
         SLOWEST * (dynamics.max(SLOWEST) / SLOWEST).powf(place)
     }
 
-    /// Draws the picture; `dynamics` is the fastest stroke, m/s. Says which piece was chosen.
+    /// Draws the picture; `dynamics` is the fastest stroke, m/s. Says what a hand did beside striking.
     pub fn show(
         &mut self,
         ui: &mut Ui,
@@ -56,7 +56,7 @@ impl Stage {
         seen: &Seen<'_>,
         dynamics: f32,
         play: &mut dyn FnMut(Stroke),
-    ) -> Option<usize> {
+    ) -> Done {
         let speed = self.speed(ui, dynamics);
         let done = kit.show(ui, rect, seen);
         if let Some(target) = done.struck {
@@ -70,7 +70,7 @@ impl Stage {
             Rect::from_min_max(pos2(rect.max.x - STRIP - 8.0, rect.min.y + 12.0), rect.max - vec2(8.0, 12.0));
         self.strip(ui, strip, dynamics, speed);
         tint_switch(ui, rect, kit);
-        done.chosen
+        done
     }
 
     /// The strip of speeds: press or drag it.

@@ -12,6 +12,8 @@ use crate::sound::Sound;
 use crate::strokes::Stroke;
 use crate::view::View;
 
+mod pages;
+
 struct Window {
     context: egui::Context,
     panels: Panels,
@@ -24,15 +26,22 @@ struct Window {
     strokes: Vec<Stroke>,
     gestures: Vec<(usize, Gesture)>,
     sound: Sound,
+    /// Every text of the latest frame, and where it was.
+    texts: Vec<(String, Rect)>,
 }
 
 impl Window {
     fn new() -> Window {
+        Window::with(Library::at(std::path::Path::new("no-such-folder")))
+    }
+
+    /// A window with the presets of a library.
+    fn with(library: Library) -> Window {
         let context = egui::Context::default();
         theme::apply(&context);
         Window {
             context,
-            panels: Panels::new(Library::at(std::path::Path::new("no-such-folder")), View::default()),
+            panels: Panels::new(library, View::default()),
             parameters: HostParameters::default(),
             shapes: Arc::new(dish()),
             snapshot: KitSnapshot::default(),
@@ -42,6 +51,7 @@ impl Window {
             strokes: Vec::new(),
             gestures: Vec::new(),
             sound: Sound::default(),
+            texts: Vec::new(),
         }
     }
 
@@ -65,12 +75,33 @@ impl Window {
             self.panels.show(ui, &inputs, &mut Hands { set: &mut set, play: &mut play });
         });
         output.textures_delta.clear();
+        self.texts.clear();
+        output.shapes.iter().for_each(|clipped| gather(&clipped.shape, &mut self.texts));
         let shapes = self.context.tessellate(output.shapes, output.pixels_per_point);
         let triangles = shapes.iter().map(|shape| match &shape.primitive {
             egui::epaint::Primitive::Mesh(mesh) => mesh.indices.len() / 3,
             egui::epaint::Primitive::Callback(_) => 0,
         });
         triangles.sum()
+    }
+
+    /// Where a text was in the latest frame; of several, the last.
+    fn find(&self, text: &str) -> Option<Pos2> {
+        self.texts.iter().rev().find(|(found, _)| found == text).map(|(_, place)| place.center())
+    }
+
+    /// Clicks on a text.
+    fn click_on(&mut self, text: &str) {
+        let place = self.find(text);
+        self.click(place.unwrap_or_else(|| panic!("there is no `{text}` in {:?}", self.texts)));
+        self.frame(Vec::new());
+    }
+
+    /// Types into what has the focus.
+    fn enter(&mut self, text: &str) {
+        self.frame(vec![Event::Text(text.to_owned())]);
+        self.key(Key::Enter);
+        self.frame(Vec::new());
     }
 
     fn button(&mut self, at: Pos2, button: PointerButton, pressed: bool) {
@@ -119,9 +150,34 @@ impl Window {
         eye.project(body.surface(radius * sin, -radius * cos, 0.0)).0
     }
 
-    /// Does to the parameters what a host would after the gestures since the last call.
-    fn obey(&mut self) -> Vec<(usize, Gesture)> {
+    /// Gestures since the last call.
+    fn gestures(&mut self) -> Vec<(usize, Gesture)> {
         std::mem::take(&mut self.gestures)
+    }
+
+    /// The same, after which the parameters are where a host would have put them.
+    fn obey(&mut self) -> Vec<(usize, Gesture)> {
+        use nice_plug::params::InternalParamMut;
+        let gestures = self.gestures();
+        for &(index, gesture) in &gestures {
+            if let Gesture::Set(value) = gesture {
+                // SAFETY: nobody else has this instance; a value is an atomic.
+                #[allow(unsafe_code)]
+                unsafe {
+                    self.parameters.values()[index]._internal_set_plain_value(value)
+                };
+            }
+        }
+        gestures
+    }
+}
+
+/// Texts of a shape and of those in it.
+fn gather(shape: &egui::Shape, into: &mut Vec<(String, Rect)>) {
+    match shape {
+        egui::Shape::Text(text) => into.push((text.galley.text().to_owned(), text.visual_bounding_rect())),
+        egui::Shape::Vec(shapes) => shapes.iter().for_each(|shape| gather(shape, into)),
+        _ => {}
     }
 }
 
@@ -276,7 +332,7 @@ fn dragging_a_knob_is_one_gesture_upwards() {
     let mut window = Window::new();
     window.frame(Vec::new());
     window.drag(FIRST_KNOB, vec2(0.0, -40.0), PointerButton::Primary);
-    let gestures = window.obey();
+    let gestures = window.gestures();
     assert!(gestures.iter().all(|&(index, _)| index == SNARE_TUNE), "{gestures:?}");
     assert_eq!(gestures.first(), Some(&(SNARE_TUNE, Gesture::Begin)));
     assert_eq!(gestures.last(), Some(&(SNARE_TUNE, Gesture::End)));
@@ -294,7 +350,7 @@ fn dragging_a_knob_is_one_gesture_upwards() {
     // The same with Shift goes a tenth as far.
     window.modifiers = Modifiers::SHIFT;
     window.drag(FIRST_KNOB, vec2(0.0, -40.0), PointerButton::Primary);
-    let fine = window.obey().into_iter().rev().find_map(|(_, gesture)| match gesture {
+    let fine = window.gestures().into_iter().rev().find_map(|(_, gesture)| match gesture {
         Gesture::Set(value) => Some(value),
         _ => None,
     });
@@ -306,18 +362,18 @@ fn an_edit_is_undone_and_redone() {
     let mut window = Window::new();
     window.frame(Vec::new());
     window.drag(FIRST_KNOB, vec2(0.0, -40.0), PointerButton::Primary);
-    let moved = window.obey();
+    let moved = window.gestures();
     let default = window.parameters.values()[SNARE_TUNE].default_plain_value();
     window.modifiers = Modifiers::COMMAND;
     window.key(Key::Z);
     assert_eq!(
-        window.obey(),
+        window.gestures(),
         [Gesture::Begin, Gesture::Set(default), Gesture::End].map(|gesture| (SNARE_TUNE, gesture))
     );
     window.modifiers = Modifiers::COMMAND | Modifiers::SHIFT;
     window.key(Key::Z);
     let last = moved[moved.len() - 2].1;
-    assert_eq!(window.obey()[1], (SNARE_TUNE, last));
+    assert_eq!(window.gestures()[1], (SNARE_TUNE, last));
 }
 
 #[test]
@@ -329,7 +385,7 @@ fn a_double_click_resets() {
     }
     let default = window.parameters.values()[SNARE_TUNE].default_plain_value();
     let reset = [Gesture::Begin, Gesture::Set(default), Gesture::End].map(|g| (SNARE_TUNE, g));
-    assert_eq!(window.obey(), reset);
+    assert_eq!(window.gestures(), reset);
 }
 
 #[test]
@@ -354,7 +410,7 @@ fn a_value_can_be_typed() {
     window.frame(Vec::new());
     assert!(window.strokes.is_empty());
     assert_eq!(
-        window.obey(),
+        window.gestures(),
         [Gesture::Begin, Gesture::Set(250.0), Gesture::End].map(|gesture| (SNARE_TUNE, gesture))
     );
 }
@@ -364,11 +420,11 @@ fn clicking_a_piece_in_the_list_shows_its_parameters() {
     let mut window = Window::new();
     window.frame(Vec::new());
     window.click(pos2(80.0, 60.0));
-    window.obey();
+    window.gestures();
     for pressed in [true, false, true, false] {
         window.press(FIRST_KNOB, pressed);
     }
-    let gestures = window.obey();
+    let gestures = window.gestures();
     assert!(gestures.len() == 3 && gestures.iter().all(|&(index, _)| index == 0), "{gestures:?}");
 }
 

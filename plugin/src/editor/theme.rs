@@ -151,6 +151,11 @@ pub fn caption() -> FontId {
     FontId::proportional(12.0)
 }
 
+/// Marks in diagrams.
+pub fn small() -> FontId {
+    FontId::proportional(10.5)
+}
+
 /// Sets the look of the framework's own widgets, in both palettes.
 pub fn apply(context: &egui::Context) {
     for (theme, palette, mut visuals) in

@@ -111,6 +111,12 @@ impl Assignments {
         Some(self.learning.load(Ordering::Relaxed)).filter(|&note| note != IDLE)
     }
 
+    /// A number that changes with whatever is assigned or waits to be learned.
+    pub fn fingerprint(&self) -> u64 {
+        let bytes = self.notes.iter().chain([&self.learning]).map(|byte| byte.load(Ordering::Relaxed));
+        bytes.fold(0, |mixed: u64, byte| mixed.rotate_left(5).wrapping_mul(31) ^ u64::from(byte))
+    }
+
     /// Tells what is learned that a note arrived.
     ///
     /// # Real-time

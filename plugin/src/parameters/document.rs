@@ -43,7 +43,7 @@ fn row(parameter: &Parameter) -> String {
 
 /// One sentence about what a parameter does.
 pub fn about(parameter: &Parameter) -> &'static str {
-    use super::{Construction::*, Control::*};
+    use super::{Construction::*, Control::*, Stand::*};
     match parameter.drives {
         Drives::Control(Tuning(_)) => "Pitch of the drum; glides over a few milliseconds.",
         Drives::Semitones(_) => "Pitch of the cymbal from its own.",
@@ -66,6 +66,9 @@ pub fn about(parameter: &Parameter) -> &'static str {
         Drives::Control(Pedal) => {
             "The hi-hat's pedal, 0 up and open, 1 down and clamped; a foot takes it there."
         }
+        Drives::Stand(_, Height) => "How much higher than usual the pair of microphones stands.",
+        Drives::Stand(_, Depth) => "How much farther from the drummer than usual it stands.",
+        Drives::Stand(_, Width) => "How far the two are apart, of what is usual.",
         Drives::Playing(manner) => playing(manner),
         Drives::Building(Quality) => "*Built.* How far up cymbals' modes are coupled while the host plays.",
         Drives::Building(OfflineQuality) => "*Built.* The same while the host renders to a file.",

@@ -3,12 +3,12 @@
 use overhear_engine::kit::{Control, Microphone, SILENT_DB};
 use overhear_engine::piece::PieceId;
 
-use super::{Construction, Drives, Manner, Parameter};
+use super::{Construction, Drives, Manner, Parameter, Stand};
 use crate::midi::maps::NoteMap;
 use crate::midi::playing::ChokeRule;
 
 /// Every parameter, in the order hosts see. Frozen: append only.
-pub static PARAMETERS: [Parameter; 80] = {
+pub static PARAMETERS: [Parameter; 86] = {
     use PieceId::*;
     [
         drum_tune(Kick, "Kick", "kktune", "kick_tune", [35.0, 55.0, 90.0]),
@@ -255,6 +255,24 @@ pub static PARAMETERS: [Parameter; 80] = {
             default: 1.0,
             ..choice(Manner::FollowsPrograms, &["off", "on"])
         },
+        moved(
+            "Overheads",
+            "ohup",
+            "overheads_height",
+            (Microphone::Overheads, Stand::Height),
+            (-30.0, 150.0),
+        ),
+        moved(
+            "Overheads",
+            "ohaway",
+            "overheads_depth",
+            (Microphone::Overheads, Stand::Depth),
+            (-150.0, 150.0),
+        ),
+        moved("Overheads", "ohwide", "overheads_width", (Microphone::Overheads, Stand::Width), (10.0, 200.0)),
+        moved("Room", "rmup", "room_height", (Microphone::Room, Stand::Height), (-140.0, 100.0)),
+        moved("Room", "rmaway", "room_depth", (Microphone::Room, Stand::Depth), (-180.0, 300.0)),
+        moved("Room", "rmwide", "room_width", (Microphone::Room, Stand::Width), (10.0, 250.0)),
     ]
 };
 
@@ -269,6 +287,36 @@ const fn microphones(
     control: Control,
 ) -> Parameter {
     Parameter { id, name, label, group: "Microphones", default, ..decibels(control) }
+}
+
+/// Where a pair of microphones stands, from where it does by default: so that it stays there in any layout.
+const fn moved(
+    group: &'static str,
+    id: &'static str,
+    name: &'static str,
+    (pair, stand): (Microphone, Stand),
+    (min, max): (f32, f32),
+) -> Parameter {
+    let (label, unit, usual) = match stand {
+        Stand::Height => ("Height", " cm", 0.0),
+        Stand::Depth => ("Depth", " cm", 0.0),
+        Stand::Width => ("Width", " %", 100.0),
+    };
+    Parameter {
+        id,
+        name,
+        label,
+        group,
+        unit,
+        min,
+        max,
+        default: usual,
+        centre: 0.5 * (min + max),
+        step: 1.0,
+        decimals: 0,
+        drives: Drives::Stand(pair, stand),
+        choices: &[],
+    }
 }
 
 const fn switch(

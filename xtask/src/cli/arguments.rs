@@ -79,6 +79,12 @@ pub enum Task {
         /// A built CLAP plugin; without it the plugin is built and bundled first
         #[arg(long, value_name = "FILE")]
         plugin: Option<PathBuf>,
+        /// Count what an open window costs instead
+        #[arg(long)]
+        cost: bool,
+        /// Only in the dark palette at 1x
+        #[arg(long, conflicts_with = "cost")]
+        glance: bool,
         /// Use the display there is
         #[arg(long, hide = true, requires = "plugin")]
         here: bool,
@@ -371,13 +377,13 @@ pub struct RealismArguments {
     #[arg(long, value_name = "M/S,M/S,...", value_delimiter = ',', value_parser = speed,
           default_values_t = realism::SPEEDS)]
     speeds: Vec<f64>,
-    /// Tune or muffle a piece, as in snare_tune=180 or kick_muffle=.4; repeatable
+    /// Move a parameter from its default, as in snare_tune=180 or quality=offline; repeatable
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
     /// Print one JSON object (see docs/commands.md)
     #[arg(long)]
     pub json: bool,
-    /// Keep the sounds in this folder, as 32-bit float, 20 Pa being full scale
+    /// Keep the sounds in this folder, as 32-bit float
     #[arg(long, value_name = "DIR")]
     wav: Option<PathBuf>,
 }
@@ -392,7 +398,7 @@ impl RealismArguments {
         speeds.sort_by(f64::total_cmp);
         speeds.dedup();
         let subjects = realism::subjects(&self.pieces)?;
-        let settings = realism::settings(&subjects, &self.set)?;
+        let settings = settings::parse(&self.set)?;
         Ok(realism::Request { subjects, speeds, settings, wav: self.wav })
     }
 }

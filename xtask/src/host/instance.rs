@@ -243,6 +243,20 @@ impl Instance {
         Ok(made)
     }
 
+    /// Gives the open editor another size, or the nearest that it takes, and tells which.
+    ///
+    /// # Errors
+    /// If it keeps its size.
+    pub fn resize_editor(&mut self, width: u32, height: u32) -> Result<(u32, u32)> {
+        let gui: PluginGui = self.extension()?;
+        let handle = self.plugin.plugin_handle();
+        ensure!(gui.can_resize(&handle), "the editor cannot be resized");
+        let wanted = GuiSize { width, height };
+        let size = gui.adjust_size(&handle, wanted).context("the editor takes no such size")?;
+        gui.set_size(&handle, size)?;
+        Ok((size.width, size.height))
+    }
+
     /// Closes the editor.
     ///
     /// # Errors

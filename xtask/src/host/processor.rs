@@ -1,7 +1,8 @@
 //! The audio side of an instance.
 
 use anyhow::{Result, anyhow, ensure};
-use clack_host::events::event_types::ParamValueEvent;
+use clack_host::events::UnknownEvent;
+use clack_host::events::event_types::{ParamGestureBeginEvent, ParamGestureEndEvent, ParamValueEvent};
 use clack_host::events::io::{EventBuffer, InputEvents, OutputEvents};
 use clack_host::prelude::*;
 use clack_host::process::StartedPluginAudioProcessor;
@@ -11,6 +12,17 @@ use super::handlers::Host;
 
 /// Outputs there is room for. With more the list of channels would have to grow while ports point into it.
 const PORTS: usize = 16;
+
+/// What a hand does to a parameter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Touch {
+    /// It takes hold.
+    Begin,
+    /// It moves it to a value of the format's.
+    Value(f64),
+    /// It lets go.
+    End,
+}
 
 /// Renders buffers, on the audio thread, between start and stop.
 pub struct Processor {
@@ -85,6 +97,21 @@ impl Processor {
     pub fn moved(&self) -> Vec<(u32, f64)> {
         let values = self.output.iter().filter_map(|event| event.as_event::<ParamValueEvent>());
         values.filter_map(|event| Some((event.param_id()?.get(), event.value()))).collect()
+    }
+
+    /// What hands at the plugin's window did to parameters in the latest buffer, in order: ids and what was done.
+    pub fn touched(&self) -> Vec<(u32, Touch)> {
+        let touch = |event: &UnknownEvent| {
+            if let Some(begin) = event.as_event::<ParamGestureBeginEvent>() {
+                Some((begin.param_id()?.get(), Touch::Begin))
+            } else if let Some(end) = event.as_event::<ParamGestureEndEvent>() {
+                Some((end.param_id()?.get(), Touch::End))
+            } else {
+                let value = event.as_event::<ParamValueEvent>()?;
+                Some((value.param_id()?.get(), Touch::Value(value.value())))
+            }
+        };
+        self.output.iter().filter_map(touch).collect()
     }
 
     /// Asks the plugin to forget all that sounds.

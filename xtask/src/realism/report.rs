@@ -2,9 +2,12 @@
 
 use serde::Serialize;
 
-use super::Subject;
 use super::features::{Feature, Features};
 use super::reference::{self, Figure};
+use super::{Ear, Request, Subject};
+
+/// The goals are about strokes as fast as this or faster, m/s.
+const FIRM: f64 = 3.0;
 
 /// All pieces. The fields are the keys of the JSON and stay.
 #[derive(Debug, Clone, Serialize)]
@@ -13,23 +16,21 @@ pub struct Report {
     pub sample_rate_hz: f64,
     /// Speeds of the strokes, m/s.
     pub speeds_m_s: Vec<f64>,
-    /// `[piece]`.
+    /// `[piece, ear]`: each piece at its close microphone, then in the mix.
     pub pieces: Vec<PieceReport>,
-    /// Over all pieces and speeds.
-    pub ranges: Count,
-    /// Over all pieces and speeds.
-    pub medians: Count,
 }
 
-/// One piece.
+/// One piece as one ear hears it.
 #[derive(Debug, Clone, Serialize)]
 pub struct PieceReport {
     /// Name of the piece.
     pub piece: &'static str,
+    /// How it is heard.
+    pub heard: Ear,
     /// Name of the striker.
     pub striker: &'static str,
-    /// Place, share of the radius.
-    pub at: f64,
+    /// Places, shares of the radius.
+    pub at: [f64; 3],
     /// `[feature]`.
     pub features: Vec<Row>,
     /// How the piece brightens, if that is known of real ones.
@@ -38,6 +39,8 @@ pub struct PieceReport {
     pub ranges: Count,
     /// Figures whose real median only is known, over all speeds.
     pub medians: Count,
+    /// All figures of strokes at 3 m/s and more.
+    pub firm: Count,
 }
 
 /// How many figures lie inside.
@@ -50,6 +53,11 @@ pub struct Count {
 }
 
 impl Count {
+    /// What share lies inside; of nothing, all.
+    pub fn share(self) -> f64 {
+        if self.of == 0 { 1.0 } else { self.inside as f64 / self.of as f64 }
+    }
+
     fn add(self, other: Count) -> Count {
         Count { inside: self.inside + other.inside, of: self.of + other.of }
     }
@@ -68,7 +76,7 @@ pub struct Row {
     pub low: f64,
     /// Most that counts as inside.
     pub high: f64,
-    /// `[speed]`; null for what the stroke does not have.
+    /// `[speed]`: the median of the places; null for what most strokes do not have.
     pub values: Vec<Option<f64>>,
     /// `[speed]`: whether it lies inside.
     pub inside: Vec<bool>,
@@ -88,7 +96,7 @@ pub struct SlopeRow {
 }
 
 /// A measured stroke.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Stroke {
     /// Its figures.
     pub features: Features,
@@ -97,59 +105,88 @@ pub struct Stroke {
 }
 
 impl Row {
-    fn new(figure: &Figure, strokes: &[Stroke]) -> Row {
+    /// `strokes[speed][place]`.
+    fn new(figure: &Figure, strokes: &[Vec<Stroke>]) -> Row {
         let (low, high) = figure.bounds();
-        let values: Vec<_> =
-            strokes.iter().map(|stroke| stroke.features.get(&figure.feature).copied()).collect();
+        let values: Vec<_> = strokes.iter().map(|places| median(figure.feature, places)).collect();
         let inside =
             values.iter().map(|value| value.is_some_and(|value| low <= value && value <= high)).collect();
         let (feature, median, ranged) = (figure.feature.key(), figure.median, figure.range.is_some());
         Row { feature, median, ranged, low, high, values, inside }
     }
 
-    fn count(&self) -> Count {
-        Count { inside: self.inside.iter().filter(|inside| **inside).count(), of: self.inside.len() }
+    /// Over the speeds that are wanted.
+    fn count(&self, speeds: &[f64], wanted: impl Fn(f64) -> bool) -> Count {
+        let inside = || self.inside.iter().zip(speeds).filter(|(_, speed)| wanted(**speed));
+        Count { inside: inside().filter(|(inside, _)| **inside).count(), of: inside().count() }
+    }
+}
+
+/// The median over the places; nothing if most of the strokes do not have it.
+fn median(feature: Feature, places: &[Stroke]) -> Option<f64> {
+    let mut found: Vec<f64> =
+        places.iter().filter_map(|stroke| stroke.features.get(&feature).copied()).collect();
+    found.sort_by(f64::total_cmp);
+    let middle = found.len() / 2;
+    match found.len() {
+        some if 2 * some <= places.len() => None,
+        odd if odd % 2 == 1 => Some(found[middle]),
+        _ => Some(0.5 * (found[middle - 1] + found[middle])),
     }
 }
 
 impl PieceReport {
-    /// Sets a piece's strokes beside the recordings.
-    pub fn new(subject: &Subject, strokes: &[Stroke]) -> PieceReport {
+    /// Sets a piece's strokes, `[speed][place]`, beside the recordings.
+    pub fn new(subject: &Subject, heard: Ear, speeds: &[f64], strokes: &[Vec<Stroke>]) -> PieceReport {
         let features: Vec<Row> =
             reference::figures(subject.name).iter().map(|figure| Row::new(figure, strokes)).collect();
-        let count = |ranged: bool| {
-            features
-                .iter()
-                .filter(|row| row.ranged == ranged)
-                .map(Row::count)
-                .fold(Count::default(), Count::add)
+        let count = |rows: &dyn Fn(&Row) -> bool, wanted: &dyn Fn(f64) -> bool| {
+            let counts = features.iter().filter(|row| rows(row)).map(|row| row.count(speeds, wanted));
+            counts.fold(Count::default(), Count::add)
         };
-        let (ranges, medians) = (count(true), count(false));
-        let strike = subject.strike();
+        let ranges = count(&|row| row.ranged, &|_| true);
+        let medians = count(&|row| !row.ranged, &|_| true);
+        let firm = count(&|_| true, &|speed| speed >= FIRM);
         let slope = reference::slope(subject.name).map(|slope| {
-            let value = growth(slope.feature, strokes);
+            let value = growth(slope.feature, &strokes.concat());
             let inside = value.is_some_and(|value| (value - slope.octaves).abs() <= reference::SLOPE_WITHIN);
             SlopeRow { feature: slope.feature.key(), median: slope.octaves, value, inside }
         });
         PieceReport {
             piece: subject.name,
-            striker: strike.striker.name(),
-            at: strike.radius,
+            heard,
+            striker: subject.strike().striker.name(),
+            at: subject.places,
             features,
             slope,
             ranges,
             medians,
+            firm,
         }
     }
 }
 
 impl Report {
-    /// Counts over all pieces.
-    pub fn new(sample_rate_hz: f64, speeds_m_s: Vec<f64>, pieces: Vec<PieceReport>) -> Report {
-        let sum =
-            |count: fn(&PieceReport) -> Count| pieces.iter().map(count).fold(Count::default(), Count::add);
-        let (ranges, medians) = (sum(|piece| piece.ranges), sum(|piece| piece.medians));
-        Report { sample_rate_hz, speeds_m_s, pieces, ranges, medians }
+    /// Sorts strokes, in the order of the request's subjects, speeds and places, by subject and ear.
+    pub fn new(sample_rate_hz: u32, request: &Request, strokes: &[[Stroke; 2]]) -> Report {
+        let (speeds, mut pieces, mut rest) = (&request.speeds, Vec::new(), strokes);
+        for subject in &request.subjects {
+            let (own, others) = rest.split_at(rest.len().min(speeds.len() * subject.places.len()));
+            rest = others;
+            for (ear, heard) in Ear::ALL.into_iter().enumerate() {
+                let by_speed = own.chunks(subject.places.len());
+                let heard_so = |places: &[[Stroke; 2]]| places.iter().map(|both| both[ear].clone()).collect();
+                let strokes: Vec<Vec<Stroke>> = by_speed.map(heard_so).collect();
+                pieces.push(PieceReport::new(subject, heard, speeds, &strokes));
+            }
+        }
+        Report { sample_rate_hz: f64::from(sample_rate_hz), speeds_m_s: speeds.clone(), pieces }
+    }
+
+    /// Sum of a count over all pieces as one ear hears them.
+    pub fn all(&self, heard: Ear, count: fn(&PieceReport) -> Count) -> Count {
+        let pieces = self.pieces.iter().filter(|piece| piece.heard == heard);
+        pieces.map(count).fold(Count::default(), Count::add)
     }
 }
 
@@ -186,11 +223,22 @@ mod tests {
 
     #[test]
     fn what_is_missing_is_outside_and_what_is_in_range_inside() {
-        let report = PieceReport::new(&SUBJECTS[2], &[stroke(-20.0, 355.0), stroke(-10.0, 3550.0)]);
+        let strokes = [vec![stroke(-20.0, 355.0)], vec![stroke(-10.0, 3550.0)]];
+        let report = PieceReport::new(&SUBJECTS[2], Ear::Close, &[1.5, 5.0], &strokes);
         let row = |key: &str| report.features.iter().find(|row| row.feature == key).unwrap();
         assert_eq!(row("attack_ms").inside, [true, true]);
         assert_eq!(row("centroid_0_50_ms_hz").inside, [true, false]);
         assert_eq!((row("crest_db").values[0], row("crest_db").inside[0]), (None, false));
         assert_eq!(report.ranges, Count { inside: 2, of: 10 });
+        assert_eq!(report.firm, Count { inside: 1, of: 18 });
+    }
+
+    #[test]
+    fn several_places_count_by_their_median_and_need_most_of_them() {
+        let strokes = [300.0, 900.0, 400.0].map(|centroid| stroke(-20.0, centroid));
+        assert_eq!(median(Feature::CentroidFirst, &strokes), Some(400.0));
+        assert_eq!(median(Feature::CentroidFirst, &strokes[..2]), Some(600.0));
+        let only = [strokes[0].clone(), Stroke::default(), Stroke::default()];
+        assert_eq!(median(Feature::CentroidFirst, &only), None);
     }
 }

@@ -2,17 +2,17 @@
 
 use anyhow::Result;
 use overhear::midi_map::{self, Foot};
-use overhear_engine::kit::Control;
 use overhear_engine::piece::PieceId;
 use overhear_engine::strike::Strike;
 
 use crate::bad_input;
 use crate::hear;
-use crate::settings::PieceSetting;
 
 /// A piece as it was recorded.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Subject {
+    /// Places where it is struck, shares of the radius: about the one its note has.
+    pub places: [f64; 3],
     /// The piece's own name, or with what its pedal does.
     pub name: &'static str,
     /// The piece.
@@ -23,15 +23,15 @@ pub struct Subject {
 
 /// All there are recordings of, in the order of the report.
 pub const SUBJECTS: [Subject; 9] = [
-    Subject { name: "kick", piece: PieceId::Kick, note: None },
-    Subject { name: "snare", piece: PieceId::Snare, note: None },
-    Subject { name: "rack-tom", piece: PieceId::RackTom, note: None },
-    Subject { name: "floor-tom", piece: PieceId::FloorTom, note: None },
-    Subject { name: "crash", piece: PieceId::Crash, note: None },
-    Subject { name: "ride", piece: PieceId::Ride, note: None },
-    Subject { name: "splash", piece: PieceId::Splash, note: None },
-    Subject { name: "hi-hat-closed", piece: PieceId::HiHat, note: Some(42) },
-    Subject { name: "hi-hat-open", piece: PieceId::HiHat, note: Some(46) },
+    Subject { name: "kick", places: [0.1, 0.2, 0.3], piece: PieceId::Kick, note: None },
+    Subject { name: "snare", places: [0.15, 0.25, 0.35], piece: PieceId::Snare, note: None },
+    Subject { name: "rack-tom", places: [0.2, 0.3, 0.4], piece: PieceId::RackTom, note: None },
+    Subject { name: "floor-tom", places: [0.25, 0.35, 0.45], piece: PieceId::FloorTom, note: None },
+    Subject { name: "crash", places: [0.9, 0.94, 0.97], piece: PieceId::Crash, note: None },
+    Subject { name: "ride", places: [0.5, 0.6, 0.7], piece: PieceId::Ride, note: None },
+    Subject { name: "splash", places: [0.9, 0.95, 0.97], piece: PieceId::Splash, note: None },
+    Subject { name: "hi-hat-closed", places: [0.9, 0.94, 0.97], piece: PieceId::HiHat, note: Some(42) },
+    Subject { name: "hi-hat-open", places: [0.9, 0.94, 0.97], piece: PieceId::HiHat, note: Some(46) },
 ];
 
 impl Subject {
@@ -47,10 +47,10 @@ impl Subject {
         })
     }
 
-    /// Where its pedal is.
-    pub fn pedal(&self) -> Option<PieceSetting> {
+    /// Where its pedal is, 0 (up) to 1 (down).
+    pub fn pedal(&self) -> Option<f64> {
         match self.note.and_then(midi_map::foot) {
-            Some(Foot::Brought(value)) => Some(PieceSetting { control: Control::Pedal, value }),
+            Some(Foot::Brought(pedal)) => Some(pedal),
             _ => None,
         }
     }
@@ -94,7 +94,7 @@ mod tests {
     #[test]
     fn a_hi_hat_is_measured_closed_and_open() {
         let hats = subjects(&["hi-hat".to_owned()]).unwrap();
-        let pedals: Vec<_> = hats.iter().map(|hat| hat.pedal().expect("a pedal").value).collect();
+        let pedals: Vec<_> = hats.iter().map(|hat| hat.pedal().expect("a pedal")).collect();
         assert!(pedals.len() == 2 && pedals[0] > 0.6 && pedals[1] < 0.6, "{pedals:?}");
     }
 }

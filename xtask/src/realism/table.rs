@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::Ear;
 use super::report::{Count, PieceReport, Report, Row};
 
 impl fmt::Display for Report {
@@ -15,23 +16,45 @@ impl fmt::Display for Report {
             "[a .. b]  10-90 % of real kits        (a .. b)  near the real median, whose range is unknown"
         )?;
         writeln!(f, "< > outside        - cannot be measured: outside")?;
-        writeln!(f, "\n{:<14}{:>22}{:>22}", "", "in the real range", "near the median")?;
-        for piece in &self.pieces {
-            writeln!(f, "{:<14}{:>22}{:>22}", piece.piece, share(piece.ranges), share(piece.medians))?;
+        for heard in Ear::ALL {
+            self.write_shares(f, heard)?;
         }
-        writeln!(f, "{:<14}{:>22}{:>22}", "all", share(self.ranges), share(self.medians))
+        Ok(())
+    }
+}
+
+impl Report {
+    fn write_shares(&self, f: &mut fmt::Formatter, heard: Ear) -> fmt::Result {
+        let all = |f: &mut fmt::Formatter, name: &str, [ranges, medians, firm]: [Count; 3], goal: &str| {
+            let [ranges, medians, firm] = [ranges, medians, firm].map(share);
+            writeln!(f, "{name:<14}{ranges:>22}{medians:>22}{firm:>24}  {goal}")
+        };
+        let goal = format!("goal {:.0} %", 100.0 * heard.goal());
+        let title = format!("\n{}", heard.name());
+        writeln!(
+            f,
+            "{title:<15}{:>22}{:>22}{:>24}  {goal}",
+            "in the real range", "near the median", "all, 3 m/s and more"
+        )?;
+        for piece in self.pieces.iter().filter(|piece| piece.heard == heard) {
+            let reached = if piece.firm.share() >= heard.goal() { "reached" } else { "missed" };
+            all(f, piece.piece, [piece.ranges, piece.medians, piece.firm], reached)?;
+        }
+        let counts: [fn(&PieceReport) -> Count; 3] =
+            [|piece| piece.ranges, |piece| piece.medians, |piece| piece.firm];
+        all(f, "all", counts.map(|count| self.all(heard, count)), "")
     }
 }
 
 fn share(count: Count) -> String {
-    let percent = 100.0 * count.inside as f64 / count.of.max(1) as f64;
-    format!("{} of {} ({percent:.0} %)", count.inside, count.of)
+    format!("{} of {} ({:.0} %)", count.inside, count.of, 100.0 * count.share())
 }
 
 impl PieceReport {
     fn write(&self, f: &mut fmt::Formatter, speeds: &[f64]) -> fmt::Result {
-        let title = format!("{}, {} at {}", self.piece, self.striker, self.at);
-        write!(f, "{title:<32}{:>8}{:>21}", "real", "")?;
+        let places = self.at.map(|place| place.to_string()).join(", ");
+        writeln!(f, "{}, {}: {} at {places}", self.piece, self.heard.name(), self.striker)?;
+        write!(f, "{:<32}{:>8}{:>21}", "", "real", "")?;
         for speed in speeds {
             write!(f, "{:>11}", format!("{speed} m/s"))?;
         }

@@ -93,7 +93,10 @@ impl HostWindow {
     }
 
     /// What is seen, row by row: red, green, blue.
-    fn pixels(&self) -> Result<Vec<u8>> {
+    ///
+    /// # Errors
+    /// If the display does not tell.
+    pub fn pixels(&self) -> Result<Vec<u8>> {
         let (width, height) = self.size;
         let image = self
             .connection

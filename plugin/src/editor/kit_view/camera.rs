@@ -120,6 +120,16 @@ impl Eye {
         add(self.forward, add(scale(self.right, offset.x), scale(self.up, -offset.y)))
     }
 
+    /// How far to the right of the screen a direction goes.
+    pub fn along(&self, direction: V3) -> f32 {
+        dot(direction, self.right)
+    }
+
+    /// How far away from the eye a direction goes.
+    pub fn ahead(&self, direction: V3) -> f32 {
+        dot(direction, self.forward)
+    }
+
     /// Whether a face at `point` with that normal is seen from its front.
     pub fn faces(&self, point: V3, normal: V3) -> bool {
         dot(sub(self.place, point), normal) > 0.0

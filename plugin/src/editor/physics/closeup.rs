@@ -1,11 +1,9 @@
 //! One piece near by: its surface as it moves, or one of its modes alone.
 
 use egui::{Align2, Rect, Sense, Ui, pos2};
-use overhear_engine::cymbal::CymbalSpec;
-use overhear_engine::hi_hat::HiHatSpec;
 use overhear_engine::piece::PieceId;
 
-use super::Seen;
+use super::{Seen, bending};
 use crate::editor::field::{self, Magnifier};
 use crate::editor::kit_view::bodies::{Body, Frame};
 use crate::editor::kit_view::camera::Eye;
@@ -55,7 +53,7 @@ impl Closeup {
         let eye = Eye::new(view, [0.0; 3], [sin * flat, rise, -cos * flat], 3.0 * body.radius);
         let mut scene = Scene::new(eye);
         let modes = &seen.snapshot.pieces[slot].displacement;
-        let (now, elapsed) = ui.input(|input| (input.time, input.stable_dt));
+        let (now, elapsed) = ui.input(|input| (input.time, input.unstable_dt));
         let live = field::displacement(shapes, modes);
         self.magnifier.follow(&live, elapsed);
         let (points, factor) = match mode {
@@ -91,20 +89,10 @@ impl Closeup {
         if moved < 1e-7 {
             return "at rest".to_owned();
         }
-        let plate = match piece {
-            PieceId::Crash => Some(CymbalSpec::crash().plate),
-            PieceId::Ride => Some(CymbalSpec::ride().plate),
-            PieceId::Splash => Some(CymbalSpec::splash().plate),
-            PieceId::HiHat => Some(HiHatSpec::default().top.plate),
-            _ => None,
-        };
         let far = length_text(moved);
-        match plate {
-            Some(plate) => {
-                format!(
-                    "moves {far}, {:.2} of its thickness, drawn {factor:.0} times",
-                    moved / plate.thickness() as f32
-                )
+        match bending::thickness(piece) {
+            Some(thickness) => {
+                format!("moves {far}, {:.2} of its thickness, drawn {factor:.0} times", moved / thickness)
             }
             None => format!("moves {far}, drawn {factor:.0} times"),
         }

@@ -40,7 +40,7 @@ fn head(piece: PieceId) -> Option<MembraneSpec> {
     Some(drum.batter.membrane)
 }
 
-/// Draws the glide of a piece over time; of a plate its energy, which tells how it decays.
+/// Draws the glide of a drum over time.
 pub(super) fn show(
     ui: &Ui,
     rect: Rect,
@@ -48,32 +48,15 @@ pub(super) fn show(
     (slot, now): (usize, f64),
     accent: Color32,
 ) {
-    let drum = head(PieceId::KIT[slot]).is_some();
-    let present = moments.back();
-    let (title, remark) = if drum {
-        let most = moments.iter().map(|moment| moment.cents[slot]).fold(0.0, f32::max);
-        ("Pitch glide", format!("up to +{most:.0} cents"))
-    } else {
-        let energy = present.map_or(0.0, |moment| moment.energy[slot]);
-        ("Decay", crate::editor::plot::energy_text(energy))
-    };
-    let plot = Plot::new(ui, rect, title, &remark);
-    let top = moments.iter().map(|moment| moment.cents[slot]).fold(20.0, f32::max);
+    let most = moments.iter().map(|moment| moment.cents[slot]).fold(0.0, f32::max);
+    let plot = Plot::new(ui, rect, "Pitch glide", &format!("up to +{most:.0} cents"));
+    let top = most.max(20.0);
     let points: Vec<_> = moments
         .iter()
-        .map(|moment| {
-            let x = 1.0 - ((now - moment.time) / MEMORY) as f32;
-            let y = if drum { moment.cents[slot] / (1.1 * top) } else { decades(moment.energy[slot]) };
-            plot.at(x, y)
-        })
+        .map(|moment| plot.at(1.0 - ((now - moment.time) / MEMORY) as f32, moment.cents[slot] / (1.1 * top)))
         .collect();
     plot.curve(&points, accent);
     plot.ends(&format!("{MEMORY:.0} s ago"), "now");
-}
-
-/// Place of an energy (J) between a sleeping piece's and a hard stroke's, 0 to 1.
-fn decades(energy: f32) -> f32 {
-    ((energy.max(1e-10).log10() + 10.0) / 10.5).clamp(0.0, 1.0)
 }
 
 #[cfg(test)]

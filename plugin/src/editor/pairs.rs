@@ -1,0 +1,54 @@
+//! A hand that moves a pair of microphones: gestures on the parameters that say where it stands.
+
+use nice_plug::prelude::{FloatParam, Param};
+use overhear_engine::kit::Microphone;
+
+use super::kit_view::Moved;
+use super::knob::Gesture;
+use crate::parameters::{PARAMETERS, Stand};
+use crate::placing::index_of;
+
+/// Everything that a drag may move.
+const STANDS: [Stand; 3] = [Stand::Height, Stand::Depth, Stand::Width];
+
+/// The pair in a hand. Where it is held is kept apart from the values, which move in steps: slow drags would otherwise be
+/// rounded away.
+#[derive(Debug, Default)]
+pub struct PairHand {
+    values: [f32; STANDS.len()],
+}
+
+impl PairHand {
+    /// Passes on what a hand does.
+    pub fn act(&mut self, moved: Moved, values: &[FloatParam], set: &mut dyn FnMut(usize, Gesture)) {
+        match moved {
+            Moved::Taken(pair) => {
+                for (held, (index, value)) in self.values.iter_mut().zip(parameters(pair, values)) {
+                    *held = value.unmodulated_plain_value();
+                    set(index, Gesture::Begin);
+                }
+            }
+            Moved::Dragged(pair, changes) => {
+                for (place, (index, _)) in parameters(pair, values).enumerate() {
+                    let Some((_, change)) = changes.iter().find(|(stand, _)| *stand == STANDS[place]) else {
+                        continue;
+                    };
+                    let (low, high) = (PARAMETERS[index].min, PARAMETERS[index].max);
+                    self.values[place] = (self.values[place] + change).clamp(low, high);
+                    set(index, Gesture::Set(self.values[place]));
+                }
+            }
+            Moved::Released(pair) => {
+                parameters(pair, values).for_each(|(index, _)| set(index, Gesture::End));
+            }
+        }
+    }
+}
+
+/// The parameters of a pair with their indices, in the order of [`STANDS`].
+fn parameters(pair: Microphone, values: &[FloatParam]) -> impl Iterator<Item = (usize, &FloatParam)> {
+    STANDS.into_iter().filter_map(move |stand| {
+        let index = index_of(pair, stand)?;
+        Some((index, values.get(index)?))
+    })
+}

@@ -1,0 +1,86 @@
+//! How far a plate bends, against its thickness.
+//!
+//! A plate that bends by a small part of its thickness is linear; from about half of it on its modes exchange energy,
+//! which is what makes a crash swell. Taken from the largest displacement of the modes whose shapes are drawn.
+
+use std::collections::VecDeque;
+
+use egui::{Color32, Rect, Stroke, Ui};
+use overhear_engine::cymbal::CymbalSpec;
+use overhear_engine::hi_hat::HiHatSpec;
+use overhear_engine::piece::PieceId;
+use overhear_engine::snapshot::{FieldShapes, PieceSnapshot};
+
+use super::{MEMORY, Moment};
+use crate::editor::field;
+use crate::editor::plot::Plot;
+use crate::editor::theme;
+
+/// Less energy than this bends nothing to speak of, J.
+const LEAST: f32 = 1e-9;
+
+/// Thickness of a piece that is a plate, m.
+pub fn thickness(piece: PieceId) -> Option<f32> {
+    let plate = match piece {
+        PieceId::Crash => CymbalSpec::crash().plate,
+        PieceId::Ride => CymbalSpec::ride().plate,
+        PieceId::Splash => CymbalSpec::splash().plate,
+        PieceId::HiHat => HiHatSpec::default().top.plate,
+        _ => return None,
+    };
+    Some(plate.thickness() as f32)
+}
+
+/// Largest displacement of a plate now over its thickness; nothing of what is none.
+pub fn of(piece: PieceId, state: &PieceSnapshot, shapes: Option<&FieldShapes>) -> f32 {
+    let moves = state.energy > LEAST;
+    let Some((thickness, shapes)) = thickness(piece).zip(shapes).filter(|_| moves) else { return 0.0 };
+    let field = field::displacement(shapes, &state.displacement);
+    field.into_iter().fold(0.0, |most: f32, z| most.max(z.abs())) / thickness
+}
+
+/// Draws the bending over time.
+pub(super) fn show(
+    ui: &Ui,
+    rect: Rect,
+    moments: &VecDeque<Moment>,
+    (slot, now): (usize, f64),
+    accent: Color32,
+) {
+    let most = moments.iter().map(|moment| moment.bending[slot]).fold(0.0, f32::max);
+    let plot = Plot::new(ui, rect, "Bending", &format!("up to {most:.2} of its thickness"));
+    let top = most.max(1.2);
+    let thickness = plot.at(0.0, 1.0 / (1.08 * top)).y;
+    let palette = theme::of(ui);
+    plot.painter().hline(plot.area.x_range(), thickness, Stroke::new(1.0, palette.raised));
+    let points: Vec<_> = moments
+        .iter()
+        .map(|moment| {
+            plot.at(1.0 - ((now - moment.time) / MEMORY) as f32, moment.bending[slot] / (1.08 * top))
+        })
+        .collect();
+    plot.curve(&points, accent);
+    plot.remark_at(thickness, "its thickness");
+    plot.ends(&format!("{MEMORY:.0} s ago"), "now");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use overhear_engine::snapshot::FIELD_MODES;
+
+    #[test]
+    fn bending_counts_in_thicknesses_and_only_of_plates() {
+        let mut shapes = FieldShapes { shapes: vec![[0.0; FIELD_MODES]; 2], ..FieldShapes::default() };
+        shapes.shapes[1][2] = 2.0;
+        let mut state = PieceSnapshot { energy: 1e-3, ..PieceSnapshot::default() };
+        let thickness = thickness(PieceId::Crash).unwrap();
+        state.displacement[2] = 0.25 * thickness;
+        let bending = of(PieceId::Crash, &state, Some(&shapes));
+        assert!((bending - 0.5).abs() < 1e-6, "{bending}");
+        assert_eq!(of(PieceId::Snare, &state, Some(&shapes)), 0.0);
+        assert_eq!(of(PieceId::Crash, &state, None), 0.0);
+        state.energy = 0.0;
+        assert_eq!(of(PieceId::Crash, &state, Some(&shapes)), 0.0);
+    }
+}

@@ -1,0 +1,236 @@
+//! What an open editor costs: the window's threads, and the audio thread beside it.
+//!
+//! Counted is the processor time that the kernel gave to each thread (`/proc/self/task/*/schedstat`), which says the same
+//! on a machine that others use as well. A window's threads are those that were not there before the first one was opened:
+//! the one that draws, the rasterizer's where the processor draws, and the one that watches.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::mpsc::{Sender, channel};
+use std::time::{Duration, Instant};
+
+use anyhow::{Context, Result, ensure};
+
+use super::window::HostWindow;
+use super::{BLOCK, RATE, Shot, pass, play, shot, with_view};
+use crate::host::{Bundle, Instance, Processor};
+
+/// Size of the window, points: the smallest there is.
+const SIZE: [u32; 2] = [800, 500];
+
+/// From the opening to the first count, and how long is counted.
+const SETTLE: Duration = Duration::from_secs(4);
+const COUNTED: Duration = Duration::from_secs(8);
+
+/// From one stroke to the next while the kit rings.
+const BEAT: Duration = Duration::from_millis(250);
+
+/// From the last stroke until nothing sounds any more.
+const SILENCE: Duration = Duration::from_secs(30);
+
+/// Pairs of a closed and an open window by which the audio thread is judged.
+const PAIRS: usize = 7;
+
+/// Strokes of a groove on every piece.
+const GROOVE: &[(u8, f32)] =
+    &[(36, 0.8), (42, 0.6), (38, 0.8), (51, 0.7), (48, 0.8), (49, 0.7), (41, 0.8), (55, 0.6)];
+
+/// Pages that are counted, at rest and ringing.
+const PAGES: &[Shot] = &[
+    shot("kit", 0, 2, &[], 0),
+    shot("physics", 1, 2, &[], 0),
+    shot("mix", 2, 2, &[], 0),
+    shot("settings", 5, 2, &[], 0),
+];
+
+/// Processor time of threads so far, by id.
+type Times = BTreeMap<u64, (String, Duration)>;
+
+/// Counts on the display of the environment, and prints what it finds.
+///
+/// # Errors
+/// If the plugin does not load, its editor does not show, or the system does not tell what threads take.
+pub fn here(plugin: &Path) -> Result<()> {
+    let bundle = Bundle::load(plugin)?;
+    let mut instance = bundle.instantiate()?;
+    let (notes, played) = channel();
+    let audio = AtomicU64::new(0);
+    let own = &audio;
+    let work = move |processor: &mut Processor| {
+        own.store(own_thread()?, Ordering::Release);
+        play(processor, &played)
+    };
+    instance.run_beside(RATE, 1..=BLOCK as u32, work, |instance| {
+        pass(instance, Duration::from_secs(1));
+        let before: BTreeSet<u64> = times()?.into_keys().collect();
+        println!("window of {} x {}, share of a core over {} s", SIZE[0], SIZE[1], COUNTED.as_secs());
+        println!(
+            "{:<10} {:>9} {:>9} {:>9}   threads while ringing",
+            "page", "at rest", "ringing", "frames/s"
+        );
+        for page in PAGES {
+            let window = open(instance, page)?;
+            pass(instance, SETTLE);
+            let resting = count(instance, &before, None)?;
+            let ringing = count(instance, &before, Some(&notes))?;
+            let frames = frames(instance, &window, &notes)?;
+            // A window that has stopped costs nothing, and that is not what is asked.
+            ensure!(frames > 1.0, "the window draws {frames:.1} frames a second of the {} page", page.name);
+            instance.close_editor()?;
+            drop(window);
+            let sum = |shares: &BTreeMap<String, f64>| 100.0 * shares.values().sum::<f64>();
+            let each: Vec<_> =
+                ringing.iter().map(|(name, share)| format!("{name} {:.1} %", 100.0 * share)).collect();
+            println!(
+                "{:<10} {:>7.2} % {:>7.2} % {frames:>9.1}   {}",
+                page.name,
+                sum(&resting),
+                sum(&ringing),
+                each.join(", ")
+            );
+            pass(instance, SILENCE);
+        }
+        let thread = audio.load(Ordering::Acquire);
+        println!("{}", beside(instance, thread, &notes)?);
+        drop(notes);
+        Ok(())
+    })
+}
+
+fn open(instance: &mut Instance, page: &Shot) -> Result<HostWindow> {
+    let state = with_view(&instance.save_state()?, page, (false, 1), SIZE)?;
+    instance.load_state(&state)?;
+    let window = instance.open_editor(|width, height| {
+        let window = HostWindow::open(width, height)?;
+        Ok((window.id(), window))
+    })?;
+    window.wait(instance)?;
+    Ok(window)
+}
+
+/// Shares of a core that threads take which were not there `before`, by name; with strokes, if they have somewhere to go.
+fn count(
+    instance: &mut Instance,
+    before: &BTreeSet<u64>,
+    notes: Option<&Sender<(u8, f32)>>,
+) -> Result<BTreeMap<String, f64>> {
+    if notes.is_some() {
+        // What begins to ring is counted once it does.
+        groove(instance, notes, Duration::from_secs(2))?;
+    }
+    let (first, begun) = (times()?, Instant::now());
+    groove(instance, notes, COUNTED)?;
+    let (last, took) = (times()?, begun.elapsed());
+    let mut shares = BTreeMap::new();
+    for (id, (name, time)) in last.into_iter().filter(|(id, _)| !before.contains(id)) {
+        let earlier = first.get(&id).map_or(Duration::ZERO, |(_, time)| *time);
+        // The rasterizer has a thread for each core, with its number.
+        let name = name.trim_end_matches(|c: char| c.is_ascii_digit() || c == '-').to_owned();
+        *shares.entry(name).or_insert(0.0) += (time - earlier).as_secs_f64() / took.as_secs_f64();
+    }
+    Ok(shares)
+}
+
+/// Lets time pass, with strokes if they have somewhere to go.
+fn groove(instance: &mut Instance, notes: Option<&Sender<(u8, f32)>>, time: Duration) -> Result<()> {
+    let beats = (time.as_secs_f64() / BEAT.as_secs_f64()).round() as usize;
+    for beat in 0..beats {
+        if let Some(notes) = notes {
+            notes.send(GROOVE[beat % GROOVE.len()]).context("nobody plays")?;
+        }
+        pass(instance, BEAT);
+    }
+    Ok(())
+}
+
+/// Different pictures seen a second while the kit rings, as far as one who looks every 15 ms sees them.
+fn frames(instance: &mut Instance, window: &HostWindow, notes: &Sender<(u8, f32)>) -> Result<f64> {
+    const SEEN: Duration = Duration::from_secs(4);
+    let (begun, mut beats, mut pictures) = (Instant::now(), 0, 0);
+    let mut former = Vec::new();
+    while begun.elapsed() < SEEN {
+        if begun.elapsed() >= BEAT * beats {
+            notes.send(GROOVE[beats as usize % GROOVE.len()]).context("nobody plays")?;
+            beats += 1;
+        }
+        let picture = window.pixels()?;
+        pictures += u32::from(picture != former);
+        former = picture;
+        pass(instance, Duration::from_millis(15));
+    }
+    Ok(f64::from(pictures) / begun.elapsed().as_secs_f64())
+}
+
+/// What the audio thread takes with a window open against without, in a line.
+///
+/// Both play the same strokes; closed and open take turns, and the middle of the ratios counts, so that what else goes
+/// on in the machine falls out.
+fn beside(instance: &mut Instance, thread: u64, notes: &Sender<(u8, f32)>) -> Result<String> {
+    let mut ratios = Vec::new();
+    for _ in 0..PAIRS {
+        let closed = audio_time(instance, thread, notes)?;
+        let window = open(instance, &PAGES[0])?;
+        let opened = audio_time(instance, thread, notes)?;
+        instance.close_editor()?;
+        drop(window);
+        ratios.push(opened / closed);
+    }
+    ratios.sort_by(f64::total_cmp);
+    let percent = |ratio: f64| 100.0 * (ratio - 1.0);
+    Ok(format!(
+        "audio thread with the window open: {:+.1} % (middle of {PAIRS}; {:+.1} to {:+.1} %)",
+        percent(ratios[PAIRS / 2]),
+        percent(ratios[0]),
+        percent(ratios[PAIRS - 1])
+    ))
+}
+
+/// Processor time of the audio thread while it plays a groove, s.
+fn audio_time(instance: &mut Instance, thread: u64, notes: &Sender<(u8, f32)>) -> Result<f64> {
+    let of =
+        || -> Result<f64> { Ok(times()?.get(&thread).context("the audio thread is gone")?.1.as_secs_f64()) };
+    groove(instance, Some(notes), Duration::from_secs(1))?;
+    let before = of()?;
+    groove(instance, Some(notes), Duration::from_secs(4))?;
+    Ok(of()? - before)
+}
+
+/// This thread's id.
+fn own_thread() -> Result<u64> {
+    let path = std::fs::read_link("/proc/thread-self").context("the system does not tell its threads")?;
+    let name = path.file_name().and_then(|name| name.to_str()).context("a thread without a name")?;
+    Ok(name.parse()?)
+}
+
+/// What every thread of this process has taken so far.
+fn times() -> Result<Times> {
+    let tasks = std::fs::read_dir("/proc/self/task").context("the system does not tell its threads")?;
+    let one = |folder: &Path| {
+        let id = folder.file_name()?.to_str()?.parse().ok()?;
+        let name = std::fs::read_to_string(folder.join("comm")).ok()?;
+        let spent = std::fs::read_to_string(folder.join("schedstat")).ok()?;
+        let nanoseconds = spent.split_whitespace().next()?.parse().ok()?;
+        Some((id, (name.trim().to_owned(), Duration::from_nanos(nanoseconds))))
+    };
+    // A thread that ends meanwhile is left out.
+    Ok(tasks.flatten().filter_map(|task| one(&task.path())).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn work_of_a_thread_is_counted_as_its_own() {
+        let (thread, before) = (own_thread().unwrap(), times().unwrap());
+        let begun = Instant::now();
+        while begun.elapsed() < Duration::from_millis(50) {
+            std::hint::black_box(begun.elapsed());
+        }
+        let after = times().unwrap();
+        let spent = after[&thread].1 - before[&thread].1;
+        assert!(spent > Duration::from_millis(5) && spent <= Duration::from_millis(100), "{spent:?}");
+    }
+}
