@@ -20,6 +20,7 @@
 //!
 //! Modes at or above half the sample rate are silent: they neither move nor yield.
 
+pub mod faint;
 pub mod folded;
 pub mod front;
 pub mod simd;
@@ -442,7 +443,7 @@ impl ModalBody {
     /// # Real-time
     /// Linear in the number of modes; meant for once a block.
     pub fn flush_quiet(&mut self) {
-        self.kernels.flush(&mut self.state.re, &mut self.state.im);
+        self.kernels.flush(&mut self.state.re, &mut self.state.im, None);
     }
 
     /// Whether nothing moves at all.

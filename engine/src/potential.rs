@@ -459,14 +459,16 @@ impl NonlinearForce {
         self.shift_to(depth);
         // Beyond the depth foretold only by rounding.
         let psi = (2.0 * (energy + self.shift)).max(LEAST_SHIFT).sqrt();
+        let kernels = body.kernels();
         let scale = (self.stiffness / psi) as f32;
-        for (g, &gradient) in self.port.shape_mut().iter_mut().zip(self.gradient.iter()) {
-            *g = scale * gradient;
-        }
-        let ahead: f64 = {
-            let rows = self.port.shape().iter().zip(self.predicted.iter()).zip(self.front.kept());
-            rows.map(|((&g, &to), &from)| f64::from(g * (to - from))).sum()
-        };
+        kernels.vectorized(
+            #[inline(always)]
+            || {
+                let rows = self.port.shape_mut().iter_mut().zip(self.gradient.iter());
+                rows.for_each(|(g, &gradient)| *g = scale * gradient);
+            },
+        );
+        let ahead = f64::from(kernels.dot_difference(self.port.shape(), &self.predicted, self.front.kept()));
         let kinetic = body.kinetic_energy(&self.front);
         let found_anew = lost && energy < FOUND * self.yields_at;
         if std::mem::take(&mut self.fresh) || found_anew {

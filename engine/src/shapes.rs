@@ -28,21 +28,21 @@ pub struct ShapeIndex {
 
 /// Shapes of all modes of one round body.
 pub struct ShapeTable {
-    /// `[radial][r]`, `INTERVALS + 1` values each.
+    /// `[r][radial]`: a stroke reads four whole rows, one after the other.
     radial: Vec<f32>,
+    /// How many radial functions there are.
+    functions: usize,
     /// `[mode]`.
     index: Vec<ShapeIndex>,
     /// `[mode]`: where its weights begin; the two members of a pair mix alike and share theirs.
     starts: Vec<usize>,
     /// Share of each row of each pair.
     weights: Vec<f32>,
-    /// `[mode]`: `cos, sin` of `m * axis`.
-    axes: Vec<[f32; 2]>,
     /// Number of orders.
     orders: usize,
     /// Modes that mix the same rows, and all modes in their order.
     groups: Vec<Group>,
-    grouped: Vec<usize>,
+    grouped: Vec<Mixed>,
     /// `[radial]`: wavenumber of the radial function times the radius; empty if there is no single one.
     waves: Vec<f32>,
     /// Discs (shares of the radius) that have been prepared, and the share of every radial function that each feels.
@@ -56,6 +56,17 @@ struct Group {
     rows: usize,
     /// How many they are.
     modes: usize,
+}
+
+/// A mode among those that mix the same rows: what a stroke needs of it, close together.
+#[derive(Debug, Clone, Copy)]
+struct Mixed {
+    mode: u32,
+    /// Where its weights begin.
+    start: u32,
+    m: u32,
+    /// Shares of `cos(m theta)` and `sin(m theta)` in how it goes around.
+    around: [f32; 2],
 }
 
 /// Orders beyond this would need a larger scratch array; no body has so many.
@@ -76,14 +87,9 @@ impl ShapeTable {
     /// # Panics
     /// If a mode has more nodal diameters (159) or mixes more rows (128) than the engine is made for.
     pub fn new(radial: &[f64], index: Vec<ShapeIndex>) -> ShapeTable {
-        let radial = radial.iter().map(|&value| value as f32).collect();
-        let axes = index
-            .iter()
-            .map(|mode| {
-                let (sin, cos) = (f64::from(mode.m) * mode.axis).sin_cos();
-                [cos as f32, sin as f32]
-            })
-            .collect();
+        let functions = radial.len() / (INTERVALS + 1);
+        let at = |r: usize| (0..functions).map(move |row| radial[row * (INTERVALS + 1) + r] as f32);
+        let radial = (0..=INTERVALS).flat_map(at).collect();
         let orders = index.iter().map(|mode| mode.m as usize + 1).max().unwrap_or(1);
         assert!(orders <= MAX_ORDERS, "{orders} orders");
         let mut starts: Vec<usize> = Vec::with_capacity(index.len());
@@ -101,10 +107,10 @@ impl ShapeTable {
                 }
             }
         }
-        let (groups, grouped) = group(&index);
+        let (groups, grouped) = group(&index, &starts);
         let weights = vec![1.0; total];
         let (waves, felt) = (Vec::new(), Vec::new());
-        ShapeTable { radial, index, starts, weights, axes, orders, groups, grouped, waves, felt }
+        ShapeTable { radial, functions, index, starts, weights, orders, groups, grouped, waves, felt }
     }
 
     /// Tells the wavenumber of every radial function, times the radius, `[radial]`: those of a membrane, of
@@ -159,29 +165,26 @@ impl ShapeTable {
         let mut here = [0.0_f64; MAX_ROWS];
         let mut modes = self.grouped.iter();
         for group in &self.groups {
-            let rows = self.radial[group.radial * (INTERVALS + 1)..].chunks_exact(INTERVALS + 1);
+            let rows = group.radial..group.radial + group.rows;
+            let near: [&[f32]; 4] =
+                std::array::from_fn(|i| &self.radial[(stencil.first + i) * self.functions..][rows.clone()]);
             for (i, (here, row)) in here[..group.rows].iter_mut().zip(rows).enumerate() {
-                let felt = match (known, self.waves.get(group.radial + i)) {
-                    (Some(felt), _) => felt[group.radial + i],
+                let felt = match (known, self.waves.get(row)) {
+                    (Some(felt), _) => felt[row],
                     (None, Some(&wave)) if disc > 0.0 => pressed_share(f64::from(wave) * disc),
                     _ => 1.0,
                 };
-                *here = felt * stencil.blend(|r| f64::from(row[r]));
+                *here = felt * stencil.blend_all(near.map(|near| f64::from(near[i])));
             }
-            let mut latest = (usize::MAX, 0.0);
-            for &k in modes.by_ref().take(group.modes) {
-                let mode = &self.index[k];
+            let mut latest = (u32::MAX, 0.0);
+            for mode in modes.by_ref().take(group.modes) {
                 let [c, s] = around[mode.m as usize];
-                let [c0, s0] = self.axes[k].map(f64::from);
-                let turn = match mode.member {
-                    Member::Cosine => c * c0 + s * s0,
-                    Member::Sine => s * c0 - c * s0,
-                };
-                if latest.0 != self.starts[k] {
-                    let weights = &self.weights[self.starts[k]..][..mode.rows];
-                    latest = (self.starts[k], mixed(weights, &here));
+                let [of_c, of_s] = mode.around.map(f64::from);
+                if latest.0 != mode.start {
+                    let weights = &self.weights[mode.start as usize..][..group.rows];
+                    latest = (mode.start, mixed(weights, &here));
                 }
-                out[k] = (latest.1 * turn) as f32;
+                out[mode.mode as usize] = (latest.1 * (c * of_c + s * of_s)) as f32;
             }
         }
     }
@@ -201,7 +204,7 @@ fn mixed(weights: &[f32], values: &[f64]) -> f64 {
 }
 
 /// Modes by the rows they mix.
-fn group(index: &[ShapeIndex]) -> (Vec<Group>, Vec<usize>) {
+fn group(index: &[ShapeIndex], starts: &[usize]) -> (Vec<Group>, Vec<Mixed>) {
     let rows = |&k: &usize| (index[k].radial, index[k].rows);
     let mut grouped: Vec<usize> = (0..index.len()).collect();
     grouped.sort_by_key(rows);
@@ -211,7 +214,16 @@ fn group(index: &[ShapeIndex]) -> (Vec<Group>, Vec<usize>) {
         assert!(rows <= MAX_ROWS, "{rows} rows");
         Group { radial, rows, modes: modes.len() }
     });
-    (groups.collect(), grouped)
+    let mixed = |&k: &usize| {
+        let ShapeIndex { m, member, axis, .. } = index[k];
+        let (sin, cos) = (f64::from(m) * axis).sin_cos();
+        let around = match member {
+            Member::Cosine => [cos as f32, sin as f32],
+            Member::Sine => [-sin as f32, cos as f32],
+        };
+        Mixed { mode: k as u32, start: starts[k] as u32, m, around }
+    };
+    (groups.collect(), grouped.iter().map(mixed).collect())
 }
 
 #[cfg(test)]

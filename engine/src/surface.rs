@@ -23,6 +23,7 @@ pub mod wires;
 use crate::contact::Material;
 use crate::drum::high_band::HighBand;
 use crate::hi_hat::pair::Pair;
+use crate::modal::faint::Faint;
 use crate::modal::simd::MAX_RUN;
 use crate::modal::{EARS, ModalBody, Mode, Pickup};
 use crate::potential::{NonlinearForce, Potential};
@@ -69,6 +70,8 @@ pub struct SurfaceParts {
 /// The surface and everything that touches it.
 pub struct Surface {
     body: ModalBody,
+    /// Below what its modes may sleep.
+    faint: Faint,
     shapes: ShapeTable,
     pickup: Pickup,
     material: Material,
@@ -148,6 +151,7 @@ impl Surface {
         let mut pickup = Pickup::new(parts.transfer);
         body.tune(&mut pickup);
         Surface {
+            faint: Faint::new(body.len()),
             body,
             shapes: parts.shapes,
             pickup,
@@ -181,6 +185,14 @@ impl Surface {
     pub fn set_potential(&mut self, potential: Box<dyn Potential>, modes: usize, stride: u32) {
         let force = NonlinearForce::new(potential, modes, stride, (&self.body, &self.pickup), 1.0 / self.dt);
         self.beyond = Some(force);
+        self.learn_faint();
+    }
+
+    /// Works out below what modes may sleep: those that neither the air nor what is beyond the modes drives.
+    fn learn_faint(&mut self) {
+        let coupled = self.beyond.as_ref().map_or(0, |force| force.front().length());
+        let driven = self.listener.as_ref().map(Listener::port);
+        self.body.learn_faint(&mut self.faint, &self.pickup, coupled, driven);
     }
 
     /// Lets high bands listen: the near one to strikers, the far one to wires.
@@ -331,6 +343,7 @@ impl Surface {
     /// Tells everything that hangs on the modes, or on how they are heard, that they have changed.
     fn follow_modes(&mut self) {
         self.body.tune(&mut self.pickup);
+        self.learn_faint();
         if let Some(force) = &mut self.beyond {
             force.follow(&self.body, &self.pickup);
         }
@@ -446,7 +459,11 @@ impl Surface {
     /// # Real-time
     /// Linear in the number of modes; meant for once a block.
     pub fn settle(&mut self) -> bool {
-        self.body.flush_quiet();
+        // What touches may drive modes, by less in a block than what could be forgotten.
+        match self.live_count == 0 && self.pair.is_none() && !self.lossless {
+            true => self.body.flush_faint(&self.faint),
+            false => self.body.flush_quiet(),
+        }
         self.rim.iter_mut().for_each(|rim| rim.body.flush_quiet());
         self.beyond.iter_mut().for_each(NonlinearForce::settle);
         let high = self.high.iter_mut().chain(&mut self.far_high).all(HighBand::settle);

@@ -56,8 +56,8 @@ pub struct Stretch {
     blocks: Vec<Block>,
     /// The blocks' matrices, 1/m2, as [`Kernels::blocks`] wants them.
     matrix: Row,
-    /// The mode of the body, and its row.
-    modes: Vec<(u32, u32)>,
+    /// The rows of the body's first modes, `[mode]`.
+    rows: Vec<u32>,
     /// Displacements in the order of the blocks, and their product with the matrix.
     sorted: Row,
     product: Row,
@@ -96,6 +96,7 @@ impl Stretch {
         }
         // In the order of the modes, so that their displacements are read in one go.
         modes.sort_unstable();
+        let rows = modes.into_iter().map(|(_, row)| row).collect();
         let mut matrix = zero_row(columns.len());
         matrix.copy_from_slice(&columns);
         let stretch = Stretch {
@@ -104,7 +105,7 @@ impl Stretch {
             kernels: Kernels::detect(),
             blocks,
             matrix,
-            modes,
+            rows,
             sorted: zero_row(start),
             product: zero_row(start),
         };
@@ -113,8 +114,8 @@ impl Stretch {
 
     /// `S` at displacements `q`; leaves half its gradient in `product`, in the order of the blocks.
     fn form(&mut self, q: &[f32]) -> f64 {
-        for &(mode, row) in &self.modes {
-            self.sorted[row as usize] = q[mode as usize];
+        for (&row, &q) in self.rows.iter().zip(q) {
+            self.sorted[row as usize] = q;
         }
         let Stretch { kernels, blocks, matrix, sorted, product, .. } = self;
         kernels.blocks(BlockProduct { blocks, matrix, x: sorted, y: product });
@@ -137,8 +138,8 @@ impl Potential for Stretch {
             (self.stiffness * self.yielding * self.yielding + slope * (s - self.yielding), slope)
         };
         let factor = 2.0 * slope as f32;
-        for &(mode, row) in &self.modes {
-            gradient[mode as usize] = factor * self.product[row as usize];
+        for (gradient, &row) in gradient.iter_mut().zip(&self.rows) {
+            *gradient = factor * self.product[row as usize];
         }
         Evaluation { energy, depth: 0.0 }
     }

@@ -29,7 +29,12 @@ impl Stencil {
 
     /// The value between, `value(i)` being the table's.
     pub fn blend(&self, value: impl Fn(usize) -> f64) -> f64 {
-        self.weights.iter().enumerate().map(|(i, weight)| weight * value(self.first + i)).sum()
+        self.blend_all(std::array::from_fn(|i| value(self.first + i)))
+    }
+
+    /// The value between, given the four.
+    pub fn blend_all(&self, values: [f64; 4]) -> f64 {
+        self.weights.iter().zip(values).map(|(weight, value)| weight * value).sum()
     }
 }
 

@@ -7,6 +7,7 @@
 
 pub mod blocks;
 pub mod driven;
+pub mod flush;
 pub mod folded;
 pub mod front;
 pub mod level;
@@ -25,10 +26,6 @@ pub const LANES: usize = 16;
 
 /// Longest stretch of samples [`Kernels::ring`] takes.
 pub const MAX_RUN: usize = 32;
-
-/// Below this a mode's state is set to zero: 20 decades under the motion of a soft stroke, and
-/// 18 above the smallest normal `f32`. *Derived*.
-const QUIET: f32 = 1e-20;
 
 /// The kernels for one instruction set.
 #[derive(Clone, Copy)]
@@ -132,11 +129,6 @@ impl Kernels {
     pub fn ring(&self, ring: &mut Ring<'_>) {
         ring.check();
         self.run(ring);
-    }
-
-    /// Zeroes the modes whose state has decayed to nothing.
-    pub fn flush(&self, re: &mut [f32], im: &mut [f32]) {
-        self.run(Flush { re, im });
     }
 
     /// Whether every value is exactly zero.
@@ -560,24 +552,4 @@ fn ring_groups<S: Simd, const G: usize, const E: usize, const DRIVEN: bool>(
     }
     re[first..first + G].copy_from_slice(&z_re);
     im[first..first + G].copy_from_slice(&z_im);
-}
-
-struct Flush<'a> {
-    re: &'a mut [f32],
-    im: &'a mut [f32],
-}
-
-impl Kernel for Flush<'_> {
-    type Output = ();
-    #[inline(always)]
-    fn with<S: Simd>(self, simd: S, _: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s + Copy) {
-        let (quiet, zero) = (simd.splat_f32s(QUIET), simd.splat_f32s(0.0));
-        let (re, im) = (S::as_mut_simd_f32s(self.re).0, S::as_mut_simd_f32s(self.im).0);
-        for (re, im) in re.iter_mut().zip(im) {
-            let size = simd.max_f32s(simd.abs_f32s(*re), simd.abs_f32s(*im));
-            let gone = simd.less_than_f32s(size, quiet);
-            *re = simd.select_f32s(gone, zero, *re);
-            *im = simd.select_f32s(gone, zero, *im);
-        }
-    }
 }

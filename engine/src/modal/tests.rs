@@ -1,5 +1,6 @@
 use std::f64::consts::TAU;
 
+use super::faint::Faint;
 use super::*;
 
 fn single(frequency_hz: f64, sigma: f64, mass: f64, rate: f64) -> (ModalBody, Port) {
@@ -216,6 +217,27 @@ fn quiet_modes_become_exactly_zero() {
         body.flush_quiet();
     }
     assert!(body.is_still());
+}
+
+#[test]
+fn modes_that_sleep_early_are_missed_by_less_than_the_bound() {
+    let (mut early, pickup) = choir(Kernels::detect());
+    let (mut late, _) = choir(Kernels::detect());
+    let mut faint = Faint::new(early.len());
+    early.learn_faint(&mut faint, &pickup, 0, None);
+    let (mut missed, mut sooner) = (0.0_f32, 0);
+    for _ in 0..60_000 {
+        let (mut a, mut b) = ([0.0; 32], [0.0; 32]);
+        ring(&mut early, &pickup, &mut a);
+        ring(&mut late, &pickup, &mut b);
+        early.flush_faint(&faint);
+        late.flush_quiet();
+        missed = a.iter().zip(b).fold(missed, |most, (a, b)| most.max((a - b).abs()));
+        sooner += usize::from(early.is_still() && !late.is_still());
+    }
+    assert!(missed > 0.0 && missed < 2e-5, "{missed} Pa");
+    assert!(sooner > 100, "sooner still in {sooner} blocks");
+    assert!(late.is_still());
 }
 
 /// What the near ear hears.

@@ -41,6 +41,11 @@ impl Listener {
         self.direct = pickup.direct_at(body, &self.port);
     }
 
+    /// Where the air presses.
+    pub(super) fn port(&self) -> &Port {
+        &self.port
+    }
+
     /// The port with its pressures, if there is any from sample `from` of the run on.
     pub(super) fn drive<'a>(&'a self, incident: Incident<'a>, from: usize) -> Option<(&'a Port, &'a [f32])> {
         let pressures = &incident[from..];
