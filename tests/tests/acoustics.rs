@@ -2,16 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use overhear_engine::contact::Material;
-use overhear_engine::damping::LossLaw;
 use overhear_engine::drum::{Drum, DrumSpec};
-use overhear_engine::membrane::{Membrane, MembraneSpec, ModeRange, Surroundings, vacuum_tension};
-use overhear_engine::modal::{Mode, Port};
-use overhear_engine::piece::{BuildOptions, Member, ModeInfo, ModeKind, Piece, PieceId};
-use overhear_engine::shapes::{ShapeIndex, ShapeTable};
+use overhear_engine::piece::{BuildOptions, ModeInfo, ModeKind, Piece, PieceId};
 use overhear_engine::strike::Striker;
-use overhear_engine::surface::{Surface, SurfaceParts};
-use overhear_tests::{Spectrum, build, cents, decibels, piece, render, round_piece, stroke};
+use overhear_tests::{build, cents, decibels, piece, render, round_piece, stroke};
+use xtask::report::modal;
 
 const RATE: f64 = 44_100.0;
 
@@ -22,124 +17,12 @@ fn mode_of(piece: &Piece, m: u32, n: u32) -> ModeInfo {
     *found.expect("a mode of those orders")
 }
 
-/// A head in vacuum without losses, `(0,1)` at 100 Hz, and so thin that its bending is nothing.
-fn ideal_head() -> Surface {
-    let spec =
-        MembraneSpec { radius: 0.3, thickness: 0.02e-3, material: Material::FILM, loss: LossLaw::NONE };
-    let tension = vacuum_tension(&spec, 2.404_825_557_695_773, 100.0);
-    let range = ModeRange { reference_tension: tension, limit_hz: 1500.0 };
-    let membrane = Membrane::new(spec, Surroundings::Vacuum, &range).unwrap();
-    let (mut modes, mut index) = (Vec::new(), Vec::new());
-    for (radial, mode) in membrane.modes().iter().enumerate() {
-        let ringing = membrane.ringing(mode, tension);
-        modes.push(Mode { omega: ringing.omega, sigma: ringing.sigma, mass: ringing.mass });
-        index.push(ShapeIndex { radial, rows: 1, m: mode.m, member: Member::Cosine, axis: 0.0 });
-    }
-    Surface::new(SurfaceParts {
-        transfer: vec![[1.0, 0.0]; modes.len()],
-        modes,
-        shapes: ShapeTable::new(&membrane.radial_shapes(&ShapeTable::radii()), index),
-        material: Material::FILM,
-        lossless: true,
-        sample_rate: RATE,
-    })
-}
-
 #[test]
 fn a_struck_head_in_vacuum_sounds_the_ratios_of_the_bessel_zeros() {
-    // Zeros j_mn over j_01. Abramowitz & Stegun, table 9.5.
-    const ZEROS: [f64; 8] = [
-        2.404_825_557_695_773,
-        3.831_705_970_207_512,
-        5.135_622_301_840_683,
-        5.520_078_110_286_311,
-        6.380_161_895_923_984,
-        7.015_586_669_815_619,
-        7.588_342_434_503_804,
-        8.417_244_140_399_865,
-    ];
-    let mut head = ideal_head();
-    head.strike(&stroke(Striker::TimpaniMallet, 1.0, 0.43, 0.1));
-    let mut sound = vec![0.0; 10 * RATE as usize];
-    sound.chunks_mut(32).for_each(|block| head.render(block));
-    // From when the mallet has left.
-    let spectrum = Spectrum::hann(&sound[RATE as usize..], RATE);
-    let lowest = spectrum.line(100.0, 5.0);
-    for zero in ZEROS {
-        let ratio = zero / ZEROS[0];
-        let got = spectrum.line(100.0 * ratio, 5.0) / lowest;
-        println!("{ratio:.6}: {:+.4} cents", cents(got, ratio));
-        assert!(cents(got, ratio).abs() < 1.0, "{got} for {ratio}");
+    for (ratio, off) in modal::bessel_ratios() {
+        println!("{ratio:.6}: {off:+.4} cents");
+        assert!(off.abs() < 1.0, "{off} cents for {ratio}");
     }
-}
-
-/// Sets every mode of a piece in motion, about equally strongly.
-fn excite_all(piece: &mut Piece) {
-    let body = piece.surface_mut().body_mut();
-    let count = body.len();
-    let mut port = Port::new(count);
-    port.shape_mut()[..count].fill(1.0);
-    body.connect(&mut port);
-    body.push(&port, 100.0);
-}
-
-/// `[mode]`: `(q' + sigma q) / omega_d` and `q`, or `None` at rest.
-fn states(piece: &mut Piece) -> Vec<Option<(f64, f64)>> {
-    let body = piece.surface_mut().body();
-    (0..body.len())
-        .map(|k| {
-            let (mode, q) = (body.modes()[k], f64::from(body.displacement(k)));
-            let p = (body.velocity(k) + mode.sigma * q) / mode.omega_d();
-            (p.hypot(q) > 1e-15).then_some((p, q))
-        })
-        .collect()
-}
-
-/// One mode of a piece left to ring, against what the piece says of it.
-#[derive(Debug, Clone, Copy, Default)]
-struct Rung {
-    /// How far above its frequency it rang, cents.
-    off: f64,
-    /// How much faster it decayed, relative.
-    decay: f64,
-    /// Turns it was followed for.
-    turns: f64,
-}
-
-/// What a piece says of the modes of its body; what it does above them is heard, not followed, and a rim is
-/// a body of its own, and so is a hi-hat's lower cymbal.
-fn body_modes(piece: &Piece) -> Vec<ModeInfo> {
-    let of_body = |mode: &ModeInfo| mode.kind != ModeKind::Sampled && !["rim", "bottom"].contains(&mode.body);
-    piece.modes().into_iter().filter(of_body).collect()
-}
-
-/// Strikes every mode and follows its phase and size while the piece renders; `[mode]`.
-fn follow(piece: &mut Piece, seconds: f64) -> Vec<Rung> {
-    // Often enough that a mode half a cent off is followed without losing a turn.
-    const LOOK: usize = 2048;
-    let modes = body_modes(piece);
-    excite_all(piece);
-    let start = states(piece);
-    let mut gained = vec![0.0; modes.len()];
-    let mut rung = vec![Rung::default(); modes.len()];
-    let mut sound = vec![0.0; LOOK];
-    for look in 1..=(seconds * RATE) as usize / LOOK {
-        piece.render(&mut sound);
-        let time = (look * LOOK) as f64 / RATE;
-        for (k, now) in states(piece).into_iter().enumerate() {
-            let (Some((p0, q0)), Some((p, q))) = (start[k], now) else { continue };
-            let angle = TAU * modes[k].frequency_hz * time;
-            let off = q.atan2(p) - q0.atan2(p0) - angle - gained[k];
-            gained[k] += off - TAU * (off / TAU).round();
-            let sigma = (p0.hypot(q0) / p.hypot(q)).ln() / time;
-            rung[k] = Rung {
-                off: cents(1.0 + gained[k] / angle, 1.0),
-                decay: sigma * modes[k].t60 / 1000.0_f64.ln() - 1.0,
-                turns: angle / TAU,
-            };
-        }
-    }
-    rung
 }
 
 #[test]
@@ -147,14 +30,18 @@ fn every_mode_of_every_piece_rings_at_its_frequency_and_decays_at_its_rate() {
     let mut worst = (0.0_f64, 0.0_f64);
     for id in PieceId::ALL {
         let mut piece = piece(id, RATE);
-        for (mode, rung) in body_modes(&piece).iter().zip(follow(&mut piece, 8.0)) {
+        let modes = modal::body_modes(&piece).len();
+        let rung = modal::follow(&mut piece, 8.0);
+        assert_eq!(rung.len(), modes, "{id:?}: some do not move");
+        for (mode, rung) in rung {
             if mode.frequency_hz >= 0.5 * RATE {
                 continue;
             }
+            let decay = modal::decay_error(&mode, &rung);
             assert!(rung.turns > 5.0, "{id:?} {mode:?}: {rung:?}");
             assert!(rung.off.abs() < 0.05, "{id:?} {mode:?}: {rung:?}");
-            assert!(rung.decay.abs() < 1e-3, "{id:?} {mode:?}: {rung:?}");
-            worst = (worst.0.max(rung.off.abs()), worst.1.max(rung.decay.abs()));
+            assert!(decay.abs() < 1e-3, "{id:?} {mode:?}: {rung:?}");
+            worst = (worst.0.max(rung.off.abs()), worst.1.max(decay.abs()));
         }
     }
     println!("worst: {:.5} cents, decay {:.2e}", worst.0, worst.1);
@@ -162,44 +49,11 @@ fn every_mode_of_every_piece_rings_at_its_frequency_and_decays_at_its_rate() {
 
 #[test]
 fn a_held_force_bends_every_piece_by_its_static_deflection() {
-    const FORCE: f64 = 3.0;
-    let mut worst = 0.0_f64;
     for id in PieceId::ALL {
-        let mut piece = piece(id, RATE);
-        let surface = piece.surface_mut();
-        let mut port = Port::new(surface.body().len());
-        surface.shapes().fill(0.37, 0.8, port.shape_mut());
-        let body = surface.body_mut();
-        body.connect(&mut port);
-        // Laid on slowly, so that little is left to ring.
-        let (ramp, hold) = (4 * RATE as usize, 2 * RATE as usize);
-        for sample in 0..ramp + hold {
-            let share = (sample as f64 / ramp as f64).min(1.0);
-            let force = FORCE * (0.5 - 0.5 * (0.5 * TAU * share).cos());
-            body.step();
-            body.push(&port, force as f32);
-        }
-        let exact: f64 = body
-            .modes()
-            .iter()
-            .zip(port.shape())
-            .map(|(mode, &shape)| f64::from(shape).powi(2) * FORCE / (mode.mass * mode.omega.powi(2)))
-            .sum();
-        let ratio = body.displacement_at(&port) / exact;
-        worst = worst.max((ratio - 1.0).abs());
-        assert!((ratio - 1.0).abs() < 1e-3, "{id:?}: {ratio}");
-        for (k, mode) in body.modes().iter().enumerate() {
-            let shape = f64::from(port.shape()[k]);
-            let exact = shape * FORCE / (mode.mass * mode.omega.powi(2));
-            // A mode whose node lies there has nothing to measure.
-            if shape.abs() > 0.01 {
-                let ratio = f64::from(body.displacement(k)) / exact;
-                worst = worst.max((ratio - 1.0).abs());
-                assert!((ratio - 1.0).abs() < 1e-3, "{id:?} {mode:?}: {ratio}");
-            }
-        }
+        let worst = modal::worst_deflection(id);
+        println!("{id:?}: {worst:.2e}");
+        assert!(worst < 1e-3, "{id:?}: {worst}");
     }
-    println!("worst: {worst:.2e}");
 }
 
 #[test]

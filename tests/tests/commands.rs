@@ -305,6 +305,31 @@ fn the_commands_of_the_readme_and_the_manual_exist() {
     }
 }
 
+/// Those that take minutes are run by whoever runs this: `test` runs the tests and `bundle`, the workflow `test`, `demo`
+/// and `report`; that all are understood is another test's claim (`tidy.rs`).
+#[test]
+fn the_short_commands_of_the_readme_do_what_it_says() {
+    let folder = Folder::new("readme");
+    folder.file("song.mid", SONG);
+    fs::create_dir(folder.0.join("songs")).unwrap();
+    folder.file("songs/one.mid", SONG);
+    folder.file("songs/two.mid", SONG);
+    let readme = fs::read_to_string(root().join("README.md")).unwrap();
+    let lines: Vec<&str> = readme
+        .lines()
+        .filter_map(|line| line.strip_prefix("cargo xtask "))
+        .map(|line| line.split(" #").next().unwrap_or(line).trim())
+        .filter(|line| ["render", "hear", "modes"].iter().any(|command| line.starts_with(command)))
+        .collect();
+    assert!(lines.len() >= 6, "{lines:?}");
+    for line in lines {
+        folder.succeed(&line.split_whitespace().collect::<Vec<_>>());
+    }
+    for file in ["song.wav", "snare.wav", "sounds/two.wav", "stems/two/kick.wav"] {
+        assert!(folder.0.join(file).exists(), "{file}: {:?}", folder.names());
+    }
+}
+
 #[test]
 fn every_option_of_the_manual_exists() {
     let folder = Folder::new("options");

@@ -23,17 +23,6 @@ fn every_path_the_architecture_names_exists() {
 }
 
 #[test]
-fn every_file_the_readme_links_to_exists() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let text = std::fs::read_to_string(root.join("README.md")).unwrap();
-    let links: Vec<&str> = text.split("](").skip(1).filter_map(|rest| rest.split(')').next()).collect();
-    assert!(links.len() >= 3, "{links:?}");
-    let missing: Vec<_> =
-        links.iter().filter(|link| !link.contains("://") && !root.join(link).exists()).collect();
-    assert!(missing.is_empty(), "not there: {missing:?}");
-}
-
-#[test]
 fn the_pages_that_come_from_the_code_are_up_to_date() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     for (path, text) in xtask::manual::pages() {

@@ -2,15 +2,15 @@
 
 use std::f64::consts::TAU;
 
-use overhear_engine::cavity::{CavitySpec, HeadShape};
 use overhear_engine::damping::Muffler;
-use overhear_engine::drum::build::Blueprint;
 use overhear_engine::drum::spec::PILLOW;
 use overhear_engine::drum::{Drum, DrumSpec};
 use overhear_engine::piece::{BuildOptions, ModeInfo, ModeKind, Piece, PieceId};
 use overhear_engine::strike::{Strike, Striker};
 use overhear_tests::{Spectrum, build, cents, decibels, piece, render, stroke};
 use xtask::hear::{Measurement, Request};
+use xtask::report;
+use xtask::report::heads::mode_of;
 
 const RATE: f64 = 44_100.0;
 
@@ -148,12 +148,6 @@ fn hear(id: PieceId, strike: Strike, options: BuildOptions) -> Measurement {
     xtask::hear::run(&request).unwrap()
 }
 
-/// The mode `(m, n)` of the struck head.
-fn mode_of(piece: &Piece, m: u32, n: u32) -> ModeInfo {
-    let of_batter = |mode: &ModeInfo| (mode.body, mode.m, mode.n) == ("batter", m, n);
-    piece.modes().into_iter().find(of_batter).unwrap()
-}
-
 #[test]
 fn a_kettle_stretches_the_timpanis_ratios_keeps_it_in_tune_and_shortens_its_thud() {
     let options = BuildOptions { unsplit: true, ..BuildOptions::new(RATE) };
@@ -178,25 +172,9 @@ fn a_kettle_stretches_the_timpanis_ratios_keeps_it_in_tune_and_shortens_its_thud
 
 #[test]
 fn a_stroke_in_the_centre_leaves_all_asymmetric_modes_90_db_down() {
-    for (id, _) in drums() {
-        let mut drum = build(id, &BuildOptions { unsplit: true, ..BuildOptions::new(RATE) });
-        drum.strike(&stroke(Striker::Stick, 4.0, 0.0, 0.7));
-        render(&mut drum, 0.05, RATE);
-        let modes = drum.modes();
-        let body = drum.surface_mut().body();
-        let largest = |round: bool| {
-            let modes = modes.iter().take(body.len()).enumerate();
-            let of_kind = modes.filter(|(_, mode)| (mode.m == 0) == round);
-            let size = |(k, mode): (usize, &ModeInfo)| {
-                (body.velocity(k) / (TAU * mode.frequency_hz)).hypot(f64::from(body.displacement(k)))
-            };
-            of_kind.map(size).fold(0.0, f64::max)
-        };
-        // The wires of a snare do not lie around its centre.
-        if id == PieceId::Snare {
-            continue;
-        }
-        let down = decibels(largest(true), largest(false).max(1e-30));
+    // The wires of a snare do not lie around its centre.
+    for id in [PieceId::Kick, PieceId::RackTom, PieceId::FloorTom, PieceId::Timpani] {
+        let down = report::heads::centre_rejection(id);
         println!("{id:?}: {down:.0} dB");
         assert!(down > 90.0, "{id:?}: {down}");
     }
@@ -219,28 +197,14 @@ fn a_floor_tom_of_one_head_glides_by_25_and_91_cents_and_a_soft_stroke_by_no_mor
 
 #[test]
 fn a_pillow_takes_6_db_off_a_kicks_boom() {
-    let boom = |muffling: f64| {
-        let mut kick = piece(PieceId::Kick, RATE);
-        kick.set_muffling(muffling);
-        kick.finish_controls();
-        kick.strike(&stroke(Striker::FeltBeater, 4.0, 0.2, 0.0));
-        let sound = render(&mut kick, 0.6, RATE);
-        let spectrum = Spectrum::hann(&sound[(0.1 * RATE) as usize..], RATE);
-        loudness(&spectrum, 30.0, 120.0)
-    };
-    let down = decibels(boom(0.0), boom(1.0));
+    let down = report::drums::pillow_db();
     println!("{down:.1} dB");
     assert!(down >= 6.0, "{down}");
 }
 
 #[test]
 fn a_plastic_beater_is_6_db_brighter_than_felt() {
-    let click = |striker| {
-        let mut kick = piece(PieceId::Kick, RATE);
-        kick.strike(&stroke(striker, 3.0, 0.2, 0.0));
-        loudness(&Spectrum::new(&render(&mut kick, 1.0, RATE), RATE), 4000.0, 20_000.0)
-    };
-    let brighter = decibels(click(Striker::PlasticBeater), click(Striker::FeltBeater));
+    let brighter = report::drums::plastic_db();
     println!("{brighter:.1} dB");
     assert!(brighter >= 6.0, "{brighter}");
 }
@@ -248,15 +212,7 @@ fn a_plastic_beater_is_6_db_brighter_than_felt() {
 #[test]
 fn a_stick_at_5_m_s_is_louder_than_at_1_and_hardly_brighter_a_hard_mallet_is_brighter_than_felt() {
     for (id, at, expected) in [(PieceId::Snare, 0.3, 14.0), (PieceId::RackTom, 0.4, 15.0)] {
-        let [soft, hard] = [1.0, 5.0].map(|speed| {
-            let mut drum = piece(id, RATE);
-            drum.strike(&stroke(Striker::Stick, speed, at, 0.2));
-            let spectrum = Spectrum::new(&render(&mut drum, 1.0, RATE), RATE);
-            (loudness(&spectrum, 20.0, 20_000.0), spectrum)
-        });
-        let louder = decibels(hard.0, soft.0);
-        let bright = |(all, spectrum): &(f64, Spectrum)| loudness(spectrum, 2000.0, 20_000.0) / all;
-        let brighter = decibels(bright(&hard), bright(&soft));
+        let [louder, brighter] = report::drums::harder_db(id, at);
         println!("{id:?}: {louder:.1} dB louder, {brighter:+.1} dB of it above 2 kHz");
         assert!((louder - expected).abs() < 2.0, "{id:?}: {louder}");
         assert!(brighter.abs() < 3.0, "{id:?}: {brighter}");
@@ -276,39 +232,14 @@ fn a_snares_air_carries_its_first_transverse_mode_to_the_snare_side() {
     let alone = cavity.order(1, &[], TAU * 2000.0);
     let hz = alone.modes[0].omega / TAU;
     assert!((hz - 565.0).abs() < 2.0, "{hz}");
-    let blueprint = Blueprint::new(&spec).unwrap();
-    let mut snare = piece(PieceId::Snare, RATE);
-    snare.strike(&stroke(Striker::Stick, 4.0, 0.3, 0.3));
-    render(&mut snare, 0.05, RATE);
-    let body = snare.surface_mut().body();
-    let (mut transverse, mut all, mut k) = (0.0, 0.0, 0);
-    for mode in &blueprint.modes {
-        for _ in 0..if mode.m == 0 { 1 } else { 2 } {
-            let own = body.modes()[k];
-            let motion = body.velocity(k).powi(2) + (own.omega * f64::from(body.displacement(k))).powi(2);
-            let energy = own.mass * motion * mode.reference.share[1];
-            all += energy;
-            transverse += if mode.m == 1 { energy } else { 0.0 };
-            k += 1;
-        }
-    }
-    println!("{:.1} % of the snare side's energy in m = 1 after 50 ms", 100.0 * transverse / all);
-    assert!(transverse > 0.03 * all);
+    let share = report::snare::transverse_share().unwrap();
+    println!("{:.1} % of the snare side's energy in m = 1 after 50 ms", 100.0 * share);
+    assert!(share > 0.03);
 }
 
 #[test]
 fn the_pressure_of_the_enclosed_air_follows_its_real_volume() {
-    // The spring is what the air adds to the stiffness of a head that moves all one way.
-    let spec = DrumSpec::timpani();
-    let stiffness = |share: f64| {
-        let cavity = spec.cavity.map(|cavity| CavitySpec { volume: share * cavity.volume, ..cavity });
-        let cavity = cavity.unwrap();
-        let heads = [HeadShape { zero: 2.404_825_557_695_773, norm: 1.926, far: false }];
-        let uniform = cavity.order(0, &heads, TAU * 2500.0).modes[0].clone();
-        assert_eq!(uniform.omega, 0.0);
-        (uniform.spring * uniform.volume[0].powi(2), uniform.spring * cavity.volume)
-    };
-    let (whole, half) = (stiffness(1.0), stiffness(0.5));
+    let (whole, half) = (report::drums::cavity_stiffness(1.0), report::drums::cavity_stiffness(0.5));
     assert!((half.0 / whole.0 - 2.0).abs() < 1e-9);
     // rho c^2 / V, whatever the shape.
     assert!((whole.1 / (1.2 * 343.0 * 343.0) - 1.0).abs() < 1e-9);

@@ -4,23 +4,12 @@ use overhear_engine::hi_hat::foot::SPEED;
 use overhear_engine::hi_hat::{HiHat, HiHatSpec, POINTS};
 use overhear_engine::piece::{BuildOptions, Piece, PieceId};
 use overhear_engine::strike::{Strike, Striker};
-use overhear_tests::{Chance, Spectrum, decibels, lossless_piece, piece, render, stroke, total_energy};
+use overhear_tests::{Chance, decibels, lossless_piece, piece, render, stroke, total_energy};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
-use xtask::analysis::decay::octave_decays;
-use xtask::analysis::envelope;
-use xtask::analysis::one_shot::OneShot;
+use xtask::report::hi_hat::{Decay, PLACES, by_foot, decay, hold, sizzle_db};
 
 const RATE: f64 = 44_100.0;
-
-/// Places of the pedal from open to clamped.
-const PLACES: [f64; 6] = [0.0, 0.25, 0.5, 0.75, 0.9, 1.0];
-
-/// Brings the pedal there and lets all rest.
-fn hold(hat: &mut Piece, pedal: f64) {
-    hat.press_pedal(pedal, SPEED.1);
-    hat.finish_controls();
-}
 
 fn pedal_work(hat: &mut Piece) -> f64 {
     hat.surface_mut().pair().expect("a hi-hat").pedal_work()
@@ -210,30 +199,13 @@ fn swapped_and_upside_down_two_equal_cymbals_move_the_same() {
     }
 }
 
-/// A stroke on the edge at 5 m/s with the pedal held: the sound and the landings of its first second.
-fn struck(hat: &mut Piece, pedal: f64, speed: f64) -> (Vec<f32>, u32) {
-    hat.reset();
-    hold(hat, pedal);
-    hat.strike(&edge(speed));
-    let mut out = render(hat, 1.0, RATE);
-    let landings = hat.rims().landings;
-    out.extend(render(hat, 3.0, RATE));
-    (out, landings)
-}
-
 #[test]
 fn the_farther_down_the_pedal_the_shorter_the_sound() {
     let mut hat = piece(PieceId::HiHat, RATE);
     let mut before = f64::INFINITY;
     for pedal in PLACES {
-        let (out, landings) = struck(&mut hat, pedal, 5.0);
-        // Octaves from 500 Hz to 8 kHz.
-        let decays: Vec<f64> = octave_decays(&out, RATE)[4..9].iter().flatten().copied().collect();
+        let Decay { octaves: decays, mean, centroid_ms: centroid, landings } = decay(&mut hat, pedal);
         assert_eq!(decays.len(), 5);
-        let mean = decays.iter().map(|t60| t60.ln()).sum::<f64>() / 5.0;
-        let mean = mean.exp();
-        let shot = OneShot::new(&out, RATE).expect("a sound");
-        let centroid = envelope::temporal_centroid_ms(&shot).expect("a sound");
         println!(
             "pedal {pedal:.2}: T60 {decays:.2?} s, mean {mean:.3} s, centroid {centroid:.0} ms, {landings} landings"
         );
@@ -251,35 +223,10 @@ fn the_farther_down_the_pedal_the_shorter_the_sound() {
 
 #[test]
 fn half_open_it_sizzles() {
-    let mut hat = piece(PieceId::HiHat, RATE);
-    let mut bright = |pedal: f64| {
-        let (out, landings) = struck(&mut hat, pedal, 4.0);
-        // After the stroke itself.
-        let later = &out[4410..4410 + 22_050];
-        let spectrum = Spectrum::hann(later, RATE);
-        (spectrum.band(5000.0, 20_000.0), landings)
-    };
-    let [(open, silent), (half, landings), (closed, few)] = [0.0, 0.5, 1.0].map(&mut bright);
-    let [over_open, over_closed] = [open, closed].map(|other| 0.5 * decibels(half, other));
+    let ([over_open, over_closed], [silent, landings, few]) = sizzle_db(&mut piece(PieceId::HiHat, RATE));
     println!("{landings} landings; above 5 kHz {over_open:.1} dB over open, {over_closed:.1} dB over closed");
     assert!(silent == 0 && landings > 200, "{silent} {landings} {few}");
     assert!(over_open > 3.0 && over_closed > 3.0, "{over_open} dB, {over_closed} dB");
-}
-
-/// What the pedal alone sounds like: root mean square of the loudest tenth of a second, Pa, and the time after which it stays under a thousandth of it, s.
-fn foot(hat: &mut Piece, act: impl Fn(&mut Piece)) -> (f64, f64) {
-    hat.press_pedal(0.0, SPEED.1);
-    hat.reset();
-    act(hat);
-    let out = render(hat, 3.0, RATE);
-    let loudest = out.iter().enumerate().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())).expect("a sound");
-    let peak = f64::from(loudest.1.abs());
-    let tenth = (0.1 * RATE) as usize;
-    let loud = out.chunks(tenth).map(|part| part.iter().map(|&x| f64::from(x).powi(2)).sum::<f64>());
-    let loud = (loud.fold(0.0, f64::max) / tenth as f64).sqrt();
-    println!("  peak {peak:.2} Pa");
-    let last = out.iter().rposition(|x| f64::from(x.abs()) > 1e-3 * peak).unwrap_or(0);
-    (loud, (last - loudest.0) as f64 / RATE)
 }
 
 #[test]
@@ -287,8 +234,8 @@ fn chick_and_splash_sound_from_the_pedal_alone_and_louder_when_faster() {
     let mut hat = piece(PieceId::HiHat, RATE);
     let mut quieter = [0.0; 2];
     for speed in [0.2, 0.5, 1.0, 2.0] {
-        let (chick, held) = foot(&mut hat, |hat| hat.stamp_pedal(speed));
-        let (splash, rings) = foot(&mut hat, |hat| hat.splash_pedal(speed));
+        let (chick, held) = by_foot(&mut hat, |hat| hat.stamp_pedal(speed));
+        let (splash, rings) = by_foot(&mut hat, |hat| hat.splash_pedal(speed));
         println!("{speed} m/s: chick {chick:.2} Pa, {held:.2} s; splash {splash:.2} Pa, {rings:.2} s");
         assert!(chick > 1.2 * quieter[0] && splash > 1.2 * quieter[1], "{speed} m/s");
         assert!(held < 0.3, "a held chick lasts {held} s");

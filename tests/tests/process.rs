@@ -108,39 +108,23 @@ fn nothing_allocates_while_ten_thousand_events_are_performed() {
 /// In a child of this test, which forbids itself all system calls.
 #[cfg(all(target_os = "linux", any(target_arch = "x86_64", target_arch = "aarch64")))]
 mod system_calls {
-    use std::process::Command;
-
-    use seccompiler::{BpfProgram, SeccompAction, SeccompFilter};
+    use overhear_tests::system_calls::{child_gets_to_its_end, done, forbid};
 
     use super::Session;
-
-    /// Exit code of a child that got to its end.
-    const DONE: i32 = 42;
 
     #[test]
     #[ignore = "run in a child process by the test below"]
     fn child_that_performs() {
         let mut session = Session::new(2);
-        let allowed = [libc::SYS_exit_group, libc::SYS_sigaltstack, libc::SYS_munmap];
-        let filter = SeccompFilter::new(
-            allowed.map(|call| (call, vec![])).into(),
-            SeccompAction::KillProcess,
-            SeccompAction::Allow,
-            std::env::consts::ARCH.try_into().expect("a known architecture"),
-        );
-        let program: BpfProgram = filter.expect("a filter").try_into().expect("a program");
-        seccompiler::apply_filter(&program).expect("a kernel that filters");
+        forbid();
         for _ in 0..10_000 {
             session.act();
         }
-        std::process::exit(DONE);
+        done(true);
     }
 
     #[test]
     fn ten_thousand_events_performed_make_no_system_call() {
-        let mut command = Command::new(std::env::current_exe().expect("this test"));
-        command.args(["--exact", "system_calls::child_that_performs", "--ignored", "--nocapture"]);
-        let status = command.status().expect("a child");
-        assert_eq!(status.code(), Some(DONE), "{status}");
+        child_gets_to_its_end("system_calls::child_that_performs");
     }
 }

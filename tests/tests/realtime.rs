@@ -192,63 +192,38 @@ fn the_engine_names_no_lock_thread_file_or_clock() {
 #[cfg(all(target_os = "linux", any(target_arch = "x86_64", target_arch = "aarch64")))]
 mod system_calls {
     use std::os::unix::process::ExitStatusExt;
-    use std::process::{Command, ExitStatus};
 
-    use seccompiler::{BpfProgram, SeccompAction, SeccompFilter};
+    use overhear_tests::system_calls::{child, child_gets_to_its_end, done, forbid};
 
     use super::Stage;
-
-    /// Exit code of a child that got to its end.
-    const DONE: i32 = 42;
-
-    /// From here on any system call of this thread kills the process, but for those that end it (they
-    /// release its signal stack too).
-    fn forbid_system_calls() {
-        let filter = SeccompFilter::new(
-            [libc::SYS_exit_group, libc::SYS_sigaltstack, libc::SYS_munmap].map(|call| (call, vec![])).into(),
-            SeccompAction::KillProcess,
-            SeccompAction::Allow,
-            std::env::consts::ARCH.try_into().expect("a known architecture"),
-        );
-        let program: BpfProgram = filter.expect("a filter").try_into().expect("a program");
-        seccompiler::apply_filter(&program).expect("a kernel that filters");
-    }
-
-    /// Runs one of the ignored tests below in a process of its own.
-    fn child(name: &str) -> ExitStatus {
-        let mut command = Command::new(std::env::current_exe().expect("this test"));
-        command.args(["--exact", &format!("system_calls::{name}"), "--ignored", "--nocapture"]);
-        command.status().expect("a child")
-    }
 
     #[test]
     #[ignore = "run in a child process by the test below"]
     fn child_that_renders() {
         let mut stage = Stage::new(4);
-        forbid_system_calls();
+        forbid();
         for _ in 0..10_000 {
             stage.act();
         }
-        std::process::exit(if stage.is_sound() { DONE } else { 1 });
+        done(stage.is_sound());
     }
 
     #[test]
     #[ignore = "run in a child process by the test below"]
     fn child_that_sleeps() {
-        forbid_system_calls();
+        forbid();
         std::thread::sleep(std::time::Duration::from_nanos(1));
-        std::process::exit(DONE);
+        done(true);
     }
 
     #[test]
     fn ten_thousand_events_make_no_system_call() {
-        let status = child("child_that_renders");
-        assert_eq!(status.code(), Some(DONE), "{status}");
+        child_gets_to_its_end("system_calls::child_that_renders");
     }
 
     #[test]
     fn the_trap_catches_a_system_call() {
-        let status = child("child_that_sleeps");
+        let status = child("system_calls::child_that_sleeps");
         assert_eq!(status.signal(), Some(libc::SIGSYS), "{status}");
     }
 }

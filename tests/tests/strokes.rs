@@ -1,34 +1,18 @@
 //! Sticks on heads and rims, and the snare wires: what a stroke measures and does.
 
 use overhear_engine::piece::{Piece, PieceId};
-use overhear_engine::snapshot::StrikeSnapshot;
-use overhear_engine::strike::{Strike, Striker};
+use overhear_engine::strike::Striker;
 use overhear_tests::{Spectrum, decibels, lossless_piece, piece, render, stroke, total_energy};
+use xtask::report::drums::{self, measured};
 
 const RATE: f64 = 44_100.0;
 
-/// What the contact of one stroke measures.
-fn measured(id: PieceId, strike: &Strike) -> StrikeSnapshot {
-    let mut piece = piece(id, RATE);
-    piece.strike(strike);
-    render(&mut piece, 0.1, RATE);
-    piece.last_strike()
-}
-
 #[test]
 fn strokes_last_push_and_leave_as_published() {
-    // Milliseconds, newtons, metres per second.
-    for (id, strike, [contact, peak, leaving]) in [
-        (PieceId::RackTom, stroke(Striker::Stick, 4.0, 0.4, 0.0), [5.8, 31.0, 3.5]),
-        (PieceId::FloorTom, stroke(Striker::Stick, 4.0, 0.4, 0.0), [7.1, 26.0, 3.1]),
-        (PieceId::Snare, stroke(Striker::Stick, 4.0, 0.4, 0.0), [3.8, 46.0, 3.4]),
-        (PieceId::Kick, stroke(Striker::FeltBeater, 3.0, 0.2, 0.0), [19.0, 57.0, 2.6]),
-        (PieceId::Timpani, stroke(Striker::TimpaniMallet, 2.0, 0.75, 0.0), [8.2, 19.0, f64::NAN]),
-    ] {
-        let got = measured(id, &strike);
-        let figures = [1e3 * got.contact_time, got.peak_force, got.leaving_speed].map(f64::from);
-        println!("{id:?}: {figures:.2?}, published {contact} ms, {peak} N, {leaving} m/s");
-        for (figure, want) in figures.into_iter().zip([contact, peak, leaving]) {
+    for (id, strike, published) in drums::published() {
+        let figures = drums::contact_figures(&measured(id, &strike));
+        println!("{id:?}: {figures:.2?} ms, N, m/s, published {published:?}");
+        for (figure, want) in figures.into_iter().zip(published) {
             assert!(want.is_nan() || (figure / want - 1.0).abs() < 0.15, "{id:?}: {figure} for {want}");
         }
     }

@@ -6,6 +6,7 @@ use overhear_engine::layout::{Layout, distance};
 use overhear_engine::piece::{Piece, PieceId};
 use overhear_engine::strike::Striker;
 use overhear_tests::{RATES, kit, piece, stroke};
+use xtask::report::kit::landings;
 
 const RATE: f64 = RATES[0];
 
@@ -13,17 +14,6 @@ fn run(kit: &mut Kit, samples: usize) -> Vec<f32> {
     let (mut left, mut right) = (vec![0.0; samples], vec![0.0; samples]);
     kit.render(&mut left, &mut right);
     left
-}
-
-/// Landings of the snare's wires in the second after a hit on the rack tom, so far from its middle, share of the radius.
-fn landings(kit: &mut Kit, speed: f64, radius: f64) -> u32 {
-    let count = |kit: &Kit| kit.piece(PieceId::Snare).map_or(0, |snare| snare.wires().landings);
-    let before = count(kit);
-    kit.strike(PieceId::RackTom, &stroke(Striker::Stick, speed, radius, 0.0));
-    run(kit, RATE as usize);
-    let landings = count(kit) - before;
-    kit.reset();
-    landings
 }
 
 fn energy(kit: &Kit, id: PieceId) -> f64 {
@@ -44,7 +34,10 @@ fn wires_land_when_a_rack_tom_is_struck_the_more_the_harder() {
     let outside =
         [0.1, 0.35, 0.5].map(|radius| [2.0, 4.0, 6.0].map(|speed| landings(&mut kit, speed, radius)));
     println!("at .1, .35, .5 of the radius: {outside:?}");
-    assert!(outside[0].iter().sum::<u32>() > outside[1].iter().sum() && outside[1][2] > 0, "{outside:?}");
+    assert!(
+        outside[0].iter().sum::<u32>() > outside[1].iter().sum::<u32>() && outside[1][2] > 0,
+        "{outside:?}"
+    );
 }
 
 #[test]

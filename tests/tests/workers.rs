@@ -235,39 +235,23 @@ fn nothing_allocates_on_the_audio_thread_while_workers_work() {
 /// In a child of this test, whose audio thread forbids itself all system calls.
 #[cfg(all(target_os = "linux", any(target_arch = "x86_64", target_arch = "aarch64")))]
 mod system_calls {
-    use std::process::Command;
-
-    use seccompiler::{BpfProgram, SeccompAction, SeccompFilter};
+    use overhear_tests::system_calls::{child_gets_to_its_end, done, forbid};
 
     use super::Stage;
-
-    /// Exit code of a child that got to its end.
-    const DONE: i32 = 42;
 
     #[test]
     #[ignore = "run in a child process by the test below"]
     fn child_that_renders() {
         let mut stage = Stage::new(2);
-        let allowed = [libc::SYS_exit_group, libc::SYS_sigaltstack, libc::SYS_munmap];
-        let filter = SeccompFilter::new(
-            allowed.map(|call| (call, vec![])).into(),
-            SeccompAction::KillProcess,
-            SeccompAction::Allow,
-            std::env::consts::ARCH.try_into().expect("a known architecture"),
-        );
-        let program: BpfProgram = filter.expect("a filter").try_into().expect("a program");
-        seccompiler::apply_filter(&program).expect("a kernel that filters");
+        forbid();
         for _ in 0..300 {
             stage.act();
         }
-        std::process::exit(DONE);
+        done(true);
     }
 
     #[test]
     fn the_audio_thread_makes_no_system_call_while_workers_work() {
-        let mut command = Command::new(std::env::current_exe().expect("this test"));
-        command.args(["--exact", "system_calls::child_that_renders", "--ignored", "--nocapture"]);
-        let status = command.status().expect("a child");
-        assert_eq!(status.code(), Some(DONE), "{status}");
+        child_gets_to_its_end("system_calls::child_that_renders");
     }
 }

@@ -4,17 +4,50 @@ use std::env;
 use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use anyhow::{Context, Result, bail};
 
 use crate::system::{self, LINKER, SOUND_HEADERS};
 use crate::workspace::{self, Format, PLUGIN_PACKAGE, STANDALONE_PACKAGE};
 
-/// Builds the plugin in release and bundles it; tells where each format's bundle lies.
+/// Which processors a bundle is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Processors {
+    /// Those of this machine.
+    Own,
+    /// Both kinds that macOS runs on, in one file.
+    Universal,
+}
+
+/// Cargo's names of the two kinds of processors that macOS runs on.
+const MACOS: [&str; 2] = ["x86_64-apple-darwin", "aarch64-apple-darwin"];
+
+impl Processors {
+    /// What cargo is to build for, one build each; nothing for the machine itself.
+    fn targets(self) -> Result<&'static [&'static str]> {
+        match self {
+            Processors::Own => Ok(&[]),
+            Processors::Universal if cfg!(target_os = "macos") => Ok(&MACOS),
+            Processors::Universal => Err(crate::bad_input!("--universal is for macOS only")),
+        }
+    }
+}
+
+/// Builds the plugin in release for this machine and bundles it; tells where each format's bundle lies.
 ///
 /// # Errors
 /// If something to build with is missing or the build fails.
 pub fn run() -> Result<Vec<(Format, PathBuf)>> {
+    run_for(Processors::Own)
+}
+
+/// The same for chosen processors.
+///
+/// # Errors
+/// As [`run`], and [`BadInput`](crate::error::BadInput) for a universal bundle elsewhere than on macOS.
+pub fn run_for(processors: Processors) -> Result<Vec<(Format, PathBuf)>> {
+    let targets = processors.targets()?;
     system::ensure(&[LINKER])?;
     let target = workspace::target_dir()?;
     // What an earlier build left must not pass for the result of this one.
@@ -25,8 +58,13 @@ pub fn run() -> Result<Vec<(Format, PathBuf)>> {
     let arguments = ["--release".to_owned()];
     // The bundler looks for its files in the working folder.
     in_folder(&workspace::root(), || {
-        nice_plug_xtask::build(&packages, &arguments)?;
-        nice_plug_xtask::bundle(&target, PLUGIN_PACKAGE, &arguments, false)
+        if targets.is_empty() {
+            nice_plug_xtask::build(&packages, &arguments)?;
+        }
+        for target in targets {
+            nice_plug_xtask::build(&packages, &[&arguments[..], &[format!("--target={target}")]].concat())?;
+        }
+        nice_plug_xtask::bundle(&target, PLUGIN_PACKAGE, &arguments, processors == Processors::Universal)
     })
     .context("bundling")?;
     Format::ALL
@@ -44,16 +82,17 @@ pub fn run() -> Result<Vec<(Format, PathBuf)>> {
 /// Builds the program that needs no host, in release, beside the bundles; tells where it lies.
 ///
 /// # Errors
-/// If something to build with is missing or the build fails.
-pub fn standalone() -> Result<PathBuf> {
+/// As [`run_for`].
+pub fn standalone(processors: Processors) -> Result<PathBuf> {
+    let targets = processors.targets()?;
     system::ensure(&[LINKER, SOUND_HEADERS])?;
     let target = workspace::target_dir()?;
-    let built = workspace::cargo()
-        .args(["build", "--release", "--package", STANDALONE_PACKAGE])
-        .current_dir(workspace::root())
-        .status()
-        .context("cannot run cargo")?;
-    if !built.success() {
+    let mut cargo = workspace::cargo();
+    cargo.args(["build", "--release", "--package", STANDALONE_PACKAGE]);
+    for target in targets {
+        cargo.args(["--target", target]);
+    }
+    if !cargo.status().context("cannot run cargo")?.success() {
         bail!("`{STANDALONE_PACKAGE}` does not build");
     }
     let program = format!("{STANDALONE_PACKAGE}{}", env::consts::EXE_SUFFIX);
@@ -61,8 +100,16 @@ pub fn standalone() -> Result<PathBuf> {
     fs::create_dir_all(&folder).with_context(|| format!("cannot make `{}`", folder.display()))?;
     let path = folder.join(&program);
     remove(&path)?;
-    fs::copy(target.join("release").join(&program), &path)
-        .with_context(|| format!("cannot write `{}`", path.display()))?;
+    if targets.is_empty() {
+        fs::copy(target.join("release").join(&program), &path)
+            .with_context(|| format!("cannot write `{}`", path.display()))?;
+        return Ok(path);
+    }
+    let built = targets.iter().map(|name| target.join(name).join("release").join(&program));
+    let joined = Command::new("lipo").arg("-create").arg("-output").arg(&path).args(built).status();
+    if !joined.context("cannot run lipo")?.success() {
+        bail!("`lipo` makes no `{}`", path.display());
+    }
     Ok(path)
 }
 

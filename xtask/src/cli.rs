@@ -15,6 +15,7 @@ use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser};
 use overhear::presets::Library;
 
+use crate::bundle::Processors;
 use crate::{
     bench, bundle, demo, error, groove, hear, manual, modes, output, presets, realism, render, report,
     settings, shots, suite,
@@ -29,6 +30,14 @@ use arguments::{
 struct CommandLine {
     #[command(subcommand)]
     task: Task,
+}
+
+/// Whether the commands understand a command line, the program's name first; nothing is run.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn check(arguments: impl IntoIterator<Item = OsString>) -> Result<(), String> {
+    CommandLine::try_parse_from(arguments).map(drop).map_err(|refusal| refusal.to_string())
 }
 
 /// Runs a command line, the program's name first, and tells how it ended.
@@ -74,11 +83,12 @@ fn dispatch(task: Task) -> Result<()> {
     match task {
         Task::Demo => demo::run(&std::env::current_dir()?),
         Task::Test => suite::run(),
-        Task::Bundle => {
-            for (_, path) in bundle::run()? {
+        Task::Bundle { universal } => {
+            let processors = if universal { Processors::Universal } else { Processors::Own };
+            for (_, path) in bundle::run_for(processors)? {
                 say(&format!("{}\n", path.display()))?;
             }
-            say(&format!("{}\n", bundle::standalone()?.display()))
+            say(&format!("{}\n", bundle::standalone(processors)?.display()))
         }
         Task::Install => {
             for path in bundle::install()? {

@@ -4,7 +4,7 @@
 //! ([`render`]) turns a MIDI file ([`song`]) into sound through a [`player`], which is either the
 //! engine itself or the built plugin in an embedded [`host`]; [`wav`] and [`output`] put it on
 //! disk. `hear` ([`hear`]) strikes one piece and measures it ([`analysis`]); `realism`
-//! ([`realism`]) sets every piece beside recordings; [`report`] writes pages of figures,
+//! ([`realism`]) sets every piece beside recordings; [`report`] writes pages of figures, measured with [`overhear_lab`];
 //! [`manual`] those of the manual that come from the code; [`presets`] keeps presets; `modes` ([`modes`]) lists what vibrates.
 //! [`demo`] plays the [`groove`] and draws a [`picture`] of it; [`shots`] takes pictures of the editor. [`bundle`] and [`suite`] build and test.
 #![deny(unsafe_op_in_unsafe_fn)]

@@ -27,7 +27,7 @@ use crate::wav::{Bits, WavFile};
 use ears::Stand;
 
 pub use ears::Ear;
-pub use report::{PieceReport, Report, Stroke};
+pub use report::{Count, PieceReport, Report, Row, Stroke};
 pub use subject::{SUBJECTS, Subject, subjects};
 
 /// Speeds of the strokes unless told otherwise, m/s: soft, medium, hard.

@@ -1,39 +1,67 @@
 //! `report`: pages of measured figures, written to a folder: tables in Markdown and their plots.
 //!
 //! Each page is a module: it measures, and hands back a [`Page`]. The same sources give the same
-//! pages, byte by byte, on one machine.
+//! pages, byte by byte, on one machine; but for the page on costs, which depends on the machine.
+//! What pages measure is open to the tests, which hold the same figures to the same bounds.
 
 pub mod cascade;
+pub mod contact;
+mod cost;
+pub mod cymbal;
+pub mod drums;
+mod glide;
+pub mod heads;
+pub mod hi_hat;
+pub mod kit;
+pub mod modal;
+pub mod page;
+mod plate;
 mod plot;
+pub mod radiation;
+mod realism;
+pub mod snare;
 
+use std::fmt::Write;
+use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+use std::time::Instant;
 
 use anyhow::Result;
 
 use crate::bad_input;
 use crate::{output, workspace};
 
-/// A page as it is written.
-#[derive(Debug, Clone)]
-pub struct Page {
-    /// The page itself: `name.md`.
-    pub markdown: String,
-    /// Its pictures: file name and PNG bytes.
-    pub pictures: Vec<(String, Vec<u8>)>,
-}
+pub use page::{Claim, Page, Sheet};
 
 /// Measures a page.
 type Measure = fn() -> Result<Page>;
 
-/// Every page there is: its name and what measures it.
-pub const PAGES: [(&str, Measure); 1] = [("cascade", cascade::page)];
+/// Every page there is, in reading order: its name and what measures it.
+pub const PAGES: [(&str, Measure); 14] = [
+    ("modal", modal::page),
+    ("contact", contact::page),
+    ("heads", heads::page),
+    ("glide", glide::page),
+    ("drums", drums::page),
+    ("snare", snare::page),
+    ("plate", plate::page),
+    ("cymbal", cymbal::page),
+    ("cascade", cascade::page),
+    ("hi-hat", hi_hat::page),
+    ("radiation", radiation::page),
+    ("kit", kit::page),
+    ("realism", realism::page),
+    ("cost", cost::page),
+];
 
 /// Where the pages belong.
 pub fn folder() -> PathBuf {
     workspace::root().join("docs/report")
 }
 
-/// Measures pages, all if none is named, and writes them to `folder`.
+/// Measures pages, all if none is named, writes them to `folder`, and an index of those that are there.
 ///
 /// # Errors
 /// [`BadInput`](crate::error::BadInput) for a page there is none of; if a piece cannot be built or a file not be
@@ -44,16 +72,67 @@ pub fn run(names: &[String], folder: &Path) -> Result<()> {
         return Err(bad_input!("no page is called `{unknown}`, accepted: {}", known.join(", ")));
     }
     std::fs::create_dir_all(folder)?;
-    for (name, measure) in PAGES {
-        if names.is_empty() || names.iter().any(|asked| asked == name) {
+    let asked =
+        PAGES.into_iter().filter(|(name, _)| names.is_empty() || names.iter().any(|asked| asked == name));
+    // Costs are measured with nothing beside them.
+    let (alone, others): (Vec<_>, Vec<_>) = asked.partition(|(name, _)| *name == "cost");
+    write_all(&others, folder)?;
+    write_all(&alone, folder)?;
+    let there = |(name, _): (&'static str, Measure)| {
+        let text = std::fs::read_to_string(folder.join(format!("{name}.md"))).ok()?;
+        Some((name, text))
+    };
+    let written: Vec<_> = PAGES.into_iter().filter_map(there).collect();
+    output::write(&folder.join("README.md"), index(&written).as_bytes())
+}
+
+/// Measures and writes pages, as many at once as there are cores.
+fn write_all(pages: &[(&str, Measure)], folder: &Path) -> Result<()> {
+    let next = AtomicUsize::new(0);
+    let work = || -> Result<()> {
+        while let Some((name, measure)) = pages.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let begun = Instant::now();
             let page = measure()?;
             for (file, bytes) in &page.pictures {
                 output::write(&folder.join(file), bytes)?;
             }
             output::write(&folder.join(format!("{name}.md")), page.markdown.as_bytes())?;
+            let [met, of] = page::tally(&page.claims);
+            eprintln!("{name}: {met} of {of} met, {:.0} s", begun.elapsed().as_secs_f64());
+        }
+        Ok(())
+    };
+    let cores = thread::available_parallelism().map_or(1, usize::from).min(pages.len());
+    thread::scope(|scope| {
+        let threads: Vec<_> = (0..cores).map(|_| scope.spawn(work)).collect();
+        let joined =
+            threads.into_iter().map(|thread| thread.join().unwrap_or_else(|panic| resume_unwind(panic)));
+        joined.collect()
+    })
+}
+
+/// The page that lists all pages, given by name and text, and every claim that is not met.
+fn index(pages: &[(&str, String)]) -> String {
+    let mut out = String::from(
+        "# The report\n\n\
+         Every claim of this project with its figure. `cargo xtask report` measures and writes these pages anew, all but the\n\
+         one on costs the same on every run of the same sources; `cargo xtask report NAME` writes one.\n\n\
+         | page | | claims met |\n|---|---|---|\n",
+    );
+    let rows = |text: &str, met: &str| text.lines().filter(|line| line.ends_with(met)).count();
+    for (name, text) in pages {
+        let (met, missed) = (rows(text, page::MET), rows(text, page::MISSED));
+        let title = text.lines().next().unwrap_or_default().trim_start_matches("# ");
+        let _ = writeln!(out, "| [{name}]({name}.md) | {title} | {met} of {} |", met + missed);
+    }
+    out.push_str("\n## Not met\n\n| page | claim | figure | should be |\n|---|---|---|---|\n");
+    for (name, text) in pages {
+        for row in text.lines().filter(|line| line.ends_with(page::MISSED)) {
+            let cells: Vec<&str> = row.trim_start_matches("| ").split(" | ").take(3).collect();
+            let _ = writeln!(out, "| [{name}]({name}.md) | {} |", cells.join(" | "));
         }
     }
-    Ok(())
+    out
 }
 
 #[cfg(test)]
@@ -63,6 +142,22 @@ mod tests {
     #[test]
     fn an_unknown_page_is_refused_with_those_there_are() {
         let refused = run(&["cascades".to_owned()], Path::new("nowhere")).unwrap_err().to_string();
-        assert!(refused.contains("cascades") && refused.contains("accepted: cascade"), "{refused}");
+        assert!(refused.contains("cascades") && refused.contains("accepted: modal, contact"), "{refused}");
+    }
+
+    #[test]
+    fn what_is_not_met_is_on_the_index() {
+        let mut sheet = Sheet::new("modal", "Modes", "About.");
+        for met in [Some(true), Some(false), None] {
+            let what = format!("claim {met:?}");
+            let (figure, reference) = ("1".to_owned(), "2".to_owned());
+            sheet.claim(Claim { what, figure, reference, source: page::sources::GOAL, met });
+        }
+        let page = sheet.finish();
+        assert!(page.markdown.contains("**no**") && page.markdown.contains("told"));
+        assert_eq!(page::tally(&page.claims), [1, 2]);
+        let index = index(&[(page.name, page.markdown)]);
+        assert!(index.contains("1 of 2") && index.contains("| claim Some(false) | 1 | 2 |"), "{index}");
+        assert!(!index.contains("claim Some(true)"));
     }
 }

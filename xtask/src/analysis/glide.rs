@@ -59,13 +59,19 @@ pub fn glide_cents(motion: &Motion, strongest: f64, free_from: f64) -> Option<f6
     Some(1200.0 * (early / late).log2())
 }
 
+/// The motion of the mode that moves most, over the whole.
+pub fn strongest_mode(motion: &Motion) -> Option<&[f32]> {
+    let size = |mode: &[f32]| super::rms(mode).unwrap_or(0.0);
+    motion.modes.iter().map(Vec::as_slice).max_by(|a, b| size(a).total_cmp(&size(b)))
+}
+
 fn window(mode: &[f32], rate: f64, start: f64) -> Option<&[f32]> {
     let first = (start * rate).ceil() as usize;
     mode.get(first..first + (LENGTH * rate) as usize)
 }
 
-/// Frequency of a decaying sine, Hz; nothing for anything that does not oscillate.
-fn frequency(samples: &[f32], rate: f64) -> Option<f64> {
+/// Frequency of a decaying sine at a sample rate (Hz), Hz; nothing for anything that does not oscillate.
+pub fn frequency(samples: &[f32], rate: f64) -> Option<f64> {
     let (mut xx, mut xy, mut yy, mut zx, mut zy) = (0.0, 0.0, 0.0, 0.0, 0.0);
     for triple in samples.windows(3) {
         let [y, x, z] = [triple[0], triple[1], triple[2]].map(f64::from);

@@ -29,7 +29,11 @@ pub enum Task {
     /// Check everything the project promises, the hosts included
     Test,
     /// Build the release bundles (CLAP, VST3) and the program that needs no host
-    Bundle,
+    Bundle {
+        /// On macOS: one file for both kinds of processors
+        #[arg(long)]
+        universal: bool,
+    },
     /// Build the release bundles and copy them where hosts look
     Install,
     /// Render MIDI files to WAV files
@@ -54,7 +58,8 @@ pub enum Task {
     },
     /// Measure and write the pages of docs/report
     Report {
-        /// cascade; all if none is given
+        /// modal, contact, heads, glide, drums, snare, plate, cymbal, cascade, hi-hat, radiation, kit, realism, cost; all if
+        /// none is given
         #[arg(value_name = "PAGE")]
         pages: Vec<String>,
         /// The folder to write to; docs/report if not given

@@ -5,14 +5,14 @@
 //! of the sound, when the band above 3 kHz is strongest.
 
 use std::f64::consts::TAU;
-use std::fmt::Write;
 
 use anyhow::Result;
 use overhear_engine::piece::{BuildOptions, Piece, PieceId, Quality};
 use overhear_engine::strike::Strike;
 
-use super::Page;
-use super::plot::{Line, Plot};
+use super::page::sources::{EARLIER, MEASURED};
+use super::plot::{Axis, Line, Plot};
+use super::{Claim, Page, Sheet};
 use crate::analysis::envelope;
 use crate::analysis::one_shot::OneShot;
 use crate::bad_input;
@@ -75,17 +75,24 @@ pub fn page() -> Result<Page> {
         }
     }
     let blooms = blooms(&mut progress)?;
-    let plot = Plot {
-        across: "s after the stroke",
-        up: "mean frequency, Hz",
-        range: 200.0..900.0,
-        panels: SPEEDS.map(|speed| (format!("{speed} m/s"), lines(&courses, speed))).to_vec(),
-    };
-    Ok(Page {
-        markdown: markdown(&courses, &blooms),
-        pictures: vec![("cascade.png".to_owned(), plot.png()?)],
-    })
+    let mut sheet = Sheet::new("cascade", "The cascade", ABOUT);
+    claims(&mut sheet, &courses, &blooms);
+    sheet.plot(
+        "mean",
+        "Mean frequency against time",
+        &Plot {
+            across: Axis::linear("s after the stroke", 0.0..1.0),
+            up: Axis::linear("mean frequency, Hz", 200.0..900.0),
+            panels: SPEEDS.map(|speed| (format!("{speed} m/s"), lines(&courses, speed))).to_vec(),
+        },
+    )?;
+    tables(&mut sheet, &courses, &blooms);
+    Ok(sheet.finish())
 }
+
+const ABOUT: &str = "A 16 in crash struck where it is played, with a stick's shoulder near its edge: mean frequency of its modes to 2 kHz,\n\
+     weighted by their energy, and when the sound above 3 kHz is strongest. A linear plate only fades; coupled by its\n\
+     stretching, a hard stroke climbs. `tests/tests/cymbals.rs` holds it.";
 
 /// When the band above 3 kHz is strongest, ms, at each of the speeds [`HARD`].
 struct Bloom {
@@ -163,44 +170,81 @@ fn mean_frequency(piece: &mut Piece) -> f64 {
     weighted / sum
 }
 
-fn markdown(courses: &[Course], blooms: &[Bloom]) -> String {
-    let mut out = String::from(
-        "# The cascade\n\n\
-         A 16 in crash struck where it is played, with a stick's shoulder near its edge: mean frequency of its modes to 2 kHz,\n\
-         weighted by their energy, and when the sound above 3 kHz is strongest. A linear plate only fades; coupled by its\n\
-         stretching, a hard stroke climbs. `cargo xtask report cascade` writes this page.\n\n\
-         ![Mean frequency against time](cascade.png)\n\n\
-         | tier | m/s | 3 ms | 30 ms | 80 ms | 250 ms | 500 ms | 1 s | above 3 kHz, ms |\n\
-         |---|---|---|---|---|---|---|---|---|\n",
-    );
-    for Course { tier, speed, at_times, bloom_ms, .. } in courses {
-        let _ = write!(out, "| {tier} | {speed} ");
-        for hz in at_times {
-            let _ = write!(out, "| {hz:.0} ");
-        }
-        let _ = writeln!(out, "| {bloom_ms:.0} |");
+/// What a hard stroke has to do, and a soft or a linear one must not.
+fn claims(sheet: &mut Sheet, courses: &[Course], blooms: &[Bloom]) {
+    let course = |tier: &str, speed: f64| {
+        let found = courses.iter().find(|course| course.tier == tier && course.speed == speed);
+        found.map_or(&[][..], |course| &course.at_times)
+    };
+    let hz = |course: &[f64]| course.iter().map(|hz| format!("{hz:.0}")).collect::<Vec<_>>().join(" ");
+    let linear = course("linear", 5.0);
+    sheet.claim(Claim {
+        what: "linear, 5 m/s, at 3, 30, 80, 250, 500 ms, 1 s".to_owned(),
+        figure: format!("{} Hz", hz(linear)),
+        reference: "only falls once the stick has left".to_owned(),
+        source: EARLIER,
+        met: Some(linear[1] < 1.02 * linear[0] && linear[1..].windows(2).all(|pair| pair[1] < pair[0])),
+    });
+    for tier in Quality::ALL.map(Quality::name) {
+        let (hard, soft) = (course(tier, 5.0), course(tier, 0.3));
+        let climb = 100.0 * (hard[1].max(hard[2]) / hard[0] - 1.0);
+        sheet.claim(Claim {
+            what: format!("{tier}, 5 m/s, the same times"),
+            figure: format!("{} Hz, climbs {climb:.0} % within 100 ms", hz(hard)),
+            reference: "571 646 714 702 614 435 Hz; 10 % or more".to_owned(),
+            source: EARLIER,
+            met: Some(climb > 10.0),
+        });
+        let apart =
+            soft.iter().zip(course("linear", 0.3)).map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max);
+        sheet.claim(Claim {
+            what: format!("{tier}, 0.3 m/s against linear"),
+            figure: format!("{:.1} % apart at most", 100.0 * apart),
+            reference: "6 %".to_owned(),
+            source: EARLIER,
+            met: Some(apart < 0.06),
+        });
     }
-    out.push_str(
-        "\nThe stretching hands energy upward from mode to mode. Where the coupled set ends it cannot go on and gathers:\n\
+    // Where the MIDI map has the crash played.
+    for Bloom { quality, peaks_ms, .. } in blooms.iter().filter(|bloom| bloom.radius == 0.97) {
+        let [soft, hard, harder, _] = peaks_ms;
+        sheet.claim(Claim {
+            what: format!("{}, at .97: sound above 3 kHz strongest, at 1.5, 5, 6 m/s", quality.name()),
+            figure: format!("{soft:.0}, {hard:.0}, {harder:.0} ms"),
+            reference: "at once when soft, after more than 30 ms when hard (recordings 83 ms)".to_owned(),
+            source: MEASURED,
+            met: Some(*soft < 15.0 && *hard > 30.0 && *harder > 30.0),
+        });
+    }
+}
+
+fn tables(sheet: &mut Sheet, courses: &[Course], blooms: &[Bloom]) {
+    sheet.table(
+        &["tier", "m/s", "3 ms", "30 ms", "80 ms", "250 ms", "500 ms", "1 s", "above 3 kHz, ms"],
+        courses.iter().map(|Course { tier, speed, at_times, bloom_ms, .. }| {
+            let times = at_times.iter().map(|hz| format!("{hz:.0}"));
+            let first = [(*tier).to_owned(), format!("{speed}")];
+            first.into_iter().chain(times).chain([format!("{bloom_ms:.0}")]).collect()
+        }),
+    );
+    sheet.text(
+        "The stretching hands energy upward from mode to mode. Where the coupled set ends it cannot go on and gathers:\n\
          `standard`, whose set ends where the modes counted here do, stays highest for that reason. From `high` on it leaves\n\
-         them for those above.\n\n\
-         ## When the sound above 3 kHz is strongest, ms\n\n\
-         Sound there is pumped only by modes that are coupled: `eco` and `standard` end below, and what is heard of them above\n\
-         3 kHz is the stroke itself, at once. Where the stroke and what is pumped are equally strong the later one may come\n\
-         second: at 5 m/s that depends on the place.\n\n\
-         | tier | at |",
+         them for those above.",
     );
-    for speed in HARD {
-        let _ = write!(out, " {speed} m/s |");
-    }
-    out.push_str("\n|---|---|");
-    out.push_str(&"---|".repeat(HARD.len()));
-    for Bloom { quality, radius, peaks_ms } in blooms {
-        let _ = write!(out, "\n| {} | {radius} |", quality.name());
-        for ms in peaks_ms {
-            let _ = write!(out, " {ms:.0} |");
-        }
-    }
-    out.push('\n');
-    out
+    sheet.heading("When the sound above 3 kHz is strongest, ms");
+    sheet.text(
+        "Sound there is pumped only by modes that are coupled: `eco` and `standard` end below, and what is heard of them above\n\
+         3 kHz is the stroke itself, at once. Where the stroke and what is pumped are equally strong the later one may come\n\
+         second: that depends on the place.",
+    );
+    let speeds = HARD.map(|speed| format!("{speed} m/s"));
+    let head = ["tier", "at"].into_iter().chain(speeds.iter().map(String::as_str)).collect::<Vec<_>>();
+    sheet.table(
+        &head,
+        blooms.iter().map(|Bloom { quality, radius, peaks_ms }| {
+            let peaks = peaks_ms.iter().map(|ms| format!("{ms:.0}"));
+            [quality.name().to_owned(), format!("{radius}")].into_iter().chain(peaks).collect()
+        }),
+    );
 }

@@ -1,6 +1,9 @@
 //! Line plots of the report, as PNG.
 
+use std::ops::Range;
+
 use anyhow::Result;
+use plotters::coord::ranged1d::{Ranged, ValueFormatter};
 use plotters::prelude::*;
 
 use crate::picture;
@@ -11,29 +14,67 @@ const SIZE: (u32, u32) = (1500, 520);
 const PAPER: RGBColor = RGBColor(255, 255, 255);
 const INK: RGBColor = RGBColor(40, 44, 52);
 const GRID: RGBColor = RGBColor(215, 218, 224);
-const LINES: [RGBColor; 6] = [
+const LINES: [RGBColor; 9] = [
     RGBColor(130, 130, 130),
     RGBColor(60, 130, 200),
     RGBColor(20, 150, 90),
     RGBColor(230, 130, 20),
     RGBColor(190, 40, 60),
     RGBColor(120, 60, 170),
+    RGBColor(90, 200, 210),
+    RGBColor(150, 110, 60),
+    RGBColor(220, 110, 180),
 ];
 
-/// A line: its name and its points.
+/// A line: its name and its points; one that is not a number lifts the pen.
 pub type Line = (String, Vec<(f64, f64)>);
+
+/// How values become places.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Scale {
+    /// In proportion.
+    Linear,
+    /// By their logarithms; values and ranges are above zero.
+    Log,
+}
+
+/// An axis.
+pub struct Axis<'a> {
+    /// What it shows.
+    pub name: &'a str,
+    /// From where to where.
+    pub range: Range<f64>,
+    /// How.
+    pub scale: Scale,
+}
+
+impl<'a> Axis<'a> {
+    /// In proportion.
+    pub fn linear(name: &'a str, range: Range<f64>) -> Axis<'a> {
+        Axis { name, range, scale: Scale::Linear }
+    }
+
+    /// By logarithms.
+    pub fn log(name: &'a str, range: Range<f64>) -> Axis<'a> {
+        Axis { name, range, scale: Scale::Log }
+    }
+}
 
 /// Plots side by side over one kind of axis.
 pub struct Plot<'a> {
-    /// What the horizontal axis shows.
-    pub across: &'a str,
-    /// What the vertical axis shows.
-    pub up: &'a str,
-    /// Range of the vertical axis.
-    pub range: std::ops::Range<f64>,
+    /// The horizontal axis.
+    pub across: Axis<'a>,
+    /// The vertical axis.
+    pub up: Axis<'a>,
     /// Title and lines of each panel.
     pub panels: Vec<(String, Vec<Line>)>,
 }
+
+/// What drawing can fail with.
+type Drawn = Result<(), Box<dyn std::error::Error>>;
+
+/// Where a panel is drawn.
+type Area<'a> = DrawingArea<BitMapBackend<'a>, plotters::coord::Shift>;
 
 impl Plot<'_> {
     /// The bytes of a PNG.
@@ -44,45 +85,86 @@ impl Plot<'_> {
         picture::drawn(SIZE, |area| self.draw(area))
     }
 
-    fn draw(
-        &self,
-        area: &DrawingArea<BitMapBackend, plotters::coord::Shift>,
-    ) -> Result<(), Box<dyn std::error::Error>> {
+    fn draw(&self, area: &Area<'_>) -> Drawn {
         area.fill(&PAPER)?;
-        for (panel, (title, lines)) in
-            area.split_evenly((1, self.panels.len().max(1))).iter().zip(&self.panels)
-        {
-            let points = lines.iter().flat_map(|(_, points)| points);
-            let right = points.map(|&(x, _)| x).fold(0.0, f64::max);
-            let mut chart = ChartBuilder::on(panel)
+        let panels = area.split_evenly((1, self.panels.len().max(1)));
+        for (panel, (title, lines)) in panels.iter().zip(&self.panels) {
+            let mut builder = ChartBuilder::on(panel);
+            builder
                 .margin(10)
                 .caption(title, ("sans-serif", 22).into_font().color(&INK))
                 .x_label_area_size(40)
-                .y_label_area_size(60)
-                .build_cartesian_2d(0.0..right, self.range.clone())?;
-            chart
-                .configure_mesh()
-                .x_desc(self.across)
-                .y_desc(self.up)
-                .axis_style(INK)
-                .light_line_style(PAPER)
-                .bold_line_style(GRID)
-                .label_style(("sans-serif", 16).into_font().color(&INK))
-                .draw()?;
-            for ((name, points), &color) in lines.iter().zip(LINES.iter().cycle()) {
-                chart
-                    .draw_series(LineSeries::new(points.iter().copied(), color.stroke_width(2)))?
-                    .label(name)
-                    .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], color.stroke_width(2)));
+                .y_label_area_size(64);
+            let (x, y) = (self.across.range.clone(), self.up.range.clone());
+            match (self.across.scale, self.up.scale) {
+                (Scale::Linear, Scale::Linear) => self.fill(builder.build_cartesian_2d(x, y)?, lines)?,
+                (Scale::Log, Scale::Linear) => {
+                    self.fill(builder.build_cartesian_2d(x.log_scale(), y)?, lines)?;
+                }
+                (Scale::Linear, Scale::Log) => {
+                    self.fill(builder.build_cartesian_2d(x, y.log_scale())?, lines)?;
+                }
+                (Scale::Log, Scale::Log) => {
+                    self.fill(builder.build_cartesian_2d(x.log_scale(), y.log_scale())?, lines)?;
+                }
             }
-            chart
-                .configure_series_labels()
-                .position(SeriesLabelPosition::UpperRight)
-                .label_font(("sans-serif", 16).into_font().color(&INK))
-                .background_style(PAPER)
-                .draw()?;
         }
         area.present()?;
         Ok(())
     }
+
+    /// Draws axes and lines of a panel.
+    fn fill<'a, 'b, X, Y>(
+        &self,
+        mut chart: ChartContext<'a, BitMapBackend<'b>, Cartesian2d<X, Y>>,
+        lines: &[Line],
+    ) -> Drawn
+    where
+        'b: 'a,
+        X: Ranged<ValueType = f64> + ValueFormatter<f64>,
+        Y: Ranged<ValueType = f64> + ValueFormatter<f64>,
+    {
+        chart
+            .configure_mesh()
+            .x_labels(if self.panels.len() > 1 { 6 } else { 11 })
+            .x_desc(self.across.name)
+            .y_desc(self.up.name)
+            .x_label_formatter(&|x| short(*x))
+            .y_label_formatter(&|y| short(*y))
+            .axis_style(INK)
+            .light_line_style(PAPER)
+            .bold_line_style(GRID)
+            .label_style(("sans-serif", 16).into_font().color(&INK))
+            .draw()?;
+        for ((name, points), &color) in lines.iter().zip(LINES.iter().cycle()) {
+            let strokes = points.split(|point| point.0.is_nan()).filter(|stroke| !stroke.is_empty());
+            let strokes = strokes.map(|stroke| PathElement::new(stroke.to_vec(), color.stroke_width(2)));
+            let drawn = chart.draw_series(strokes)?;
+            if !name.is_empty() {
+                drawn
+                    .label(name)
+                    .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], color.stroke_width(2)));
+            }
+        }
+        chart
+            .configure_series_labels()
+            .position(SeriesLabelPosition::UpperRight)
+            .label_font(("sans-serif", 16).into_font().color(&INK))
+            .background_style(PAPER)
+            .draw()?;
+        Ok(())
+    }
+}
+
+/// A number on an axis.
+fn short(value: f64) -> String {
+    let text = if value != 0.0 && value.abs() < 1e-3 { format!("{value:e}") } else { format!("{value:.3}") };
+    let plain = !text.contains('e') && text.contains('.');
+    if plain { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+/// Upright lines at some places.
+pub fn comb(name: &str, places: &[f64], [foot, top]: [f64; 2]) -> Line {
+    let upright = |&x: &f64| [(x, foot), (x, top), (f64::NAN, f64::NAN)];
+    (name.to_owned(), places.iter().flat_map(upright).collect())
 }

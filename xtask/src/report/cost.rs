@@ -1,0 +1,167 @@
+//! Costs, as `bench` measures them in a release build: the one page that depends on the machine.
+
+use anyhow::{Context, Result};
+use serde_json::Value;
+
+use super::page::sources::{EARLIER, GOAL};
+use super::plot::{Axis, Plot, comb};
+use super::{Claim, Page, Sheet};
+use crate::workspace;
+
+/// Runs of everything: enough to see a spread.
+const RUNS: &str = "3";
+
+/// The page.
+///
+/// # Errors
+/// If `bench` cannot be built or fails.
+pub fn page() -> Result<Page> {
+    let report = bench()?;
+    let mut sheet = Sheet::new(
+        "cost",
+        "Costs",
+        &format!(
+            "What the instrument costs on the machine that wrote this page, one thread, {}, {} Hz: `cargo xtask bench --runs {RUNS}`. A\n\
+             calibration is the time of a fixed loop ({:.4} s here), measured in turns with the instrument. Machines differ and so does\n\
+             what else they do; [performance.md](../performance.md) says more.",
+            text(&report, "simd"),
+            number(&report, &["sample_rate_hz"]),
+            number(&report, &["calibration_s"]),
+        ),
+    );
+    for (name, key, earlier, goal) in
+        [("groove", "groove", 16.5, 1.6), ("all at once, the hi-hat too", "all_at_once", 19.3, 2.4)]
+    {
+        let of = |what: &str| number(&report, &[key, what]);
+        let got = of("calibrations");
+        sheet.claim(Claim {
+            what: name.to_owned(),
+            figure: format!(
+                "{got:.2} calibrations ({:.2} to {:.2}), {:.0} % of a core",
+                of("calibrations_min"),
+                of("calibrations_max"),
+                100.0 * of("share")
+            ),
+            reference: format!("{goal} (the earlier engine {earlier})"),
+            source: GOAL,
+            met: Some(got <= goal),
+        });
+        sheet.claim(Claim {
+            what: format!("{name}, against the earlier engine"),
+            figure: format!("{:.1} times less", earlier / got),
+            reference: "less than its cost, with twice its modes".to_owned(),
+            source: EARLIER,
+            met: Some(got < earlier),
+        });
+    }
+    let percent = |what: String, share: f64, most: f64| Claim {
+        what,
+        figure: format!("{:.2} %", 100.0 * share),
+        reference: format!("{most} %"),
+        source: GOAL,
+        met: Some(100.0 * share < most),
+    };
+    sheet.claim(percent("idle, of a core".to_owned(), number(&report, &["idle", "share"]), 0.3));
+    let worst = number(&report, &["worst_block_share"]);
+    sheet.claim(percent("longest block of 32 samples, of its deadline".to_owned(), worst, 60.0));
+    for (what, key, most, unit) in [
+        ("build of the kit, cold", "build_cold_s", 1.0, "s"),
+        ("build from the cache folder", "build_from_disk_s", 0.1, "s"),
+        ("build from memory", "build_warm_s", 0.1, "s"),
+        ("an instance without pieces, as a host's scan makes", "instance_s", 0.05, "s"),
+        ("memory with a kit built", "memory_mb", 150.0, "MB"),
+    ] {
+        let got = number(&report, &[key]);
+        sheet.claim(Claim {
+            what: what.to_owned(),
+            figure: format!("{} {unit}", super::page::figure(got)),
+            reference: format!("{most} {unit}"),
+            source: GOAL,
+            met: Some(got < most),
+        });
+    }
+    let cpu: Vec<String> = report["build_cpu_s"]
+        .as_array()
+        .map(|all| all.iter().filter_map(Value::as_f64).map(|s| format!("{s:.2}")).collect())
+        .unwrap_or_default();
+    sheet.claim(Claim::told(
+        "these three builds, all processors together: what other work on the machine adds least to",
+        format!("{} CPU s", cpu.join(", ")),
+        "6.5 cold, .2 warm",
+        EARLIER,
+    ));
+    pieces(&mut sheet, &report)?;
+    Ok(sheet.finish())
+}
+
+/// Runs `bench` in a release build, its report as JSON.
+fn bench() -> Result<Value> {
+    let output = workspace::cargo()
+        .args(["run", "--release", "--quiet", "--package", "xtask", "--", "bench", "--json", "--runs", RUNS])
+        .stderr(std::process::Stdio::inherit())
+        .output()
+        .context("cannot run cargo")?;
+    anyhow::ensure!(output.status.success(), "`bench` failed: {}", output.status);
+    serde_json::from_slice(&output.stdout).context("`bench` did not print its report")
+}
+
+fn number(report: &Value, path: &[&str]) -> f64 {
+    path.iter().try_fold(report, |value, key| value.get(key)).and_then(Value::as_f64).unwrap_or(f64::NAN)
+}
+
+fn text<'a>(report: &'a Value, key: &str) -> &'a str {
+    report.get(key).and_then(Value::as_str).unwrap_or("")
+}
+
+/// Every piece by itself: a table and a plot, costs in calibrations.
+fn pieces(sheet: &mut Sheet, report: &Value) -> Result<()> {
+    sheet.heading("The pieces");
+    sheet.text("Each by itself, the second after a stroke of 6 m/s, calibrations.");
+    let tiers = ["eco", "standard", "high", "offline"];
+    let names = ["kick", "snare", "rack-tom", "floor-tom", "timpani", "crash", "ride", "splash", "hi-hat"];
+    let cost = |piece: &str, tier: &str| {
+        let of_tier = number(report, &["pieces", piece, "tiers", tier, "calibrations"]);
+        let standard = number(report, &["pieces", piece, "calibrations"]);
+        if of_tier.is_nan() && tier == "standard" { standard } else { of_tier }
+    };
+    let cell = |value: f64| if value.is_nan() { String::new() } else { format!("{value:.2}") };
+    let row = |piece: &&str| {
+        let cells = tiers.iter().map(|tier| cell(cost(piece, tier)));
+        std::iter::once((*piece).to_owned()).chain(cells).collect()
+    };
+    sheet.table(
+        &["", "eco, 1 kHz", "standard, 2 kHz", "high, 4 kHz", "offline, 8 kHz"],
+        names.iter().map(row),
+    );
+    sheet.heading("Buffers");
+    sheet.text("CPU time of a host's buffer, % of its deadline, groove and all at once together.");
+    let shares = ["50", "90", "99", "99.9", "100"];
+    let mut rows = vec![("32", report.get("block_share_percentiles"))];
+    for size in ["64", "128", "256", "512"] {
+        rows.push((size, report.get("buffers").and_then(|buffers| buffers.get(size))));
+    }
+    let row = |(size, of): (&str, Option<&Value>)| {
+        let share = |key: &&str| cell(100.0 * of.map_or(f64::NAN, |of| number(of, &[key])));
+        std::iter::once(size.to_owned()).chain(shares.iter().map(share)).collect()
+    };
+    let head = ["samples", "half", "90 %", "99 %", "99.9 %", "the longest"];
+    sheet.table(&head, rows.into_iter().map(row));
+    let bars = names.iter().enumerate().map(|(at, piece)| {
+        let tops =
+            tiers.iter().enumerate().map(|(tier, name)| (at as f64 + 0.2 * tier as f64, cost(piece, name)));
+        let bars = tops.filter(|(_, cost)| cost.is_finite()).flat_map(|(x, cost)| {
+            let (_, bar) = comb("", &[x], [0.01, cost]);
+            bar
+        });
+        ((*piece).to_owned(), bars.collect())
+    });
+    sheet.plot(
+        "pieces",
+        "Cost of each piece, cymbals at eco, standard, high and offline",
+        &Plot {
+            across: Axis::linear("", -0.3..10.5),
+            up: Axis::log("calibrations", 0.01..30.0),
+            panels: vec![("the second after 6 m/s".to_owned(), bars.collect())],
+        },
+    )
+}

@@ -1,0 +1,167 @@
+//! A page of the report: claims with their figures, then whatever shows more of them.
+
+use std::fmt::Write;
+
+use anyhow::Result;
+
+use super::plot::Plot;
+
+/// A page as it is written.
+#[derive(Debug, Clone)]
+pub struct Page {
+    /// Its name: the file is `name.md`.
+    pub name: &'static str,
+    /// The page itself.
+    pub markdown: String,
+    /// What it claims.
+    pub claims: Vec<Claim>,
+    /// Its pictures: file name and PNG bytes.
+    pub pictures: Vec<(String, Vec<u8>)>,
+}
+
+/// Something this project says of itself, and what was measured.
+#[derive(Debug, Clone)]
+pub struct Claim {
+    /// What is claimed.
+    pub what: String,
+    /// What was measured, with its unit.
+    pub figure: String,
+    /// What it should be, and within what.
+    pub reference: String,
+    /// Where that comes from.
+    pub source: &'static str,
+    /// Whether the figure is what it should be; nothing for figures that are only told.
+    pub met: Option<bool>,
+}
+
+impl Claim {
+    /// A figure that should lie within a share of another, both with their unit.
+    pub fn near(
+        what: &str,
+        (value, unit): (f64, &str),
+        (wanted, share): (f64, f64),
+        source: &'static str,
+    ) -> Claim {
+        let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+        Claim {
+            what: what.to_owned(),
+            figure: format!("{}{unit}", figure(value)),
+            reference: format!("{}{unit}, {} %", figure(wanted), figure(100.0 * share)),
+            source,
+            met: Some((value / wanted - 1.0).abs() <= share),
+        }
+    }
+
+    /// A figure that is only told.
+    pub fn told(what: &str, figure: String, reference: &str, source: &'static str) -> Claim {
+        Claim { what: what.to_owned(), figure, reference: reference.to_owned(), source, met: None }
+    }
+}
+
+/// Four figures, no more than there are.
+pub fn figure(value: f64) -> String {
+    let size = if value == 0.0 { 0.0 } else { value.abs().log10().floor() };
+    let decimals = (3.0 - size).clamp(0.0, 9.0) as usize;
+    let text = format!("{value:.decimals$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+/// Where references come from.
+pub mod sources {
+    /// Published figures of an earlier engine of this kind.
+    pub const EARLIER: &str = "an earlier engine";
+    /// Real instruments.
+    pub const MEASURED: &str = "measured instruments";
+    /// Follows from the equations.
+    pub const EXACT: &str = "mathematics";
+    /// What this project set itself.
+    pub const GOAL: &str = "our goal";
+}
+
+/// A page in the making.
+pub struct Sheet {
+    name: &'static str,
+    title: &'static str,
+    about: String,
+    claims: Vec<Claim>,
+    body: String,
+    pictures: Vec<(String, Vec<u8>)>,
+}
+
+impl Sheet {
+    /// An empty page of a name, under a title, that begins with a paragraph on what is measured.
+    pub fn new(name: &'static str, title: &'static str, about: &str) -> Sheet {
+        Sheet {
+            name,
+            title,
+            about: about.to_owned(),
+            claims: Vec::new(),
+            body: String::new(),
+            pictures: Vec::new(),
+        }
+    }
+
+    /// Adds a row to the table of claims.
+    pub fn claim(&mut self, claim: Claim) {
+        self.claims.push(claim);
+    }
+
+    /// Adds a heading below the claims.
+    pub fn heading(&mut self, text: &str) {
+        let _ = write!(self.body, "\n## {text}\n");
+    }
+
+    /// Adds a paragraph below the claims.
+    pub fn text(&mut self, text: &str) {
+        let _ = write!(self.body, "\n{text}\n");
+    }
+
+    /// Adds a table below the claims.
+    pub fn table(&mut self, head: &[&str], rows: impl IntoIterator<Item = Vec<String>>) {
+        let _ = write!(self.body, "\n| {} |\n|{}\n", head.join(" | "), "---|".repeat(head.len()));
+        for row in rows {
+            let _ = writeln!(self.body, "| {} |", row.join(" | "));
+        }
+    }
+
+    /// Adds a plot, `what` it shows being the last part of its file's name.
+    ///
+    /// # Errors
+    /// If it cannot be drawn.
+    pub fn plot(&mut self, what: &str, caption: &str, plot: &Plot<'_>) -> Result<()> {
+        let file = format!("{}-{what}.png", self.name);
+        let _ = write!(self.body, "\n![{caption}]({file})\n\n{caption}.\n");
+        self.pictures.push((file, plot.png()?));
+        Ok(())
+    }
+
+    /// The page.
+    pub fn finish(self) -> Page {
+        let Sheet { name, title, about, claims, body, pictures } = self;
+        let mut markdown = format!("# {title}\n\n{about}\n\n`cargo xtask report {name}` writes this page.\n");
+        if !claims.is_empty() {
+            markdown.push_str("\n| claim | figure | should be | by | met |\n|---|---|---|---|---|\n");
+        }
+        for Claim { what, figure, reference, source, met } in &claims {
+            let met = match met {
+                Some(true) => MET,
+                Some(false) => MISSED,
+                None => "| told |",
+            };
+            let _ = writeln!(markdown, "| {what} | {figure} | {reference} | {source} {met}");
+        }
+        markdown.push_str(&body);
+        Page { name, markdown, claims, pictures }
+    }
+}
+
+/// How the row of a claim ends that is met, and of one that is not.
+pub const MET: &str = "| yes |";
+/// See [`MET`].
+pub const MISSED: &str = "| **no** |";
+
+/// How many claims are met, and of how many that can be.
+pub fn tally(claims: &[Claim]) -> [usize; 2] {
+    let bound = claims.iter().filter_map(|claim| claim.met);
+    [bound.clone().filter(|met| *met).count(), bound.count()]
+}

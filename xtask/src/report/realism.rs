@@ -1,0 +1,122 @@
+//! Realism: every piece beside recordings, as `realism` measures it.
+
+use anyhow::Result;
+
+use super::page::sources::GOAL;
+use super::plot::{Axis, Line, Plot};
+use super::{Claim, Page, Sheet};
+use crate::realism::{self, Count, Ear, PieceReport, Report, SPEEDS, Subject};
+
+/// Where the figures of recordings come from.
+const RECORDINGS: &str = "3,123 recorded strokes";
+
+/// The page.
+///
+/// # Errors
+/// If a piece cannot be built or the plot not be drawn.
+pub fn page() -> Result<Page> {
+    let mut sheet = Sheet::new(
+        "realism",
+        "Beside recordings",
+        "Every piece in the kit as the plugin has it, struck softly to hard in three places, at its close microphone and in the full\n\
+         mix, beside 3,123 one-shots of 36 acoustic kits: `cargo xtask realism`. A range is that of 10 to 90 % of the recordings; where\n\
+         only the median is known, what is near it is our choice. What lies outside, and why, is in [realism.md](../realism.md); how each\n\
+         figure is defined in [commands.md](../commands.md#realism).",
+    );
+    let subjects: Vec<Subject> = realism::subjects(&[])?;
+    let request = realism::Request { subjects, speeds: SPEEDS.to_vec(), settings: Vec::new(), wav: None };
+    let report = realism::run(&request)?;
+    for heard in Ear::ALL {
+        for piece in report.pieces.iter().filter(|piece| piece.heard == heard) {
+            let (share, goal) = (piece.firm.share(), heard.goal());
+            sheet.claim(Claim {
+                what: format!(
+                    "{}, {}: figures of strokes from 3 m/s on as recorded",
+                    piece.piece,
+                    heard.name()
+                ),
+                figure: counted(piece.firm),
+                reference: format!("{:.0} %", 100.0 * goal),
+                source: GOAL,
+                met: Some(share >= goal),
+            });
+        }
+    }
+    for heard in Ear::ALL {
+        let [ranges, medians] =
+            [report.all(heard, |piece| piece.ranges), report.all(heard, |piece| piece.medians)];
+        for (what, count) in [("in the range of recordings", ranges), ("near their median", medians)] {
+            let what = format!("all pieces, {}: figures {what}", heard.name());
+            sheet.claim(Claim::told(&what, counted(count), "as many as can be", RECORDINGS));
+        }
+    }
+    sheet.plot(
+        "decays",
+        "Decay time of each octave in the mix, and in recordings (median)",
+        &Plot {
+            across: Axis::log("Hz", 100.0..10_000.0),
+            up: Axis::log("T60, s", 0.05..30.0),
+            panels: ["kick", "rack-tom", "floor-tom", "crash"]
+                .map(|name| (name.to_owned(), decays(&report, name)))
+                .into(),
+        },
+    )?;
+    report.pieces.iter().for_each(|piece| table(&mut sheet, piece, &report.speeds_m_s));
+    Ok(sheet.finish())
+}
+
+fn table(sheet: &mut Sheet, piece: &PieceReport, speeds: &[f64]) {
+    let places = piece.at.map(|place| place.to_string()).join(", ");
+    sheet.heading(&format!("{}, {}: {} at {places}", piece.piece, piece.heard.name(), piece.striker));
+    let speeds: Vec<String> = speeds.iter().map(|speed| format!("{speed} m/s")).collect();
+    let mut head = vec!["figure", "recordings", "from", "to"];
+    head.extend(speeds.iter().map(String::as_str));
+    let row = |row: &realism::Row| {
+        let (open, close) = if row.ranged { ("", "") } else { ("(", ")") };
+        let bound = |value: f64| format!("{open}{}{close}", short(value));
+        let cell = |(value, inside): (&Option<f64>, &bool)| match (value, inside) {
+            (None, _) => "-".to_owned(),
+            (Some(value), true) => short(*value),
+            (Some(value), false) => format!("**{}**", short(*value)),
+        };
+        let values = row.values.iter().zip(&row.inside).map(cell);
+        let first = [row.feature.to_owned(), short(row.median), bound(row.low), bound(row.high)];
+        first.into_iter().chain(values).collect()
+    };
+    sheet.table(&head, piece.features.iter().map(row));
+    if let Some(slope) = &piece.slope {
+        let value = slope.value.map_or("-".to_owned(), short);
+        sheet.text(&format!(
+            "{} grows by {value} octaves per +20 dB; recordings: {}.",
+            slope.feature,
+            short(slope.median)
+        ));
+    }
+}
+
+fn counted(count: Count) -> String {
+    format!("{} of {} ({:.0} %)", count.inside, count.of, 100.0 * count.share())
+}
+
+/// Two or three figures.
+fn short(value: f64) -> String {
+    let decimals = if value.abs() < 9.95 { 2 } else { usize::from(value.abs() < 99.5) };
+    format!("{value:.decimals$}")
+}
+
+/// Decay times at the first and the last speed and of recordings, by octave.
+fn decays(report: &Report, name: &str) -> Vec<Line> {
+    let in_mix = |piece: &&PieceReport| piece.piece == name && piece.heard == Ear::Mix;
+    let Some(piece) = report.pieces.iter().find(in_mix) else { return Vec::new() };
+    let octaves = [125.0, 500.0, 1000.0, 2000.0, 4000.0, 8000.0];
+    let row = |hz: f64| piece.features.iter().find(|row| row.feature == format!("t60_{hz}_hz_s"));
+    let line = |name: &str, value: &dyn Fn(&realism::Row) -> Option<f64>| {
+        let points = octaves.iter().filter_map(|&hz| Some((hz, value(row(hz)?)?)));
+        (name.to_owned(), points.collect())
+    };
+    vec![
+        line("recordings", &|row| Some(row.median)),
+        line("here, soft", &|row| row.values.first().copied().flatten()),
+        line("here, hard", &|row| row.values.last().copied().flatten()),
+    ]
+}
