@@ -1,7 +1,7 @@
 //! Modes that ring on after nobody can hear them, and may sleep.
 //!
 //! Model: a mode of state `z` is heard at an ear by at most `(|w_re| + |w_im|) max(|re z|, |im z|)`. Put to rest where that is
-//! below a share `1 / N` of [`INAUDIBLE`] at every ear, all `N` modes together are missed by less than [`INAUDIBLE`]
+//! below a share `1 / N` of `INAUDIBLE` at every ear, all `N` modes together are missed by less than `INAUDIBLE`
 //! from then on, for what is left of each would only have decayed. That holds for modes that nothing drives: what does is
 //! given as a port. Once all modes of some lanes sleep, they are passed over ([`ModalBody::ring`]).
 
