@@ -193,6 +193,7 @@ impl NiceEguiApp for App {
             self.pace = Pace::in_software();
         }
         // Peaks and strokes from while no window was open are old news.
+        drop(self.sources.viewer.since());
         self.panels.forget(&self.sources.viewer.latest());
         Ok(())
     }
@@ -204,6 +205,7 @@ impl NiceEguiApp for App {
             Watch::new(ui.ctx().clone(), self.sources.viewer.clone(), self.sources.parameters.clone())
         });
         let seen = watch.look();
+        let past = self.sources.viewer.since();
         let mut snapshot = self.sources.viewer.latest();
         snapshot.late_buffers = self.sources.parameters.deadlines().late();
         let shapes = |slot| self.sources.shapes.of(slot);
@@ -213,7 +215,7 @@ impl NiceEguiApp for App {
         };
         let mut play = |stroke| self.sources.strokes.play(stroke);
         let (parameters, sound) = (&self.sources.parameters, self.sources.viewer.sound());
-        let inputs = Inputs { snapshot: &snapshot, shapes: &shapes, parameters, sound };
+        let inputs = Inputs { snapshot: &snapshot, past: &past, shapes: &shapes, parameters, sound };
         self.panels.show(ui, &inputs, &mut Hands { set: &mut set, play: &mut play });
         self.sources.parameters.set_view(self.panels.view());
         let now = ui.input(|input| input.time);

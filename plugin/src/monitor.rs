@@ -6,6 +6,7 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use crossbeam::queue::ArrayQueue;
 use overhear_engine::snapshot::KitSnapshot;
 use triple_buffer::{Input, Output, TripleBuffer};
 
@@ -15,6 +16,10 @@ use crate::sound::Sound;
 /// Snapshots a second: a little above what screens show, so that no frame lacks a new one.
 const SNAPSHOT_RATE: f64 = 85.0;
 
+/// Snapshots that are kept for diagrams of the past, at most: those of a second, as frames are far apart where the
+/// processor draws.
+const KEPT: usize = 96;
+
 /// A piece's peak above which it can be heard, full scale 1.
 pub const AUDIBLE: f32 = 1e-5;
 
@@ -23,6 +28,7 @@ pub struct Publisher {
     snapshots: Input<KitSnapshot>,
     latest: KitSnapshot,
     sound: Sound,
+    past: Arc<ArrayQueue<KitSnapshot>>,
     news: Arc<AtomicU64>,
     /// Samples from one snapshot to the next.
     interval: usize,
@@ -35,6 +41,7 @@ pub struct Publisher {
 pub struct Viewer {
     snapshots: Arc<Mutex<Output<KitSnapshot>>>,
     sound: Sound,
+    past: Arc<ArrayQueue<KitSnapshot>>,
     news: Arc<AtomicU64>,
 }
 
@@ -44,8 +51,10 @@ pub fn monitor() -> (Publisher, Viewer) {
     let latest = KitSnapshot::default();
     let sound = Sound::default();
     let news = Arc::new(AtomicU64::new(news(&latest)));
-    let viewer = Viewer { snapshots: Arc::new(Mutex::new(output)), sound: sound.clone(), news: news.clone() };
-    (Publisher { snapshots: input, latest, sound, news, interval: 1, elapsed: 0 }, viewer)
+    let past = Arc::new(ArrayQueue::new(KEPT));
+    let snapshots = Arc::new(Mutex::new(output));
+    let viewer = Viewer { snapshots, sound: sound.clone(), past: past.clone(), news: news.clone() };
+    (Publisher { snapshots: input, latest, sound, past, news, interval: 1, elapsed: 0 }, viewer)
 }
 
 impl Publisher {
@@ -83,6 +92,8 @@ impl Publisher {
             carry_peaks(&former, &mut self.latest);
         }
         self.news.store(news(&self.latest), Ordering::Relaxed);
+        // The oldest goes: nobody may be looking.
+        let _ = self.past.force_push(self.latest);
         self.snapshots.write(self.latest);
     }
 }
@@ -97,6 +108,12 @@ impl Viewer {
     /// seen once somebody looked.
     pub fn news(&self) -> u64 {
         self.news.load(Ordering::Relaxed)
+    }
+
+    /// Every snapshot since the last call, the oldest first, as far as they are kept.
+    pub fn since(&self) -> Vec<KitSnapshot> {
+        // Those that come meanwhile are for the next call.
+        (0..self.past.len()).filter_map(|_| self.past.pop()).collect()
     }
 
     /// The latest snapshot.
@@ -152,6 +169,10 @@ mod tests {
             clock = now;
         }
         assert!((80..=90).contains(&seen), "{seen} in a second");
+        let past = viewer.since();
+        assert_eq!(past.len(), seen);
+        assert!(past.is_sorted_by_key(|snapshot| snapshot.clock) && past[seen - 1].clock == clock);
+        assert!(viewer.since().is_empty());
     }
 
     #[test]

@@ -65,8 +65,14 @@ impl Sound {
 
     /// Fills `into` with the latest samples, the newest last; at most as many as are kept. Numbers only.
     pub fn latest(&self, into: &mut [f32]) {
+        self.until(self.written(), into);
+    }
+
+    /// Fills `into` with samples up to where so many had been [written](Self::written), as far back as is kept.
+    pub fn until(&self, written: usize, into: &mut [f32]) {
         let length = into.len().min(KEPT);
-        let from = self.written().wrapping_sub(length);
+        let back = self.written().wrapping_sub(written).min(KEPT - length);
+        let from = self.written().wrapping_sub(back + length);
         for (place, sample) in into.iter_mut().enumerate().take(length) {
             let bits = self.ring.samples[from.wrapping_add(place) % KEPT].load(Ordering::Relaxed);
             let value = f32::from_bits(bits);
@@ -92,6 +98,11 @@ mod tests {
         sound.latest(&mut latest);
         assert_eq!((latest[999], latest[0]), (next - 1.0, next - 1_000.0));
         assert!(latest.windows(2).all(|pair| pair[1] == pair[0] + 1.0));
+        sound.until(sound.written() - 500, &mut latest);
+        assert_eq!(latest[999], next - 501.0);
+        // Farther back than anything is kept.
+        sound.until(0, &mut latest);
+        assert_eq!(latest[0], next - KEPT as f32);
     }
 
     #[test]

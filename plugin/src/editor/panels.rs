@@ -74,6 +74,8 @@ impl Page {
 /// What a window looks at.
 pub struct Inputs<'a> {
     pub snapshot: &'a KitSnapshot,
+    /// Those since the frame before, the oldest first.
+    pub past: &'a [KitSnapshot],
     /// A piece's mode shapes once it is built, by its slot.
     pub shapes: &'a dyn Fn(usize) -> Option<Arc<FieldShapes>>,
     pub parameters: &'a HostParameters,
@@ -163,7 +165,7 @@ impl Panels {
         self.levels.follow(inputs.snapshot, elapsed);
         self.latest.follow(&self.former, inputs.snapshot);
         self.former = *inputs.snapshot;
-        self.physics.follow(ui.input(|input| input.time), inputs.snapshot, inputs.shapes);
+        self.follow_physics(ui.input(|input| input.time), inputs);
 
         let whole = ui.max_rect().shrink(GAP);
         let (header, rest) = whole.split_top_bottom_at_y(whole.min.y + HEADER);
@@ -212,6 +214,16 @@ impl Panels {
         for (index, gesture) in undone {
             (hands.set)(index, gesture);
         }
+    }
+
+    /// Takes note of every snapshot at its time, so that diagrams of the past are as fine however rarely frames come.
+    fn follow_physics(&mut self, now: f64, inputs: &Inputs<'_>) {
+        let newest = inputs.past.last().map_or(0, |snapshot| snapshot.clock);
+        for snapshot in inputs.past {
+            let age = newest.saturating_sub(snapshot.clock) as f64 / f64::from(inputs.sound.rate().max(1.0));
+            self.physics.follow(now - age, snapshot, inputs.shapes);
+        }
+        self.physics.forget_before(now);
     }
 
     /// Whether the next frame will look different though nothing new happens.

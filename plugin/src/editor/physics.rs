@@ -81,7 +81,7 @@ impl Physics {
         }
     }
 
-    /// Takes note of a snapshot; `shapes` gives a slot's mode shapes once it is built.
+    /// Takes note of a snapshot of a time (s); `shapes` gives a slot's mode shapes once it is built.
     pub fn follow(
         &mut self,
         now: f64,
@@ -99,6 +99,10 @@ impl Physics {
         let octaves = snapshot.pieces.map(|piece| piece.octaves);
         self.moments.push_back(Moment { time: now, cents, bending, octaves });
         self.wires.follow(&snapshot.pieces[SNARE].wires, now);
+    }
+
+    /// Lets go of what is no longer drawn.
+    pub fn forget_before(&mut self, now: f64) {
         while self.moments.front().is_some_and(|moment| now - moment.time > MEMORY) {
             self.moments.pop_front();
         }
@@ -133,20 +137,20 @@ impl Physics {
         let (middle, bottom) = halves(lower, 0.5, false);
         let plate = bending::thickness(PieceId::KIT[slot]).is_some();
         let wires = slot == SNARE;
-        let (force, beside) = if plate || wires { halves(upper, 0.6, true) } else { (upper, upper) };
-        force::show(ui, force, slot, &piece.strike, accent);
-        let (energies, below) = halves(middle, 0.5, true);
+        force::show(ui, upper, slot, &piece.strike, accent);
+        let (energies, beside) = halves(middle, 0.5, true);
         energy::show(ui, energies, seen.snapshot);
+        let (sound, corner) = if plate || wires { halves(bottom, 0.62, true) } else { (bottom, bottom) };
+        self.spectrum.show(ui, sound, seen.sound);
         if wires {
-            self.wires.show(ui, beside, &piece.wires, now, accent);
+            self.wires.show(ui, corner, &piece.wires, now, accent);
         }
         if plate {
-            bending::show(ui, beside, &self.moments, (slot, now), accent);
-            cascade::show(ui, below, &self.moments, (slot, now));
+            bending::show(ui, corner, &self.moments, (slot, now), accent);
+            cascade::show(ui, beside, &self.moments, (slot, now));
         } else {
-            glide::show(ui, below, &self.moments, (slot, now), accent);
+            glide::show(ui, beside, &self.moments, (slot, now), accent);
         }
-        self.spectrum.show(ui, bottom, seen.sound);
         let (near, list) = halves(right, 0.48, false);
         let mode = self.mode.map(|(_, mode)| mode);
         self.closeup.show(ui, near, seen, mode);

@@ -24,10 +24,19 @@ impl Plot {
         let painter = ui.painter_at(rect);
         painter.rect_filled(rect, theme::CORNER, palette.panel);
         let line = rect.min.y + 0.5 * TITLE + 1.0;
-        painter.text(pos2(rect.min.x + 12.0, line), Align2::LEFT_CENTER, title, theme::body(), palette.text);
-        let right = pos2(rect.max.x - 12.0, line);
-        painter.text(right, Align2::RIGHT_CENTER, remark, theme::caption(), palette.faint);
-        let area = Rect::from_min_max(rect.min + vec2(12.0, TITLE + 4.0), rect.max - vec2(12.0, AXIS + 4.0));
+        let left = pos2(rect.min.x + 12.0, line);
+        let named = painter.text(left, Align2::LEFT_CENTER, title, theme::body(), palette.text);
+        let galley = painter.layout_no_wrap(remark.to_owned(), theme::caption(), palette.faint);
+        // What does not fit beside the title goes below it.
+        let below = named.max.x + galley.size().x + 20.0 > rect.max.x;
+        let place = Align2::RIGHT_CENTER.anchor_size(
+            pos2(rect.max.x - 12.0, line + if below { 0.75 * TITLE } else { 0.0 }),
+            galley.size(),
+        );
+        let start = place.min.x.max(rect.min.x + 12.0);
+        painter.galley(pos2(start, place.min.y), galley, palette.faint);
+        let top = TITLE + 4.0 + if below { 0.6 * TITLE } else { 0.0 };
+        let area = Rect::from_min_max(rect.min + vec2(12.0, top), rect.max - vec2(12.0, AXIS + 4.0));
         Plot { area, painter, palette }
     }
 

@@ -71,7 +71,8 @@ impl Window {
             let mut set = |index, gesture| gestures.push((index, gesture));
             let mut play = |stroke| strokes.push(stroke);
             let (parameters, sound) = (&self.parameters, &self.sound);
-            let inputs = Inputs { snapshot: &self.snapshot, shapes: &shapes, parameters, sound };
+            let past = std::slice::from_ref(&self.snapshot);
+            let inputs = Inputs { snapshot: &self.snapshot, past, shapes: &shapes, parameters, sound };
             self.panels.show(ui, &inputs, &mut Hands { set: &mut set, play: &mut play });
         });
         output.textures_delta.clear();

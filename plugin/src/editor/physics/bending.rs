@@ -1,7 +1,8 @@
 //! How far a plate bends, against its thickness.
 //!
 //! A plate that bends by a small part of its thickness is linear; from about half of it on its modes exchange energy,
-//! which is what makes a crash swell. Taken from the largest displacement of the modes whose shapes are drawn.
+//! which is what makes a crash swell. Taken from the largest displacement of the modes whose shapes are drawn, but for those
+//! in which a plate swings on its stand and stays as it is.
 
 use std::collections::VecDeque;
 
@@ -19,6 +20,9 @@ use crate::editor::theme;
 /// Less energy than this bends nothing to speak of, J.
 const LEAST: f32 = 1e-9;
 
+/// Nodal diameters and circles of the motions that bend nothing: up and down, and tilting.
+const RIGID: [[u32; 2]; 2] = [[0, 0], [1, 0]];
+
 /// Thickness of a piece that is a plate, m.
 pub fn thickness(piece: PieceId) -> Option<f32> {
     let plate = match piece {
@@ -31,11 +35,17 @@ pub fn thickness(piece: PieceId) -> Option<f32> {
     Some(plate.thickness() as f32)
 }
 
-/// Largest displacement of a plate now over its thickness; nothing of what is none.
+/// Largest displacement by which a plate is bent now, over its thickness; nothing of what is none.
 pub fn of(piece: PieceId, state: &PieceSnapshot, shapes: Option<&FieldShapes>) -> f32 {
     let moves = state.energy > LEAST;
     let Some((thickness, shapes)) = thickness(piece).zip(shapes).filter(|_| moves) else { return 0.0 };
-    let field = field::displacement(shapes, &state.displacement);
+    let mut modes = state.displacement;
+    for (q, order) in modes.iter_mut().zip(&shapes.orders) {
+        if RIGID.contains(order) {
+            *q = 0.0;
+        }
+    }
+    let field = field::displacement(shapes, &modes);
     field.into_iter().fold(0.0, |most: f32, z| most.max(z.abs())) / thickness
 }
 
@@ -48,7 +58,7 @@ pub(super) fn show(
     accent: Color32,
 ) {
     let most = moments.iter().map(|moment| moment.bending[slot]).fold(0.0, f32::max);
-    let plot = Plot::new(ui, rect, "Bending", &format!("up to {most:.2} of its thickness"));
+    let plot = Plot::new(ui, rect, "Bending", &format!("up to {most:.2} thicknesses"));
     let top = most.max(1.2);
     let thickness = plot.at(0.0, 1.0 / (1.08 * top)).y;
     let palette = theme::of(ui);
@@ -78,6 +88,11 @@ mod tests {
         state.displacement[2] = 0.25 * thickness;
         let bending = of(PieceId::Crash, &state, Some(&shapes));
         assert!((bending - 0.5).abs() < 1e-6, "{bending}");
+        // Swinging on its stand it stays flat.
+        shapes.orders = vec![[0, 0], [2, 0], [1, 0]];
+        assert_eq!(of(PieceId::Crash, &state, Some(&shapes)), 0.0);
+        shapes.orders = vec![[0, 0], [1, 0], [2, 0]];
+        assert_eq!(of(PieceId::Crash, &state, Some(&shapes)), bending);
         assert_eq!(of(PieceId::Snare, &state, Some(&shapes)), 0.0);
         assert_eq!(of(PieceId::Crash, &state, None), 0.0);
         state.energy = 0.0;

@@ -11,7 +11,7 @@ use realfft::{RealFftPlanner, RealToComplex};
 
 use crate::editor::plot::Plot;
 use crate::editor::theme::{self, Palette};
-use crate::sound::Sound;
+use crate::sound::{KEPT, Sound};
 
 /// Samples of a window.
 const WINDOW: usize = 4096;
@@ -29,7 +29,7 @@ const RANGE: (f32, f32) = (30.0, 20_000.0);
 /// Levels drawn, dB of full scale.
 const LEVELS: (f32, f32) = (-96.0, -6.0);
 
-/// How fast a level falls on the screen, dB a frame.
+/// How fast a level falls on the screen, dB a column.
 const FALL: f32 = 2.0;
 
 /// Spectrum and spectrogram of one window.
@@ -111,17 +111,35 @@ impl Spectrum {
             self.levels.iter_mut().for_each(|level| *level = (*level - 0.02).max(0.0));
             return None;
         }
-        sound.latest(&mut self.samples);
-        self.samples.iter_mut().zip(&self.window).for_each(|(sample, weight)| *sample *= weight);
-        let done = self.transform.process_with_scratch(&mut self.samples, &mut self.bins, &mut self.scratch);
-        if done.is_err() {
-            return None;
+        // As many columns as time has passed for, each with the sound of its time: where frames are far apart, as where the
+        // processor draws, the past is no coarser for it.
+        let hop = (sound.rate() / COLUMN_RATE).max(1.0);
+        let passed = written.wrapping_sub(before) as f32 / hop;
+        let columns = (passed.round() as usize).clamp(1, COLUMNS);
+        // What is no longer kept cannot be told apart.
+        let told = columns.min(((KEPT - WINDOW) as f32 / hop) as usize + 1);
+        let mut strongest = None;
+        for column in 0..told {
+            let back = ((told - 1 - column) as f32 * hop) as usize;
+            strongest = self.look(sound, written.wrapping_sub(back))?;
+            let same = if column == 0 { columns - told + 1 } else { 1 };
+            self.past.extend(std::iter::repeat_n(self.levels, same));
         }
+        self.past.drain(..self.past.len() - COLUMNS);
+        strongest
+    }
+
+    /// Takes in the sound up to where so many samples had been written; gives the strongest frequency, Hz, if there is one,
+    /// or nothing at all if the transform fails.
+    fn look(&mut self, sound: &Sound, written: usize) -> Option<Option<f32>> {
+        sound.until(written, &mut self.samples);
+        self.samples.iter_mut().zip(&self.window).for_each(|(sample, weight)| *sample *= weight);
+        self.transform.process_with_scratch(&mut self.samples, &mut self.bins, &mut self.scratch).ok()?;
         // A sine of full scale has the height 1 under this window.
         let scale = 4.0 / WINDOW as f32;
         let per_bin = sound.rate() / WINDOW as f32;
         let range = LEVELS.1 - LEVELS.0;
-        let mut strongest = (LEVELS.0, 0.0);
+        let mut strongest = (LEVELS.0, None);
         for (band, level) in self.levels.iter_mut().enumerate() {
             let [from, to] = [band as f32 - 0.5, band as f32 + 0.5].map(|band| frequency(band) / per_bin);
             let last = self.bins.len() - 1;
@@ -130,16 +148,11 @@ impl Spectrum {
             let most = bins.map(|bin| self.bins[bin].norm()).fold(0.0, f32::max);
             let decibels = 20.0 * (scale * most).max(1e-9).log10();
             if decibels > strongest.0 {
-                strongest = (decibels, frequency(band as f32));
+                strongest = (decibels, Some(frequency(band as f32)));
             }
             *level = ((decibels - LEVELS.0) / range).clamp(0.0, 1.0).max(*level - FALL / range);
         }
-        // As many columns as time has passed for.
-        let passed = written.wrapping_sub(before) as f32 / sound.rate().max(1.0) * COLUMN_RATE;
-        let columns = (passed.round() as usize).clamp(1, COLUMNS);
-        self.past.drain(..columns);
-        self.past.resize(COLUMNS, self.levels);
-        (strongest.1 > 0.0).then_some(strongest.1)
+        Some(strongest.1)
     }
 
     fn image(&self, palette: &Palette) -> ColorImage {
@@ -192,6 +205,26 @@ mod tests {
             // Nothing new: no tone.
             assert_eq!(spectrum.follow(&sound), None);
         }
+    }
+
+    #[test]
+    fn frames_far_apart_tell_the_past_as_finely_as_near_ones() {
+        let tone = |hertz: f32| -> Vec<f32> {
+            (0..4096).map(|n| 0.3 * (std::f32::consts::TAU * hertz * n as f32 / 48_000.0).sin()).collect()
+        };
+        let (sound, mut spectrum) = (Sound::default(), Spectrum::new());
+        for hertz in [200.0, 2_000.0] {
+            sound.write(&tone(hertz), &tone(hertz));
+        }
+        spectrum.follow(&sound);
+        // A sixth of a second in one frame: the columns in it differ, and the newest is the newest.
+        assert_eq!(spectrum.past.len(), COLUMNS);
+        let loudest = |column: usize| {
+            let levels = spectrum.past[column];
+            (0..BANDS).max_by(|&a, &b| levels[a].total_cmp(&levels[b])).map(|band| frequency(band as f32))
+        };
+        let (early, late) = (loudest(COLUMNS - 6).unwrap(), loudest(COLUMNS - 1).unwrap());
+        assert!((early / 200.0).log2().abs() < 0.1 && (late / 2_000.0).log2().abs() < 0.1, "{early} {late}");
     }
 
     #[test]

@@ -59,9 +59,9 @@ impl Wires {
             }
         }
         let text = if wires.last_lift > 0.0 {
-            format!("last lift {} after the stroke", time_text(wires.last_lift))
+            format!("last lift at {}", time_text(wires.last_lift))
         } else {
-            "all lie against the head".to_owned()
+            "all against the head".to_owned()
         };
         let at = pos2(room.center().x, rect.max.y - 12.0);
         painter.text(at, Align2::CENTER_CENTER, text, theme::caption(), palette.faint);
