@@ -4,7 +4,7 @@
 //! that take turns: what else the machine does then hits both alike. Every run does exactly the same work, for the
 //! engine is deterministic; what differs between runs is the machine, and the median and the spread say by how much.
 
-mod calibration;
+pub(crate) mod calibration;
 mod callgrind;
 mod compare;
 mod limit;
