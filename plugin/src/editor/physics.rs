@@ -101,7 +101,7 @@ impl Physics {
         self.wires.follow(&snapshot.pieces[SNARE].wires, now);
     }
 
-    /// Lets go of what is no longer drawn.
+    /// Lets go of what is no longer drawn at the time `now`, s.
     pub fn forget_before(&mut self, now: f64) {
         while self.moments.front().is_some_and(|moment| now - moment.time > MEMORY) {
             self.moments.pop_front();

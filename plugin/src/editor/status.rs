@@ -52,7 +52,7 @@ impl Late {
     /// How long it is said, s.
     const NEWS: f64 = 4.0;
 
-    /// Takes in how many there were so far.
+    /// Takes in how many there were so far, at the time `now`, s.
     pub fn follow(&mut self, count: u64, now: f64) {
         // Those from before the window was opened are old news.
         if self.count.replace(count).is_some_and(|before| before != count) {

@@ -58,7 +58,7 @@ impl Claim {
     }
 }
 
-/// Four figures, no more than there are.
+/// Four figures of a number in any unit, no more than there are.
 pub fn figure(value: f64) -> String {
     let size = if value == 0.0 { 0.0 } else { value.abs().log10().floor() };
     let decimals = (3.0 - size).clamp(0.0, 9.0) as usize;

@@ -35,7 +35,7 @@ pub fn thickness(piece: PieceId) -> Option<f32> {
     Some(plate.thickness() as f32)
 }
 
-/// Largest displacement by which a plate is bent now, over its thickness; nothing of what is none.
+/// Largest displacement by which a plate is bent now, in units of its thickness; nothing of what is none.
 pub fn of(piece: PieceId, state: &PieceSnapshot, shapes: Option<&FieldShapes>) -> f32 {
     let moves = state.energy > LEAST;
     let Some((thickness, shapes)) = thickness(piece).zip(shapes).filter(|_| moves) else { return 0.0 };
