@@ -129,10 +129,15 @@ impl Sheet {
     /// # Errors
     /// If it cannot be drawn.
     pub fn plot(&mut self, what: &str, caption: &str, plot: &Plot<'_>) -> Result<()> {
+        self.picture(what, caption, plot.png()?);
+        Ok(())
+    }
+
+    /// Adds a PNG, `what` it shows being the last part of its file's name.
+    pub fn picture(&mut self, what: &str, caption: &str, png: Vec<u8>) {
         let file = format!("{}-{what}.png", self.name);
         let _ = write!(self.body, "\n![{caption}]({file})\n\n{caption}.\n");
-        self.pictures.push((file, plot.png()?));
-        Ok(())
+        self.pictures.push((file, png));
     }
 
     /// The page.
