@@ -7,10 +7,11 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use egui::{Rect, Ui, pos2};
+use egui::{Color32, Rect, Ui, pos2};
 use overhear_engine::piece::PieceId;
 use overhear_engine::snapshot::{FieldShapes, KitSnapshot, OCTAVES};
 
+use super::plot::Plot;
 use super::theme;
 use crate::sound::Sound;
 
@@ -68,6 +69,20 @@ pub struct Seen<'a> {
     pub shapes: Option<Arc<FieldShapes>>,
     pub selected: usize,
     pub sound: &'a Sound,
+}
+
+/// Draws one height (share of the plot's) for each moment over the time that is remembered, up to `now`, s.
+fn over_time(
+    plot: &Plot,
+    moments: &VecDeque<Moment>,
+    now: f64,
+    heights: impl Iterator<Item = f32>,
+    colour: Color32,
+) {
+    let across = moments.iter().map(|moment| 1.0 - ((now - moment.time) / MEMORY) as f32);
+    let points: Vec<_> = across.zip(heights).map(|(x, y)| plot.at(x, y)).collect();
+    plot.curve(&points, colour);
+    plot.ends(&format!("{MEMORY:.0} s ago"), "now");
 }
 
 impl Physics {
