@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
 use anyhow::Result;
-use overhear_engine::piece::PieceId;
 
 use super::page::sources::GOAL;
 use super::plot::{Axis, Line, Plot};
@@ -82,7 +81,7 @@ pub fn page() -> Result<Page> {
 /// A picture of every piece at every speed.
 fn spectrograms(sheet: &mut Sheet, heard: &BTreeMap<(&str, u64), Vec<f32>>) -> Result<()> {
     for subject in &SUBJECTS {
-        let length = (shown(subject.piece) * f64::from(RATE)) as usize;
+        let length = (shown(subject) * f64::from(RATE)) as usize;
         let panel = |speed: &f64| {
             let sound = heard.get(&(subject.name, speed.to_bits()))?;
             Some((format!("{} {speed} m/s", subject.name), sound.get(..length).unwrap_or(sound)))
@@ -98,8 +97,8 @@ fn spectrograms(sheet: &mut Sheet, heard: &BTreeMap<(&str, u64), Vec<f32>>) -> R
 }
 
 /// How much of a stroke is shown, s: what is heard of it.
-fn shown(piece: PieceId) -> f64 {
-    if piece.is_drum() { 1.5 } else { 4.0 }
+fn shown(subject: &Subject) -> f64 {
+    if subject.piece.is_drum() || subject.name == "hi-hat-closed" { 1.5 } else { 4.0 }
 }
 
 fn table(sheet: &mut Sheet, piece: &PieceReport, speeds: &[f64]) {
