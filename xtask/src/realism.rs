@@ -64,7 +64,7 @@ pub struct Job {
     pub place: f64,
 }
 
-/// Who is shown a stroke and what the ears hear of it.
+/// Who is shown a stroke and what the ears hear of it, full scale 1.
 pub type Show<'a> = dyn Fn(&Job, &[Vec<f32>; 2]) + Sync + 'a;
 
 impl Request {
