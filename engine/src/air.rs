@@ -40,7 +40,7 @@ const NODES: usize = 28;
 /// Highest `omega a / c` over `j` that a mass curve follows. *Derived*: the peak at 1 is some `1 / sqrt(j)` wide.
 const SUBSONIC: f64 = 0.8;
 
-/// `C_m`: how the square of a shape integrates around the circle.
+/// `C_m`: how the square of a shape integrates around the circle, rad.
 pub fn circle(m: u32) -> f64 {
     if m == 0 { std::f64::consts::TAU } else { std::f64::consts::PI }
 }
@@ -72,12 +72,12 @@ impl<'a> MembraneAir<'a> {
         MembraneAir { m, bessel }
     }
 
-    /// Argument the Bessel table must reach for modes up to the zero `j`.
+    /// Argument (dimensionless) the Bessel table must reach for modes up to the zero `j`.
     pub fn reach(j: f64) -> f64 {
         j + BEYOND + 5.0
     }
 
-    /// Load of the mode whose radial wavenumber is the zero `j` of `J_m`, at `u = omega a / c`.
+    /// Load of the mode whose radial wavenumber is the zero `j` of `J_m`, at `u = omega a / c`, all dimensionless.
     pub fn load(&self, j: f64, u: f64) -> AirLoad {
         let shape = HankelShape::new(self.m, j, self.bessel);
         let square = |t: f64| shape.at(u * (1.0 - t * t).max(0.0).sqrt()).powi(2);
@@ -86,7 +86,7 @@ impl<'a> MembraneAir<'a> {
         AirLoad { mass: self.mass(j, u), resistance: circle(self.m) * u * rule.integrate(square) }
     }
 
-    /// The mass of [`load`](Self::load) alone.
+    /// The mass of [`load`](Self::load) alone, the ratio to `rho a^3`.
     pub fn mass(&self, j: f64, u: f64) -> f64 {
         let shape = HankelShape::new(self.m, j, self.bessel);
         let far = ((j + BEYOND).powi(2) - u * u).max(0.0).sqrt();
@@ -100,7 +100,7 @@ impl<'a> MembraneAir<'a> {
         circle(self.m) * (near + tail)
     }
 
-    /// The mass as a function of `u`, for solving and retuning.
+    /// The mass (over `rho a^3`) as a function of the dimensionless `u = omega a / c`, for solving and retuning.
     ///
     /// Held from where waves on the head come near the speed of sound: there its load turns from a mass into a
     /// resistance within a few percent, which no curve follows and no mode survives long enough to show.
@@ -116,7 +116,7 @@ impl<'a> MembraneAir<'a> {
 pub struct MassCurves(BTreeMap<(u32, u64), MassCurve>);
 
 impl MassCurves {
-    /// That of the mode whose radial wavenumber is the zero `j`.
+    /// That of the mode whose radial wavenumber is the (dimensionless) zero `j`.
     pub fn get(&mut self, air: &MembraneAir, j: f64) -> MassCurve {
         *self.0.entry((air.m, j.to_bits())).or_insert_with(|| air.curve(j))
     }
@@ -132,13 +132,13 @@ pub struct HankelShape<'a> {
 }
 
 impl<'a> HankelShape<'a> {
-    /// For the zero `j` of `J_m`.
+    /// For the zero `j` of `J_m` (dimensionless).
     pub fn new(m: u32, j: f64, bessel: &'a JTable) -> Self {
         let slope = bessel.pair(j).1;
         HankelShape { j, scale: shape_norm(m, slope) * j * slope, slope, bessel }
     }
 
-    /// `f(x)`.
+    /// `f(x)`, both dimensionless.
     pub fn at(&self, x: f64) -> f64 {
         self.of_bessel(x, self.bessel.value(x))
     }
@@ -207,10 +207,10 @@ const CHEBYSHEV: [f64; NODES] = [
 ];
 
 impl MassCurve {
-    /// A mode in vacuum.
+    /// A mode in vacuum: no mass, whatever its unit.
     pub const VACUUM: MassCurve = MassCurve { most: f64::INFINITY, logarithms: [f64::NEG_INFINITY; NODES] };
 
-    /// Mass over `rho a^3` at `u = omega a / c`; held beyond the greatest.
+    /// Ratio of the mass to `rho a^3` at `u = omega a / c`; held beyond the greatest.
     pub fn at(&self, u: f64) -> f64 {
         if self.most == f64::INFINITY {
             return 0.0;

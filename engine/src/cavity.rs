@@ -55,14 +55,14 @@ pub struct CavityMode {
     pub spring: f64,
     /// Volume displaced per modal displacement, m2: batter modes, then resonant modes.
     pub volume: Vec<f64>,
-    /// Volume that leaves an open end per displacement of the mass.
+    /// Volume that leaves an open end per displacement of the mass, m2.
     pub outlet: f64,
 }
 
 /// A head mode as the cavity sees it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HeadShape {
-    /// `j_mn`.
+    /// `j_mn`, dimensionless.
     pub zero: f64,
     /// `N`, signed as in the shape.
     pub norm: f64,
@@ -91,7 +91,7 @@ const EXTRA_CIRCLES: u32 = 6;
 const HALF_WAVES: u32 = 400;
 
 impl CavitySpec {
-    /// A cylinder.
+    /// A cylinder of a radius and a depth, m.
     pub fn cylinder(radius: f64, depth: f64) -> CavitySpec {
         CavitySpec { radius, volume: PI * radius * radius * depth, depth, q: 60.0, open: false }
     }

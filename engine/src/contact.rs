@@ -103,14 +103,14 @@ pub enum Tip {
 pub struct ContactLaw {
     /// `K`, N/m^alpha.
     pub stiffness: f64,
-    /// `alpha`, at least 1.
+    /// `alpha`, dimensionless, at least 1.
     pub exponent: f64,
-    /// `lambda v_in`, from the restitution; 0 is lossless.
+    /// `lambda v_in`, dimensionless, from the restitution; 0 is lossless.
     pub loss: f64,
 }
 
 impl ContactLaw {
-    /// The law of a tip on a surface, with restitution `e` in 0.01 to 1 (clamped).
+    /// The law of a tip on a surface, with the ratio `e` of leaving to arriving speed in 0.01 to 1 (clamped).
     pub fn new(tip: &Tip, surface: &Material, restitution: f64) -> ContactLaw {
         let loss = loss_of_restitution(restitution);
         match *tip {
@@ -230,7 +230,7 @@ pub struct ContactStep {
     pub dt: f64,
 }
 
-/// The non-zero root `r` of `ln((1 + r) / (1 - e r)) = r (1 + e)`; 0 for `e = 1`.
+/// The non-zero root `r` of `ln((1 + r) / (1 - e r)) = r (1 + e)`; 0 for `e = 1`. Both are ratios.
 pub fn loss_of_restitution(restitution: f64) -> f64 {
     let e = restitution.clamp(0.01, 1.0);
     if e > 1.0 - 1e-9 {

@@ -267,7 +267,7 @@ impl Cymbal {
         self.muffling.set(amount);
     }
 
-    /// Lets a hand take hold of the edge (firmly at 1) or let go (0).
+    /// Lets a hand take hold of the edge, from 0 to 1: firmly at 1, not at all at 0.
     pub fn choke(&mut self, strength: f64) {
         self.hand.set(strength);
     }

@@ -18,7 +18,7 @@ pub enum SpecError {
 }
 
 impl SpecError {
-    /// Passes `value` through if it lies in `min..=max` (a NaN does not).
+    /// Passes `value` through if it lies in `min..=max` (a NaN does not), all in the unit that `field` names.
     ///
     /// # Errors
     /// [`SpecError::OutOfRange`] naming the field, the value and the range.

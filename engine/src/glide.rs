@@ -20,17 +20,17 @@ pub struct Glide {
 }
 
 impl Glide {
-    /// At rest at `value`, within `min..=max`.
+    /// At rest at `value`, within `min..=max`, in units of the caller.
     pub fn new(value: f64, min: f64, max: f64) -> Glide {
         Glide { value, lead: value, target: value, min, max }
     }
 
-    /// Where it is.
+    /// Where it is, in units of the caller.
     pub fn value(&self) -> f64 {
         self.value
     }
 
-    /// Asks for a value; clamped to the range, a NaN is ignored.
+    /// Asks for a value, in units of the caller; clamped to the range, a NaN is ignored.
     pub fn set(&mut self, target: f64) {
         if !target.is_nan() {
             self.target = target.clamp(self.min, self.max);

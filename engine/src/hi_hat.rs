@@ -54,7 +54,7 @@ pub const POINTS: usize = 16;
 /// Mean distance of the rims while the pedal is up, m. *Literature*: players set 2 to 4 cm.
 pub const GAP: f64 = 0.030;
 
-/// Where on the pedal's way rims that are not tilted would touch. *By ear*: most of what a foot does happens
+/// Where on the pedal's way (a share of it) rims that are not tilted would touch. *By ear*: most of what a foot does happens
 /// about there.
 pub const TOUCHING: f64 = 0.6;
 
@@ -78,7 +78,7 @@ pub struct HiHatSpec {
     pub toward: f64,
     /// Radius of the rims where they meet, m.
     pub edge: f64,
-    /// Restitution of a landing.
+    /// Restitution of a landing, a ratio of speeds.
     pub restitution: f64,
     /// Decay rate that rims which are clamped together add to every mode of both.
     pub rubbing: LossLaw,
@@ -202,7 +202,7 @@ impl HiHat {
         &mut self.surface
     }
 
-    /// Where the pedal has been asked to be, 0 (up) to 1 (down).
+    /// Where the pedal has been asked to be, from 0 (up) to 1 (down): a share of its way.
     pub fn pedal(&self) -> f64 {
         self.pedal
     }
@@ -261,7 +261,7 @@ impl HiHat {
         self.muffling.set(amount);
     }
 
-    /// Lets a hand take hold of both edges (firmly at 1) or let go (0).
+    /// Lets a hand take hold of both edges, from 0 to 1: firmly at 1, not at all at 0.
     pub fn choke(&mut self, strength: f64) {
         self.hand.set(strength);
     }
@@ -342,7 +342,7 @@ impl HiHat {
     }
 }
 
-/// A splash leaves the pedal no farther down than this: the rims well apart.
+/// A splash leaves the pedal no farther down than this share of its way: the rims well apart.
 pub const SPLASHING: f64 = 0.2;
 
 /// Change of the rubbing that the modes follow: to follow every one would cost a block's time while the pedal moves.

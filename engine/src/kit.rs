@@ -60,7 +60,7 @@ struct Seat {
     pedal: f64,
 }
 
-/// Two outputs of one length: left, right.
+/// Two outputs of one length: left, right; full scale is 1.
 pub type Stereo<'a> = [&'a mut [f32]; 2];
 
 /// The drum kit. Owns its pieces; renders them; the only way sound leaves the engine.
@@ -87,7 +87,7 @@ impl Kit {
         Kit::with_layout(sample_rate, &Layout::default())
     }
 
-    /// An empty kit that stands so.
+    /// An empty kit that stands so, at a sample rate in Hz.
     pub fn with_layout(sample_rate: f64, layout: &Layout) -> Kit {
         Kit {
             posts: std::array::from_fn(|_| Some(Box::new(Post::new(sample_rate)))),
@@ -210,7 +210,7 @@ impl Kit {
         }
     }
 
-    /// Lets a hand take hold of a cymbal, firmly at 1, or let go of it, 0; see [`Piece::choke`]. A NaN is ignored.
+    /// Lets a hand take hold of a cymbal, from 0 (lets go) to 1 (firmly); see [`Piece::choke`]. A NaN is ignored.
     ///
     /// # Real-time
     /// No allocation, no lock.

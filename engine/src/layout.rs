@@ -96,7 +96,7 @@ impl Placement {
         }
     }
 
-    /// Where the piece lies in the stereo as the drummer hears it, -1 (left) to 1 (right).
+    /// Where the piece lies in the stereo as the drummer hears it, a share of the width: -1 (left) to 1 (right).
     pub fn side(&self) -> f64 {
         /// Half the width of the kit, m.
         const HALF_WIDTH: f64 = 0.8;

@@ -111,7 +111,7 @@ impl ListeningPoint {
 pub struct Radiator<'a> {
     /// Nodal diameters.
     pub m: u32,
-    /// Radial shape on the grid of [`Rayleigh::radii`].
+    /// Radial shape on the grid of [`Rayleigh::radii`], relative to the modal displacement.
     pub radial: &'a [f64],
     /// Angular frequency, rad/s.
     pub omega: f64,

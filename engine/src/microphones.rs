@@ -29,7 +29,7 @@ pub struct CloseMicrophone {
     pub point: ListeningPoint,
     /// Distance from there at which sound is time zero of the mix, m; farther off it is later by the difference.
     pub time_zero: f64,
-    /// Gain of its preamplifier: the same wherever it is moved.
+    /// Gain of its preamplifier, a factor: the same wherever it is moved.
     pub gain: f32,
 }
 

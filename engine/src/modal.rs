@@ -36,7 +36,7 @@ use crate::snapshot::{OCTAVES, octave_of};
 
 pub use simd::{EARS, MAX_DRIVES};
 
-/// A row of one `f32` per mode, aligned and padded with zeros to whole SIMD lanes.
+/// A row of one `f32` per mode, in the unit of what it is, aligned and padded with zeros to whole SIMD lanes.
 pub type Row = AVec<f32, ConstAlign<64>>;
 
 /// A row of zeros for `modes` modes.
@@ -95,12 +95,13 @@ impl Port {
         Port { shape: zero_row(modes), gain_re: zero_row(modes), gain_im: zero_row(modes) }
     }
 
-    /// Mode shapes at the place, `[mode]`; call [`ModalBody::connect`] after a change.
+    /// Mode shapes at the place, `[mode]`, relative to the modal displacement; call [`ModalBody::connect`] after a
+    /// change.
     pub fn shape_mut(&mut self) -> &mut [f32] {
         &mut self.shape
     }
 
-    /// Mode shapes at the place, `[mode]`, padded.
+    /// Mode shapes at the place, `[mode]`, relative to the modal displacement, padded.
     pub fn shape(&self) -> &[f32] {
         &self.shape
     }
@@ -139,7 +140,8 @@ impl Pickup {
         self.ears[EARS - 1] = Ear::new(vec![[0.0; 2]; modes]);
     }
 
-    /// The transfer from each mode's acceleration to an ear, `[mode]`; call [`ModalBody::tune`] after a change.
+    /// The transfer from each mode's acceleration to an ear, Pa s2/m, `[mode]`; call [`ModalBody::tune`] after a
+    /// change.
     pub fn transfer_mut(&mut self, ear: usize) -> &mut [[f64; 2]] {
         &mut self.ears[ear].transfer
     }
@@ -188,7 +190,7 @@ pub struct ModalBody {
 }
 
 impl ModalBody {
-    /// A body at rest. Allocates.
+    /// A body at rest, at a sample rate in Hz. Allocates.
     ///
     /// # Panics
     /// If a mode's frequency or mass is not above zero (debug builds).
@@ -245,7 +247,7 @@ impl ModalBody {
         mode.omega_d() * f64::from(self.state.re[k]) - mode.sigma * f64::from(self.state.im[k])
     }
 
-    /// Scales every frequency; see [`set_mode`](Self::set_mode).
+    /// Scales every frequency by a factor; see [`set_mode`](Self::set_mode).
     ///
     /// # Real-time
     /// No allocation; about 50 ns a mode.

@@ -71,14 +71,14 @@ pub struct PlateTables {
 }
 
 impl PlateTables {
-    /// Tables of every order to `max_order` and arguments to `x_max`.
+    /// Tables of every order to `max_order` and dimensionless arguments to `x_max`.
     pub fn new(max_order: u32, x_max: f64) -> PlateTables {
         PlateTables { j: JTable::orders(max_order, x_max), i: ITable::orders(max_order, x_max) }
     }
 }
 
 impl PlateModes {
-    /// Finds every mode up to `limit_hz` (100 to 48000).
+    /// Finds every mode up to `limit_hz` (100 to 48000 Hz).
     ///
     /// # Errors
     /// [`SpecError`] if the plate or the limit is out of range.
@@ -103,12 +103,12 @@ impl PlateModes {
         &self.flat[shell.m as usize]
     }
 
-    /// Radial shape of a shell mode at `r`, to rounding.
+    /// Radial shape of a shell mode, of unit mean square, at the share `r` of the radius, to rounding.
     pub fn radial_shape(&self, shell: &ShellMode, r: f64) -> f64 {
         self.expand(shell, |flat| flat.value(r))
     }
 
-    /// Hankel transform `int_0^1 R(r) J_m(x r) r dr` of a shell mode's radial shape.
+    /// Hankel transform `int_0^1 R(r) J_m(x r) r dr` of a shell mode's radial shape, dimensionless.
     pub fn hankel(&self, shell: &ShellMode, x: f64) -> f64 {
         self.expand(shell, |flat| flat.hankel(x))
     }
@@ -119,7 +119,8 @@ impl PlateModes {
         terms.map(|(flat, share)| share * of_flat(flat)).sum()
     }
 
-    /// Highest order and largest argument the tables must reach for this plate's modes, at
+    /// Highest order and largest (dimensionless) argument the tables must reach for this plate's modes, at
+    /// frequencies up to `limit_hz`, Hz.
     /// frequencies up to `limit_hz`.
     pub fn table_extent(&self, limit_hz: f64) -> (u32, f64) {
         let root = self.flat.iter().flatten().map(|flat| flat.root).fold(0.0, f64::max);
@@ -127,8 +128,8 @@ impl PlateModes {
         (self.flat.len().saturating_sub(1) as u32, root.max(trace))
     }
 
-    /// Radial shapes of all flat modes at `radii`, `[order][circle * radii.len() + radius]`, within
-    /// about 1e-7.
+    /// Radial shapes of all flat modes, of unit mean square, at `radii` (shares of the radius),
+    /// `[order][circle * radii.len() + radius]`, within about 1e-7.
     ///
     /// # Panics
     /// If the tables do not reach the plate's highest order.
@@ -143,8 +144,8 @@ impl PlateModes {
         self.flat.iter().enumerate().map(sample_order).collect()
     }
 
-    /// Radial shapes of all shell modes at `radii`, `[shell * radii.len() + radius]`, within about
-    /// 1e-6.
+    /// Radial shapes of all shell modes, of unit mean square, at `radii` (shares of the radius),
+    /// `[shell * radii.len() + radius]`, within about 1e-6.
     ///
     /// # Panics
     /// If the tables do not reach the plate's highest order.

@@ -243,7 +243,7 @@ impl NonlinearForce {
         self.negligible = share;
     }
 
-    /// Scales the potential, as a stiffer material would; from the next evaluation on.
+    /// Scales the potential by a factor, as a stiffer material would; from the next evaluation on.
     ///
     /// What that changes of the energy held is the work of whoever changes it.
     pub fn set_stiffness(&mut self, stiffness: f64) {
@@ -400,7 +400,7 @@ impl NonlinearForce {
         }
     }
 
-    /// After the body's free step: `psibar` if no striker pressed.
+    /// After the body's free step: `psibar` if no striker pressed, in the unit of `psi` (the root of J).
     pub fn free(&mut self, body: &ModalBody) -> f64 {
         self.mean = (self.psi + 0.5 * body.moved(&self.front, &self.port)) / self.stiffening;
         self.mean
@@ -416,12 +416,12 @@ impl NonlinearForce {
         body.folded_compliance(folded, &self.port)
     }
 
-    /// `2 + G`.
+    /// `2 + G`, dimensionless.
     pub fn divisor(&self) -> f64 {
         2.0 * self.stiffening
     }
 
-    /// Applies the force, given `sum p_i F_i` of the strikers; the pressure that follows at once.
+    /// Applies the force, given `sum p_i F_i` (N) of the strikers; the pressure that follows at once.
     pub fn finish(&mut self, body: &mut ModalBody, strikers: f64) -> Heard {
         let (force, heard) = self.hold(strikers);
         body.push(&self.port, force);

@@ -62,7 +62,7 @@ pub struct RimMode {
     pub mode: Mode,
     /// Pressure over modal acceleration at the listening point, Pa s2/m.
     pub transfer: [f64; 2],
-    /// The same far away, as at a metre.
+    /// The same far away, as at a metre, Pa s2/m.
     pub far_transfer: [f64; 2],
 }
 

@@ -137,7 +137,7 @@ impl ShapeTable {
         &mut self.weights[self.starts[k]..][..self.index[k].rows]
     }
 
-    /// Writes every mode's shape at a place, `[mode]`.
+    /// Writes every mode's shape at a place (share of the radius, rad), `[mode]`.
     ///
     /// # Real-time
     /// No allocation; linear in the number of modes and the rows they mix.

@@ -49,7 +49,7 @@ pub struct BendingMode {
 impl Stick {
     /// The bead, and the shoulder, shares of the length.
     pub const BEAD: f64 = 0.01;
-    /// Where the taper ends.
+    /// Where the taper ends, a share of the length.
     pub const SHOULDER: f64 = 0.12;
 
     /// A shaft on a steel edge: radius of curvature, m, and restitution.
@@ -60,7 +60,7 @@ impl Stick {
         3.0_f64.sqrt() * (1.0 - 2.0 * place)
     }
 
-    /// A hickory stick of the usual size (5A to 5B) that touches at `place`.
+    /// A hickory stick of the usual size (5A to 5B) that touches at `place`, a share of the length from the tip.
     pub const fn at(place: f64) -> Stick {
         Stick { length: 0.406, radius: 0.00735, material: Material::HICKORY, q: 20.0, place }
     }

@@ -57,7 +57,7 @@ pub struct SurfaceParts {
     pub modes: Vec<Mode>,
     /// Shapes of the modes.
     pub shapes: ShapeTable,
-    /// How each mode is heard, `[mode]`; see [`Pickup::new`].
+    /// How each mode is heard, Pa s2/m of its acceleration, `[mode]`; see [`Pickup::new`].
     pub transfer: Vec<[f64; 2]>,
     /// What the tip meets.
     pub material: Material,

@@ -11,17 +11,17 @@ use realfft::RealFftPlanner;
 /// Sample rates that hosts use, Hz.
 pub const RATES: [f64; 4] = [44_100.0, 48_000.0, 96_000.0, 192_000.0];
 
-/// A piece as it is played.
+/// A piece as it is played, at a sample rate in Hz.
 pub fn piece(id: PieceId, sample_rate: f64) -> Piece {
     build(id, &BuildOptions::new(sample_rate))
 }
 
-/// A piece from which nothing is lost, in its contacts neither.
+/// A piece from which nothing is lost, in its contacts neither, at a sample rate in Hz.
 pub fn lossless_piece(id: PieceId, sample_rate: f64) -> Piece {
     build(id, &BuildOptions { lossless: true, ..BuildOptions::new(sample_rate) })
 }
 
-/// A perfectly round piece.
+/// A perfectly round piece, at a sample rate in Hz.
 pub fn round_piece(id: PieceId, sample_rate: f64) -> Piece {
     build(id, &BuildOptions { unsplit: true, ..BuildOptions::new(sample_rate) })
 }
@@ -34,12 +34,12 @@ pub fn build(id: PieceId, options: &BuildOptions) -> Piece {
     Piece::new(id, options).expect("a default piece")
 }
 
-/// A piece as it stands in the kit, heard by its close microphone.
+/// A piece as it stands in the kit, heard by its close microphone, at a sample rate in Hz.
 pub fn kit_piece(id: PieceId, sample_rate: f64) -> Piece {
     build(id, &BuildOptions::in_kit(id, sample_rate))
 }
 
-/// The whole kit, as the plugin plays it.
+/// The whole kit, as the plugin plays it, at a sample rate in Hz.
 pub fn kit(sample_rate: f64) -> Kit {
     let mut kit = Kit::new(sample_rate);
     for id in PieceId::KIT {
@@ -48,7 +48,7 @@ pub fn kit(sample_rate: f64) -> Kit {
     kit
 }
 
-/// A stroke.
+/// A stroke at a speed (m/s), a place (share of the radius) and an angle (rad).
 pub fn stroke(striker: Striker, speed: f64, radius: f64, angle: f64) -> Strike {
     Strike { speed, radius, angle, striker }
 }
@@ -58,7 +58,7 @@ pub fn total_energy(piece: &Piece) -> f64 {
     piece.energy() + piece.striker_energy() + piece.departed_energy()
 }
 
-/// Renders a stretch of a piece.
+/// Renders a stretch of a piece, s long, at a sample rate in Hz.
 pub fn render(piece: &mut Piece, seconds: f64, sample_rate: f64) -> Vec<f32> {
     let mut out = vec![0.0; (seconds * sample_rate).round() as usize];
     piece.render(&mut out);
@@ -91,12 +91,12 @@ impl Chance {
         self.0.wrapping_mul(0x2545_f491_4f6c_dd1d)
     }
 
-    /// In 0..1.
+    /// In 0..1, dimensionless.
     pub fn unit(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// In `low..high`.
+    /// In `low..high`, in their unit.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.unit()
     }
@@ -129,12 +129,12 @@ pub struct Spectrum {
 }
 
 impl Spectrum {
-    /// Of the sound as it is.
+    /// Of the sound as it is; the sample rate is in Hz.
     pub fn new(sound: &[f32], sample_rate: f64) -> Spectrum {
         Spectrum::windowed(sound, sample_rate, |_| 1.0)
     }
 
-    /// Of the sound under a Hann window: lines stand apart and can be measured.
+    /// Of the sound under a Hann window, the sample rate in Hz: lines stand apart and can be measured.
     pub fn hann(sound: &[f32], sample_rate: f64) -> Spectrum {
         Spectrum::windowed(sound, sample_rate, |t| 0.5 - 0.5 * (TAU * t).cos())
     }

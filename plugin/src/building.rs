@@ -60,7 +60,7 @@ impl Staff {
 }
 
 impl BuildPlan {
-    /// The plan that plain values ask for, given by their place in [`PARAMETERS`].
+    /// The plan that values in the parameters' units ask for, given by their place in [`PARAMETERS`].
     ///
     /// # Real-time
     /// No allocation; linear in the number of parameters.

@@ -126,7 +126,7 @@ impl HostParameters {
         &self.values
     }
 
-    /// Share of its range at which a parameter of the table is without modulation, by its [`host_id`].
+    /// Share of its range, 0 to 1, at which a parameter of the table is without modulation, by its [`host_id`].
     pub fn unmodulated(&self, id: u32) -> Option<f32> {
         let index = PARAMETERS.iter().position(|parameter| host_id(parameter.id) == id)?;
         Some(self.values.get(index)?.unmodulated_normalized_value())

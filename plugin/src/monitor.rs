@@ -6,8 +6,8 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use crossbeam::queue::ArrayQueue;
 use overhear_engine::snapshot::KitSnapshot;
+use rtrb::{Consumer, Producer, RingBuffer};
 use triple_buffer::{Input, Output, TripleBuffer};
 
 use crate::performer::Performer;
@@ -28,7 +28,7 @@ pub struct Publisher {
     snapshots: Input<KitSnapshot>,
     latest: KitSnapshot,
     sound: Sound,
-    past: Arc<ArrayQueue<KitSnapshot>>,
+    past: Producer<KitSnapshot>,
     news: Arc<AtomicU64>,
     /// Samples from one snapshot to the next.
     interval: usize,
@@ -36,12 +36,13 @@ pub struct Publisher {
     elapsed: usize,
 }
 
-/// The editor's end; windows that come and go share it.
+/// The editor's end; windows that come and go share it, and take turns where they have to: the audio thread is no part
+/// of that.
 #[derive(Clone)]
 pub struct Viewer {
     snapshots: Arc<Mutex<Output<KitSnapshot>>>,
     sound: Sound,
-    past: Arc<ArrayQueue<KitSnapshot>>,
+    past: Arc<Mutex<Consumer<KitSnapshot>>>,
     news: Arc<AtomicU64>,
 }
 
@@ -51,9 +52,13 @@ pub fn monitor() -> (Publisher, Viewer) {
     let latest = KitSnapshot::default();
     let sound = Sound::default();
     let news = Arc::new(AtomicU64::new(news(&latest)));
-    let past = Arc::new(ArrayQueue::new(KEPT));
-    let snapshots = Arc::new(Mutex::new(output));
-    let viewer = Viewer { snapshots, sound: sound.clone(), past: past.clone(), news: news.clone() };
+    let (past, kept) = RingBuffer::new(KEPT);
+    let viewer = Viewer {
+        snapshots: Arc::new(Mutex::new(output)),
+        sound: sound.clone(),
+        past: Arc::new(Mutex::new(kept)),
+        news: news.clone(),
+    };
     (Publisher { snapshots: input, latest, sound, past, news, interval: 1, elapsed: 0 }, viewer)
 }
 
@@ -92,8 +97,8 @@ impl Publisher {
             carry_peaks(&former, &mut self.latest);
         }
         self.news.store(news(&self.latest), Ordering::Relaxed);
-        // The oldest goes: nobody may be looking.
-        let _ = self.past.force_push(self.latest);
+        // When all places are taken nobody looks, or has not for a second: what is new then is lost to the diagrams.
+        let _ = self.past.push(self.latest);
         self.snapshots.write(self.latest);
     }
 }
@@ -112,8 +117,9 @@ impl Viewer {
 
     /// Every snapshot since the last call, the oldest first, as far as they are kept.
     pub fn since(&self) -> Vec<KitSnapshot> {
+        let mut past = self.past.lock().unwrap_or_else(PoisonError::into_inner);
         // Those that come meanwhile are for the next call.
-        (0..self.past.len()).filter_map(|_| self.past.pop()).collect()
+        (0..past.slots()).filter_map(|_| past.pop().ok()).collect()
     }
 
     /// The latest snapshot.

@@ -84,7 +84,7 @@ pub struct Buffers<'a> {
 }
 
 impl<'a> Buffers<'a> {
-    /// The buffers that the framework hands over; `None` if the mix is not stereo.
+    /// The buffers that the framework hands over, full scale 1; `None` if the mix is not stereo.
     ///
     /// # Real-time
     /// No allocation.
@@ -120,7 +120,7 @@ impl<'a> Buffers<'a> {
         (cut(&mut self.main, from, to), self.pieces.each_mut().map(|pair| cut(pair, from, to)))
     }
 
-    /// Every channel there is.
+    /// Every channel there is, full scale 1.
     pub fn channels(&mut self) -> impl Iterator<Item = &mut [f32]> {
         self.main.iter_mut().chain(self.pieces.iter_mut().flatten()).map(|channel| &mut **channel)
     }

@@ -144,7 +144,7 @@ impl Construction {
 }
 
 impl Parameter {
-    /// The nearest value that the parameter can take: within the range and a multiple of the
+    /// The nearest value, in its unit, that the parameter can take: within the range and a multiple of the
     /// step. A value that is not a number gives the default.
     pub fn snap(&self, value: f32) -> f32 {
         if value.is_nan() {
@@ -163,7 +163,7 @@ impl Parameter {
         ((value - self.min) / (self.max - self.min)).clamp(0.0, 1.0).powf(self.skew())
     }
 
-    /// A value as shown, without its unit: `-inf` for a level that is silent.
+    /// A value in the parameter's unit as shown, without that unit: `-inf` for a level that is silent.
     pub fn text(&self, value: f32) -> String {
         if self.is_level() && value <= self.min {
             return "-inf".to_owned();
@@ -180,7 +180,7 @@ impl Parameter {
         }
     }
 
-    /// A value typed with or without its unit; the range is not checked.
+    /// A value in the parameter's unit, typed with or without it; the range is not checked.
     pub fn from_text(&self, text: &str) -> Option<f32> {
         let number = text.trim().trim_end_matches(self.unit.trim()).trim_end();
         if self.is_level() && number == "-inf" {
@@ -192,7 +192,7 @@ impl Parameter {
         number.parse().ok().filter(|value: &f32| value.is_finite())
     }
 
-    /// Reads the value of a `name=value`.
+    /// Reads the value of a `name=value`, in the parameter's unit.
     ///
     /// # Errors
     /// [`ParameterError`] with the value and the accepted range.
@@ -214,7 +214,7 @@ impl Parameter {
         }
     }
 
-    /// The name of a value, if values have names.
+    /// The name of a value, if values have names and no unit.
     pub fn choice(&self, value: f32) -> Option<&'static str> {
         let index = self.snap(value) - self.min;
         self.choices.get(index as usize).copied()
@@ -246,7 +246,7 @@ pub fn find(name: &str) -> Result<(usize, &'static Parameter), ParameterError> {
     })
 }
 
-/// Reads a `name=value` into an index in [`PARAMETERS`] and a plain value.
+/// Reads a `name=value` into an index in [`PARAMETERS`] and a value in that parameter's unit.
 ///
 /// # Errors
 /// [`ParameterError`] if the form, the name or the value is wrong.

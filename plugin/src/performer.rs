@@ -49,17 +49,17 @@ pub struct Performer {
 }
 
 impl Performer {
-    /// A performer at a kit that has no pieces yet, every parameter at its default.
+    /// A performer at a kit that has no pieces yet, every parameter at its default; the sample rate is in Hz.
     pub fn new(sample_rate: f64) -> Performer {
         Performer::with_assignments(sample_rate, Arc::default())
     }
 
-    /// As [`new`](Self::new), with the user's assignments of notes.
+    /// As [`new`](Self::new) at a sample rate in Hz, with the user's assignments of notes.
     pub fn with_assignments(sample_rate: f64, assignments: Arc<Assignments>) -> Performer {
         Performer::at(Kit::new(sample_rate), assignments)
     }
 
-    /// As [`new`](Self::new), at a kit that stands so.
+    /// As [`new`](Self::new) at a sample rate in Hz, at a kit that stands so.
     pub fn with_layout(sample_rate: f64, layout: &Layout) -> Performer {
         Performer::at(Kit::with_layout(sample_rate, layout), Arc::default())
     }
@@ -349,7 +349,7 @@ impl Performer {
         self.playing.stroke(note).map(|stroke| stroke.piece)
     }
 
-    /// The present plain value of a parameter, by its index in [`PARAMETERS`].
+    /// The present value of a parameter, in its unit, by its index in [`PARAMETERS`].
     pub fn parameter(&self, index: usize) -> Option<f32> {
         self.values.get(index).copied()
     }

@@ -16,7 +16,7 @@ pub fn index_of(pair: Microphone, stand: Stand) -> Option<usize> {
     PARAMETERS.iter().position(|parameter| parameter.drives == Drives::Stand(pair, stand))
 }
 
-/// Places of a pair that usually stands there; `value` gives a parameter's plain value by its index.
+/// Places of a pair that usually stands there; `value` gives a parameter's value in its unit, by its index.
 ///
 /// # Real-time
 /// No allocation, no lock.

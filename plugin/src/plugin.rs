@@ -26,7 +26,7 @@ use crate::outputs::{Apart, Buffers, Mix, Outputs};
 use crate::parameters::PARAMETERS;
 use crate::performer::Performer;
 use crate::state;
-use crate::strokes::Strokes;
+use crate::strokes::{self, Strokes, Waiting};
 
 mod events;
 
@@ -58,6 +58,7 @@ pub struct Instrument<O> {
     publisher: Publisher,
     viewer: Viewer,
     strokes: Strokes,
+    waiting: Waiting,
     outputs: PhantomData<O>,
 }
 
@@ -74,6 +75,7 @@ struct Stage {
 impl<O> Default for Instrument<O> {
     fn default() -> Self {
         let (publisher, viewer) = monitor::monitor();
+        let (strokes, waiting) = strokes::strokes();
         let (parameters, offline) = (host_parameters::for_new_instance(), Arc::<AtomicBool>::default());
         let builder = {
             let (parameters, offline) = (parameters.clone(), offline.clone());
@@ -86,7 +88,8 @@ impl<O> Default for Instrument<O> {
             stage: None,
             publisher,
             viewer,
-            strokes: Strokes::default(),
+            strokes,
+            waiting,
             outputs: PhantomData,
         }
     }
@@ -150,7 +153,7 @@ impl<O: Outputs> Plugin for Instrument<O> {
     }
 
     fn reset(&mut self) {
-        self.strokes.clear();
+        self.waiting.clear();
         let bypassed = self.parameters.is_bypassed();
         if let Some(stage) = &mut self.stage {
             stage.bypass.settle(bypassed);
@@ -171,7 +174,7 @@ impl<O: Outputs> Plugin for Instrument<O> {
         let played = self.stage.as_mut().is_some_and(|stage| {
             stage.guarded(|stage| {
                 stage.follow(&self.parameters);
-                self.strokes.deliver(&mut stage.performer);
+                self.waiting.deliver(&mut stage.performer);
                 play(&mut stage.performer, &mut buffers, &self.parameters, || context.next_event());
                 stage.bypass.apply(bypassed, buffers.channels());
                 let (heard, _) = buffers.stretch(0, buffers.len());

@@ -54,14 +54,14 @@ pub const FACTORY: [(&str, &str); 8] = [
 pub struct Preset {
     /// What it is for, in a line.
     pub about: String,
-    /// Values by place in [`PARAMETERS`]; others are at their default or stay.
+    /// Values in the parameters' units by place in [`PARAMETERS`]; others are at their default or stay.
     pub values: BTreeMap<usize, f32>,
     /// Assignments of notes, if it says anything about them.
     pub notes: Option<BTreeMap<u8, Assignment>>,
 }
 
 impl Preset {
-    /// A preset of the present values, without what belongs to the player.
+    /// A preset of the present values, in the parameters' units, without what belongs to the player.
     pub fn of(values: impl Fn(usize) -> f32, about: &str) -> Preset {
         let differs = |(index, parameter): (usize, &Parameter)| {
             let value = parameter.snap(values(index));
@@ -71,7 +71,7 @@ impl Preset {
         Preset { about: about.to_owned(), values, notes: None }
     }
 
-    /// The value that a parameter takes when the preset is loaded; `None` if it stays as it is.
+    /// The value, in the parameter's unit, that it takes when the preset is loaded; `None` if it stays as it is.
     pub fn value(&self, index: usize) -> Option<f32> {
         let parameter = PARAMETERS.get(index)?;
         let default = (!is_set_up(parameter)).then_some(parameter.default);

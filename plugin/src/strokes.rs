@@ -1,14 +1,14 @@
 //! Strokes played by hand on the editor's picture, on their way to the audio thread.
 //!
-//! A bounded queue without locks: whoever looks at the kit puts strokes in, `process` takes them out at the
-//! start of its next buffer. When nobody renders, the queue fills up and further strokes are lost, as those on a kit nobody
+//! A bounded queue: whoever looks at the kit puts strokes in, `process` takes them out at the start of its next buffer
+//! and waits for nobody; hands take turns among themselves. When nobody renders, the queue fills up and further strokes are lost, as those on a kit nobody
 //! hears.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
-use crossbeam::queue::ArrayQueue;
 use overhear_engine::piece::PieceId;
 use overhear_engine::strike::Strike;
+use rtrb::{Consumer, Producer, RingBuffer};
 
 use crate::performer::Performer;
 
@@ -24,32 +24,41 @@ pub struct Stroke {
     pub strike: Strike,
 }
 
-/// The queue; clones are ends of the same.
+/// The hands' end; clones are the same end.
 #[derive(Clone)]
 pub struct Strokes {
-    queue: Arc<ArrayQueue<Stroke>>,
+    sent: Arc<Mutex<Producer<Stroke>>>,
 }
 
-impl Default for Strokes {
-    fn default() -> Strokes {
-        Strokes { queue: Arc::new(ArrayQueue::new(WAITING)) }
-    }
+/// The audio thread's end.
+pub struct Waiting {
+    strokes: Consumer<Stroke>,
+}
+
+/// Both ends of a queue.
+pub fn strokes() -> (Strokes, Waiting) {
+    let (sent, strokes) = RingBuffer::new(WAITING);
+    (Strokes { sent: Arc::new(Mutex::new(sent)) }, Waiting { strokes })
 }
 
 impl Strokes {
     /// Sends a stroke, unless too many wait already.
     pub fn play(&self, stroke: Stroke) {
+        let mut sent = self.sent.lock().unwrap_or_else(PoisonError::into_inner);
         // Lost strokes are no loss: see above.
-        let _ = self.queue.push(stroke);
+        let _ = sent.push(stroke);
     }
+}
 
+impl Waiting {
     /// Lets the performer play everything that waits, at the next sample.
     ///
     /// # Real-time
     /// No allocation, no lock; at most as many strokes as can wait.
-    pub fn deliver(&self, performer: &mut Performer) {
+    pub fn deliver(&mut self, performer: &mut Performer) {
+        // A hand that goes on playing does not hold it up.
         for _ in 0..WAITING {
-            let Some(Stroke { piece, strike }) = self.queue.pop() else { return };
+            let Ok(Stroke { piece, strike }) = self.strokes.pop() else { return };
             performer.strike(piece, &strike);
         }
     }
@@ -57,10 +66,10 @@ impl Strokes {
     /// Forgets what waits, as after a time in which nothing was rendered.
     ///
     /// # Real-time
-    /// As [`deliver`](Self::deliver): a hand that goes on playing does not hold it up.
-    pub fn clear(&self) {
+    /// As [`deliver`](Self::deliver).
+    pub fn clear(&mut self) {
         for _ in 0..WAITING {
-            if self.queue.pop().is_none() {
+            if self.strokes.pop().is_err() {
                 return;
             }
         }
@@ -98,11 +107,11 @@ mod tests {
     #[test]
     fn a_stroke_of_a_hand_strikes_that_piece_there_and_is_heard() {
         let mut performer = performer(&[PieceId::RackTom, PieceId::Splash]);
-        let strokes = Strokes::default();
+        let (strokes, mut waiting) = super::strokes();
         let silence = heard(&mut performer);
         assert!(silence.iter().all(|&sample| sample == 0.0));
         strokes.play(stroke(PieceId::RackTom, 3.0, 0.4, -1.1));
-        strokes.deliver(&mut performer);
+        waiting.deliver(&mut performer);
         let sound = heard(&mut performer);
         assert!(sound.iter().any(|sample| sample.abs() > 0.01), "nothing is heard");
         let mut snapshot = KitSnapshot::default();
@@ -117,9 +126,9 @@ mod tests {
     fn elsewhere_sounds_different() {
         let sound = |radius: f64| {
             let mut performer = performer(&[PieceId::RackTom]);
-            let strokes = Strokes::default();
+            let (strokes, mut waiting) = super::strokes();
             strokes.play(stroke(PieceId::RackTom, 3.0, radius, 0.0));
-            strokes.deliver(&mut performer);
+            waiting.deliver(&mut performer);
             heard(&mut performer)
         };
         let [middle, rim] = [0.0, 0.8].map(sound);
@@ -131,14 +140,26 @@ mod tests {
     #[test]
     fn a_full_queue_loses_strokes_and_nothing_else() {
         let mut performer = performer(&[PieceId::Splash]);
-        let strokes = Strokes::default();
+        let (strokes, mut waiting) = super::strokes();
         for _ in 0..1_000 {
             strokes.play(stroke(PieceId::Splash, 1.0, 0.5, 0.0));
         }
-        strokes.deliver(&mut performer);
+        waiting.deliver(&mut performer);
         let mut snapshot = KitSnapshot::default();
         performer.snapshot(&mut snapshot);
         assert_eq!(snapshot.pieces[PieceId::Splash.slot().unwrap()].strike.count, WAITING as u32);
-        strokes.clear();
+    }
+
+    #[test]
+    fn what_is_forgotten_strikes_nothing() {
+        let mut performer = performer(&[PieceId::Splash]);
+        let (strokes, mut waiting) = super::strokes();
+        strokes.play(stroke(PieceId::Splash, 1.0, 0.5, 0.0));
+        waiting.clear();
+        waiting.deliver(&mut performer);
+        assert!(heard(&mut performer).iter().all(|&sample| sample == 0.0));
+        strokes.play(stroke(PieceId::Splash, 1.0, 0.5, 0.0));
+        waiting.deliver(&mut performer);
+        assert!(heard(&mut performer).iter().any(|sample| sample.abs() > 1e-3));
     }
 }

@@ -11,11 +11,11 @@ pub struct View {
     pub piece: u8,
     /// Turn (rad), height (rad) and distance (m) of the eye.
     pub camera: [f32; 3],
-    /// Size of everything, 1 as designed.
+    /// Size of everything, a factor: 1 as designed.
     pub zoom: f32,
 }
 
-/// Smallest and largest zoom.
+/// Smallest and largest zoom, factors.
 pub const ZOOM: (f32, f32) = (0.75, 3.0);
 
 impl Default for View {
@@ -24,7 +24,7 @@ impl Default for View {
     }
 }
 
-/// A view as it is stored: its fields in their order.
+/// A view as it is stored: its fields in their order and units.
 pub type Stored = (u8, bool, u8, [f32; 3], f32);
 
 impl View {

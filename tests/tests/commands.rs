@@ -1,5 +1,8 @@
 //! The commands as somebody types them: what they refuse, what they promise, what is documented.
 
+#[path = "commands/readme.rs"]
+mod readme;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -33,6 +36,11 @@ impl Folder {
 
     /// Runs a command in the folder.
     fn run(&self, arguments: &[&str]) -> Output {
+        self.command(arguments).output().expect("the command runs")
+    }
+
+    /// A command that is to run in the folder.
+    fn command(&self, arguments: &[&str]) -> Command {
         let mut command = match std::env::var_os(xtask::suite::COMMAND_VARIABLE) {
             Some(path) => Command::new(path),
             None => {
@@ -43,7 +51,8 @@ impl Folder {
                 cargo
             }
         };
-        command.args(arguments).current_dir(&self.0).output().expect("the command runs")
+        command.args(arguments).current_dir(&self.0);
+        command
     }
 
     /// Runs a command that must succeed and returns what it prints.
@@ -302,31 +311,6 @@ fn the_commands_of_the_readme_and_the_manual_exist() {
             }
         }
         assert!(mentioned >= 5, "{page} names {mentioned} commands");
-    }
-}
-
-/// Those that take minutes are run by whoever runs this: `test` runs the tests and `bundle`, the workflow `test`, `demo`
-/// and `report`; that all are understood is another test's claim (`tidy.rs`).
-#[test]
-fn the_short_commands_of_the_readme_do_what_it_says() {
-    let folder = Folder::new("readme");
-    folder.file("song.mid", SONG);
-    fs::create_dir(folder.0.join("songs")).unwrap();
-    folder.file("songs/one.mid", SONG);
-    folder.file("songs/two.mid", SONG);
-    let readme = fs::read_to_string(root().join("README.md")).unwrap();
-    let lines: Vec<&str> = readme
-        .lines()
-        .filter_map(|line| line.strip_prefix("cargo xtask "))
-        .map(|line| line.split(" #").next().unwrap_or(line).trim())
-        .filter(|line| ["render", "hear", "modes"].iter().any(|command| line.starts_with(command)))
-        .collect();
-    assert!(lines.len() >= 6, "{lines:?}");
-    for line in lines {
-        folder.succeed(&line.split_whitespace().collect::<Vec<_>>());
-    }
-    for file in ["song.wav", "snare.wav", "sounds/two.wav", "stems/two/kick.wav"] {
-        assert!(folder.0.join(file).exists(), "{file}: {:?}", folder.names());
     }
 }
 

@@ -7,7 +7,7 @@ use assert_no_alloc::{AllocDisabler, assert_no_alloc, reset_violation_count, vio
 use overhear::deadline::Deadlines;
 use overhear::parameters::PARAMETERS;
 use overhear::performer::Performer;
-use overhear::strokes::{Stroke, Strokes};
+use overhear::strokes::{Stroke, Strokes, Waiting, strokes};
 use overhear_engine::piece::PieceId;
 use overhear_engine::snapshot::KitSnapshot;
 use overhear_engine::strike::{Strike, Striker};
@@ -21,6 +21,7 @@ struct Session {
     performer: Performer,
     deadlines: Deadlines,
     strokes: Strokes,
+    waiting: Waiting,
     snapshot: KitSnapshot,
     left: Vec<f32>,
     right: Vec<f32>,
@@ -32,11 +33,13 @@ impl Session {
         let mut performer = Performer::new(48_000.0);
         performer.install_kit(48_000.0).expect("a rate that pieces can be built for");
         let deadlines = Deadlines::default();
+        let (strokes, waiting) = strokes();
         deadlines.expect(Some(48_000.0));
         Session {
             performer,
             deadlines,
-            strokes: Strokes::default(),
+            strokes,
+            waiting,
             snapshot: KitSnapshot::default(),
             left: vec![0.0; 512],
             right: vec![0.0; 512],
@@ -77,7 +80,7 @@ impl Session {
                 let [speed, radius, angle] = std::array::from_fn(|_| number(&mut self.chance));
                 let strike = Strike { speed, radius, angle, striker: Striker::Stick };
                 self.strokes.play(Stroke { piece, strike });
-                self.strokes.deliver(&mut self.performer);
+                self.waiting.deliver(&mut self.performer);
             }
             980..998 => self.performer.snapshot(&mut self.snapshot),
             _ => self.performer.reset(),

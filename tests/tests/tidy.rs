@@ -1,4 +1,7 @@
-//! What can be counted of the house's order: docs of modules, sizes of files, names in documents, notes to oneself.
+//! What can be counted of the house's order: docs of modules, sizes of files, names in documents, notes to oneself, units.
+
+#[path = "tidy/units.rs"]
+mod units;
 
 use std::fs;
 use std::path::{Path, PathBuf};

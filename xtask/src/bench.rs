@@ -4,7 +4,7 @@
 //! that take turns: what else the machine does then hits both alike. Every run does exactly the same work, for the
 //! engine is deterministic; what differs between runs is the machine, and the median and the spread say by how much.
 
-mod calibration;
+pub(crate) mod calibration;
 mod callgrind;
 mod compare;
 mod limit;
@@ -147,7 +147,7 @@ pub struct Builds {
     pub build_warm_s: f64,
     /// CPU seconds of all processors for these three, in their order: what other work on the machine adds least to.
     pub build_cpu_s: [f64; 3],
-    /// What the process holds after the first, MB.
+    /// What the process holds after the first, in MB.
     pub memory_mb: f64,
     /// What the machine can do, and what a ringing kit asks for.
     pub limit: Option<Limit>,

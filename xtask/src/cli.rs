@@ -81,7 +81,10 @@ fn refused(refusal: &clap::Error) -> ExitCode {
 
 fn dispatch(task: Task) -> Result<()> {
     match task {
-        Task::Demo => demo::run(&std::env::current_dir()?),
+        Task::Demo { all_presets: true } => {
+            demo::presets::run(&std::env::current_dir()?.join("demo-presets"))
+        }
+        Task::Demo { all_presets: false } => demo::run(&std::env::current_dir()?),
         Task::Test => suite::run(),
         Task::Bundle { universal } => {
             let processors = if universal { Processors::Universal } else { Processors::Own };

@@ -4,6 +4,8 @@
 //! `assets/groove.mid` through it at 48 kHz, writes `demo.wav` and `demo.png`, says how loud each
 //! piece is at each microphone and what it cost, and takes pictures of the editor where there is what that needs.
 
+pub mod presets;
+
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, ensure};
@@ -104,10 +106,6 @@ fn play(take: &Take, style: &Style, label: &str) -> Result<(Played, Vec<f32>, Ve
 }
 
 fn report(take: &Take, played: &Played, levels: &[Row], [wav, png, clap]: [&Path; 3]) {
-    let decibels = |peak: f32| match peak {
-        0.0 => "silent".to_owned(),
-        peak => format!("{:6.1} dBFS", 20.0 * peak.log10()),
-    };
     let seconds = take.frames as f64 / f64::from(RATE);
     println!("\npeak of a stroke at full velocity, dBFS, at the microphones: close, overheads, room");
     for Row { piece, peaks } in levels {
@@ -117,7 +115,7 @@ fn report(take: &Take, played: &Played, levels: &[Row], [wav, png, clap]: [&Path
             peaks.map(|peak| format!("{:8.1}", 20.0 * peak.log10())).concat()
         );
     }
-    println!("peak of the groove: {}", decibels(played.peak).trim_start());
+    println!("peak of the groove: {}", decibels(played.peak));
     let share = 100.0 * played.busy.as_secs_f64() / seconds;
     println!("\n{seconds:.1} s of sound, {} notes, {share:.1} % of real time", take.hits.len());
     println!("sound    {}", wav.display());
@@ -128,4 +126,9 @@ fn report(take: &Take, played: &Played, levels: &[Row], [wav, png, clap]: [&Path
             println!("`cargo xtask install` puts {} into {}", format.bundle_file(), folder.display());
         }
     }
+}
+
+/// A peak, full scale 1, as text.
+fn decibels(peak: f32) -> String {
+    if peak > 0.0 { format!("{:.1} dBFS", 20.0 * peak.log10()) } else { "silent".to_owned() }
 }

@@ -1,4 +1,4 @@
-//! A picture of a stereo sound: its waveform above its spectrogram, as a PNG.
+//! Pictures of sounds as PNGs: waveform above spectrogram, and spectrograms side by side.
 
 mod spectrogram;
 
@@ -10,6 +10,9 @@ use spectrogram::Spectrogram;
 
 /// Size of the picture, pixels.
 const SIZE: (u32, u32) = (1600, 900);
+
+/// Size of a picture of spectrograms side by side, pixels.
+const SIDE_BY_SIDE: (u32, u32) = (1080, 320);
 
 /// Height of the waveforms, pixels.
 const WAVES: u32 = 300;
@@ -28,6 +31,23 @@ const WAVE: RGBColor = RGBColor(240, 170, 80);
 /// If drawing or encoding fails.
 pub fn png(title: &str, left: &[f32], right: &[f32], rate: u32) -> Result<Vec<u8>> {
     drawn(SIZE, |area| draw(area, title, [left, right], f64::from(rate)))
+}
+
+/// Draws spectrograms side by side, each a sound (full scale 1) under its name, at a sample rate (Hz), and returns the PNG's
+/// bytes.
+///
+/// # Errors
+/// If drawing or encoding fails.
+pub fn spectrograms(panels: &[(String, &[f32])], rate: f64) -> Result<Vec<u8>> {
+    drawn(SIDE_BY_SIDE, |area| {
+        area.fill(&PAPER)?;
+        for (area, (name, sound)) in area.split_evenly((1, panels.len())).iter().zip(panels) {
+            let area = area.titled(name, ("sans-serif", 18).into_font().color(&INK))?;
+            draw_spectrogram(&area, sound, rate, 5)?;
+        }
+        area.present()?;
+        Ok(())
+    })
 }
 
 /// The PNG of what `draw` draws on an area of that size, pixels.
@@ -80,7 +100,8 @@ fn draw(
     {
         draw_wave(half, name, channel, seconds)?;
     }
-    draw_spectrogram(&below, channels, rate)?;
+    let mono: Vec<f32> = std::iter::zip(channels[0], channels[1]).map(|(l, r)| l + r).collect();
+    draw_spectrogram(&below, &mono, rate, 14)?;
     area.present()?;
     Ok(())
 }
@@ -118,8 +139,14 @@ fn draw_wave(
     Ok(())
 }
 
-fn draw_spectrogram(area: &Area, channels: [&[f32]; 2], rate: f64) -> Result<(), Box<dyn std::error::Error>> {
-    let seconds = channels[0].len() as f64 / rate;
+/// Levels over time, with so many marks of time, and frequency.
+fn draw_spectrogram(
+    area: &Area,
+    sound: &[f32],
+    rate: f64,
+    marks: usize,
+) -> Result<(), Box<dyn std::error::Error>> {
+    let seconds = sound.len() as f64 / rate;
     let mut chart = ChartBuilder::on(area)
         .margin(6)
         .x_label_area_size(44)
@@ -130,16 +157,15 @@ fn draw_spectrogram(area: &Area, channels: [&[f32]; 2], rate: f64) -> Result<(),
         .disable_mesh()
         .x_desc("s")
         .y_desc("Hz")
-        .x_labels(14)
-        .x_label_formatter(&|seconds| format!("{seconds:.0}"))
+        .x_labels(marks)
+        .x_label_formatter(&|time| if seconds < 3.0 { format!("{time:.1}") } else { format!("{time:.0}") })
         .y_label_formatter(&|hertz| format!("{hertz:.0}"))
         .axis_style(GRID)
         .label_style(("sans-serif", 16).into_font().color(&INK))
         .draw()?;
     let plot = chart.plotting_area().strip_coord_spec();
     let (columns, rows) = plot.dim_in_pixel();
-    let mono: Vec<f32> = std::iter::zip(channels[0], channels[1]).map(|(l, r)| l + r).collect();
-    let spectrogram = Spectrogram::new(&mono, rate, columns as usize);
+    let spectrogram = Spectrogram::new(sound, rate, columns as usize);
     let ratio = FREQUENCIES.end / FREQUENCIES.start;
     for row in 0..rows {
         let height = f64::from(rows - 1 - row) / f64::from(rows.max(1));
@@ -178,6 +204,8 @@ mod tests {
         let sine: Vec<f32> = (0..24_000).map(|n| (n as f32 * 0.05).sin() * 0.5).collect();
         for sound in [&sine[..], &[0.0; 4800]] {
             let bytes = png("a title", sound, sound, 48_000).unwrap();
+            assert!(bytes.starts_with(b"\x89PNG"));
+            let bytes = spectrograms(&[("one".to_owned(), sound), ("two".to_owned(), sound)], 48e3).unwrap();
             assert!(bytes.starts_with(b"\x89PNG"));
         }
     }

@@ -34,7 +34,7 @@ pub use subject::{SUBJECTS, Subject, subjects};
 pub const SPEEDS: [f64; 3] = [1.5, 3.0, 5.0];
 
 /// Sample rate, Hz.
-const RATE: u32 = 48_000;
+pub const RATE: u32 = 48_000;
 
 /// How long drums and cymbals are heard, s: until each octave has fallen by more than 25 dB.
 const DRUM_SECONDS: f64 = 4.0;
@@ -55,11 +55,17 @@ pub struct Request {
 
 /// One stroke of a subject.
 #[derive(Debug, Clone, Copy)]
-struct Job {
-    subject: Subject,
-    speed: f64,
-    place: f64,
+pub struct Job {
+    /// What is struck.
+    pub subject: Subject,
+    /// Speed, m/s.
+    pub speed: f64,
+    /// Place, share of the radius.
+    pub place: f64,
 }
+
+/// Who is shown a stroke and what the ears hear of it, full scale 1.
+pub type Show<'a> = dyn Fn(&Job, &[Vec<f32>; 2]) + Sync + 'a;
 
 impl Request {
     /// Every stroke: subject by subject, speed by speed, place by place.
@@ -79,6 +85,14 @@ impl Request {
 /// # Errors
 /// [`BadInput`](crate::error::BadInput) if a sound cannot be written.
 pub fn run(request: &Request) -> Result<Report> {
+    run_and_show(request, &|_, _| ())
+}
+
+/// The same, showing every stroke, in no order, with what each ear hears of it (full scale 1).
+///
+/// # Errors
+/// As [`run`].
+pub fn run_and_show(request: &Request, show: &Show) -> Result<Report> {
     let _folder = request.wav.as_deref().map(Folder::new).transpose()?;
     let jobs = request.jobs();
     let next = AtomicUsize::new(0);
@@ -89,7 +103,7 @@ pub fn run(request: &Request) -> Result<Report> {
         loop {
             let index = next.fetch_add(1, Ordering::Relaxed);
             let Some(job) = jobs.get(index) else { return Ok(()) };
-            let strokes = job.strike(&mut stand, request.wav.as_deref())?;
+            let strokes = job.strike(&mut stand, request.wav.as_deref(), show)?;
             progress.lock().unwrap_or_else(PoisonError::into_inner).advance(1);
             done.lock().unwrap_or_else(PoisonError::into_inner)[index] = Some(strokes);
         }
@@ -109,7 +123,7 @@ pub fn run(request: &Request) -> Result<Report> {
 
 impl Job {
     /// Renders the stroke, keeps what each ear hears if asked to, and measures it.
-    fn strike(&self, stand: &mut Stand, folder: Option<&Path>) -> Result<[Stroke; 2]> {
+    fn strike(&self, stand: &mut Stand, folder: Option<&Path>, show: &Show) -> Result<[Stroke; 2]> {
         let Job { subject, speed, place } = *self;
         let strike = Strike { speed, radius: place, ..subject.strike() };
         let seconds = if subject.piece.is_drum() { DRUM_SECONDS } else { CYMBAL_SECONDS };
@@ -123,6 +137,7 @@ impl Job {
                 file.finish()?;
             }
         }
+        show(self, &heard);
         let rate = f64::from(RATE);
         Ok(heard.map(|sound| Stroke {
             features: features::measure(&sound, rate),

@@ -13,7 +13,7 @@ use overhear_engine::piece::{BuildOptions, Piece, PieceId};
 
 use crate::bad_input;
 
-/// A parameter moved: its index in [`PARAMETERS`] and its plain value.
+/// A parameter moved: its index in [`PARAMETERS`] and its value in its unit.
 pub type Setting = (usize, f32);
 
 /// Reads the values of `--set`.

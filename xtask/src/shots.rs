@@ -131,7 +131,7 @@ fn pictures(folder: &Path, plugin: &Path, looks: &[(bool, u32)]) -> Result<()> {
     let bundle = Bundle::load(plugin)?;
     let mut instance = bundle.instantiate()?;
     let (notes, played) = channel();
-    let play = move |processor: &mut Processor| play(processor, &played);
+    let play = move |processor: &mut Processor| play(processor, &played, |sound| sound());
     instance.run_beside(RATE, 1..=BLOCK as u32, play, |instance| {
         for (set, &(light, zoom)) in looks.iter().enumerate() {
             if set > 0 {
@@ -207,8 +207,12 @@ fn with_view(state: &[u8], shot: &Shot, (light, zoom): (bool, u32), size: [u32; 
     Ok([&(text.len() as u64).to_le_bytes()[..], &text].concat())
 }
 
-/// Plays in real time what is sent, until nobody sends any more.
-fn play(processor: &mut Processor, notes: &Receiver<(u8, f32)>) -> Result<()> {
+/// Plays in real time what is sent, until nobody sends any more; each buffer as `buffer` has it done.
+fn play(
+    processor: &mut Processor,
+    notes: &Receiver<(u8, f32)>,
+    mut buffer: impl FnMut(&mut dyn FnMut() -> Result<()>) -> Result<()>,
+) -> Result<()> {
     let (mut left, mut right) = ([0.0; BLOCK], [0.0; BLOCK]);
     let length = Duration::from_secs_f64(BLOCK as f64 / RATE);
     let mut due = Instant::now();
@@ -224,7 +228,7 @@ fn play(processor: &mut Processor, notes: &Receiver<(u8, f32)>) -> Result<()> {
                 Err(TryRecvError::Disconnected) => return Ok(()),
             }
         }
-        processor.process(&events, &mut left, &mut right)?;
+        buffer(&mut || processor.process(&events, &mut left, &mut right))?;
         due += length;
         // What is late is not caught up with: a picture needs no steady sound.
         let now = Instant::now();

@@ -2,7 +2,7 @@
 //!
 //! In order: what must be installed, formatting, lints, documentation, the release bundles, every
 //! test of the workspace (those that load the bundles into hosts included, under a display of
-//! their own), and the real-time tests once more in release. Everything runs even if something
+//! their own), the README's commands, and the real-time tests once more in release. Everything runs even if something
 //! before it failed; the last line counts.
 //!
 //! Two profiles are compiled, no more: dev for the tests, with the engine optimized, and release
@@ -68,6 +68,11 @@ pub fn run() -> Result<()> {
     let mut long = workspace::cargo();
     long.args(["test", "--package", "overhear-tests", "--test", "cymbals", "--", "--ignored"]);
     tests(&mut tally, "long tests of cymbals", &mut long);
+    let mut readme = workspace::cargo();
+    readme
+        .args(["test", "--package", "overhear-tests", "--test", "commands", "--", "--ignored", "--nocapture"])
+        .env(COMMAND_VARIABLE, own_path()?);
+    tests(&mut tally, "commands of the README", &mut readme);
     let mut process = workspace::cargo();
     tests(&mut tally, "real-time tests of process", process.arg("test").args(traps));
     let mut release = workspace::cargo();

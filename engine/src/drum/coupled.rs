@@ -91,11 +91,11 @@ pub struct CoupledMode {
     pub direction: Vec<f64>,
     /// Share of the kinetic energy that is the batter's, and the resonant head's; the rest is the air's.
     pub share: [f64; 2],
-    /// The same for every head mode and then every cavity mode.
+    /// Such shares of every head mode and then every cavity mode.
     pub shares: Vec<f64>,
     /// Share of the kinetic energy that is in air going along the drum as one, from head to head.
     pub flow: f64,
-    /// Displacement of the air at an open end, along the stroke, as a piston, per modal displacement.
+    /// Displacement of the air at an open end, along the stroke, as a piston: its ratio to the modal displacement.
     pub outlet: f64,
     /// Area of the monopole in a baffle that would radiate its power at unit modal acceleration, m2.
     pub monopole_area: f64,

@@ -30,8 +30,8 @@ pub fn near_gain(ka: f64, fills: f64) -> f64 {
     space + (1.0 - space) * fills
 }
 
-/// Amplitude far away, seen from the body's centre at an angle of that cosine from the source, over
-/// that of the same source in free air, at `ka`.
+/// Amplitude far away, seen from the body's centre at an angle of that cosine from the source, at `ka`: its ratio to
+/// that of the same source in free air.
 pub fn toward(ka: f64, cos: f64) -> f64 {
     let slopes = Slopes::new(ka);
     let (mut re, mut im) = (0.0, 0.0);

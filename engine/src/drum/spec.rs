@@ -24,7 +24,7 @@ pub struct HeadSpec {
 pub struct ResonantSpec {
     /// The head.
     pub head: HeadSpec,
-    /// Its pitch over the batter's, each by itself in air.
+    /// Ratio of its pitch to the batter's, each by itself in air.
     pub pitch_ratio: f64,
 }
 

@@ -119,7 +119,7 @@ pub struct Place {
 }
 
 impl Place {
-    /// Interpolates a row given at every pitch.
+    /// Interpolates a row given at every pitch, in its own units.
     pub fn blend(&self, value: impl Fn(usize) -> f64) -> f64 {
         self.of(Grid::Fine).blend(value)
     }

@@ -40,7 +40,7 @@ static WAVES: [[[f64; POINTS]; 2]; CLASSES] = {
     waves
 };
 
-/// What amplitudes amount to at each place.
+/// What amplitudes amount to at each place, in their units.
 #[inline(always)]
 pub fn at_points(amplitudes: &Amplitudes) -> [f64; POINTS] {
     let mut out = [0.0; POINTS];

@@ -43,7 +43,7 @@ struct Turn {
 }
 
 impl Foot {
-    /// At rest.
+    /// At rest with the rod at `y`, m.
     pub fn new(y: f64) -> Foot {
         Foot { y, v: 0.0, target: y, fastest: SPEED.1, turn: None, end: None }
     }

@@ -64,7 +64,8 @@ pub struct Damping {
 pub struct Half {
     /// `[mode]`.
     pub modes: Vec<HalfMode>,
-    /// How each is heard from near and from far away, as at a metre, `[mode]`.
+    /// How each is heard from near and from far away, as at a metre, `[mode]`: Pa s2/m of its acceleration, real
+    /// and imaginary part.
     pub transfers: [Vec<[f64; 2]>; 2],
     /// What the rim feels of each.
     pub folded: Folded,

@@ -42,7 +42,8 @@ use super::rigid::{Rigid, Weights};
 pub struct PairParts {
     /// The lower cymbal's modes.
     pub bottom: Vec<Mode>,
-    /// How they are heard from near and from far away, as at a metre.
+    /// How they are heard from near and from far away, as at a metre, Pa s2/m of their acceleration, real and
+    /// imaginary part.
     pub transfers: [Vec<[f64; 2]>; 2],
     /// What the rims feel of the modes of the upper and of the lower cymbal.
     pub folded: [Folded; 2],

@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 use crate::surface::oscillator::Oscillator;
 
-/// How much a place feels of heave and of both tilts.
+/// How much a place feels of heave and of both tilts: shares.
 pub type Weights = [f64; 3];
 
 /// What holds a cymbal at its centre: felts, as springs and dampers.
@@ -63,7 +63,7 @@ impl Rigid {
         self.parts.map(|part| part.q)
     }
 
-    /// Is at rest there.
+    /// Is at rest there, m.
     pub fn put(&mut self, place: &[f64; 3]) {
         for (part, &q) in self.parts.iter_mut().zip(place) {
             (part.q, part.v) = (q, 0.0);

@@ -20,7 +20,7 @@ const ROUNDS: usize = 2;
 /// displacements, which are `f32`.
 const FOUND: f64 = 1e-9;
 
-/// One value for each place.
+/// One value for each place, in the unit of what it is (m, N).
 pub type Places = [f64; POINTS];
 
 /// One sample's contacts.
@@ -32,7 +32,7 @@ pub struct Rims<'a> {
     pub yields: &'a [Places; POINTS],
     /// What the force beyond the upper cymbal's modes stiffens them by: `yields` less `u u / divisor`.
     pub coupling: &'a Places,
-    /// See `coupling`.
+    /// See `coupling`; dimensionless.
     pub divisor: f64,
     /// Compression at the start of the sample, m.
     pub before: &'a Places,

@@ -85,8 +85,8 @@ impl Pair {
         self.pedal_work += self.held() - before;
     }
 
-    /// Steps both as stiff bodies, and the lower shell if rims may meet. The upper one has stepped; `mean` and
-    /// `divisor` tell of the force beyond its modes.
+    /// Steps both as stiff bodies, and the lower shell if rims may meet. The upper one has stepped; `mean` (m) and
+    /// the dimensionless `divisor` tell of the force beyond its modes.
     pub fn step_free(&mut self, top: &ModalBody, mean: f64, divisor: f64) {
         self.follow_pedal();
         self.from = self.rigid[0].place()[0];
@@ -117,7 +117,8 @@ impl Pair {
         self.engaged && (0..POINTS).any(|j| self.free[j].max(self.compression[j]) > -MARGIN)
     }
 
-    /// Finds the forces at the rims if nothing else touches; whether that succeeded.
+    /// Finds the forces at the rims if nothing else touches, `divisor` being the dimensionless `2 + G`; whether
+    /// that succeeded.
     pub fn solve_alone(&mut self, divisor: f64) -> bool {
         let rims = Rims {
             law: &self.law,
@@ -142,7 +143,7 @@ impl Pair {
         self.strikers[point].whole[j] - coupling * self.coupling[j] / divisor
     }
 
-    /// A place's contact, to be solved.
+    /// A place's contact of a compliance in m/N, to be solved.
     pub fn meeting(&self, j: usize, compliance: f64) -> Meeting {
         let step = ContactStep {
             before: self.compression[j],
@@ -159,7 +160,7 @@ impl Pair {
         self.force = forces;
     }
 
-    /// A striker presses the upper cymbal as a whole.
+    /// A striker presses the upper cymbal as a whole, N.
     pub fn push_striker(&mut self, point: usize, force: f64) {
         self.rigid[0].push(&self.strikers[point].weights, force);
     }

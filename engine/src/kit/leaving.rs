@@ -17,7 +17,7 @@ pub struct Leaving {
 }
 
 impl Leaving {
-    /// Nobody leaves.
+    /// Nobody leaves; the sample rate is in Hz.
     pub fn new(sample_rate: f64) -> Leaving {
         Leaving { piece: None, left: 0, length: (FADE_TIME * sample_rate).ceil() as u32 }
     }
@@ -46,7 +46,7 @@ impl Leaving {
         self.left = 0;
     }
 
-    /// Adds what is still heard at every ear, within one block.
+    /// Adds what is still heard at every ear, Pa, within one block.
     pub fn render(&mut self, sound: [&mut [f32]; EARS]) {
         let Some(piece) = self.piece.as_mut().filter(|_| self.left > 0) else { return };
         let mut fading = [[0.0_f32; BLOCK]; EARS];

@@ -43,14 +43,15 @@ impl Front {
         self.length
     }
 
-    /// The displacements kept last, `[mode]`.
+    /// The displacements kept last, m, `[mode]`.
     pub fn kept(&self) -> &[f32] {
         &self.kept
     }
 }
 
 impl ModalBody {
-    /// Works out what [`look_ahead`](Self::look_ahead) and [`jolt`](Self::jolt) need, after a change of
+    /// Works out what [`look_ahead`](Self::look_ahead), so many samples on, and [`jolt`](Self::jolt) need, after a
+    /// change of
     /// modes and of the pickup.
     ///
     /// # Real-time
@@ -84,13 +85,14 @@ impl ModalBody {
         front.kept[..n].copy_from_slice(&self.state.im[..n]);
     }
 
-    /// How far the modes in front have moved since they were [kept](Self::keep), in the direction of
+    /// How far, m, the modes in front have moved since they were [kept](Self::keep), in the direction of
     /// a port: `sum shape * (q - kept)`.
     pub fn moved(&self, front: &Front, port: &Port) -> f64 {
         f64::from(self.kernels.dot_difference(&port.shape, &self.state.im, &front.kept))
     }
 
-    /// [`step_front`](Self::step_front), and how far the modes in front have moved in the direction of a port of theirs.
+    /// [`step_front`](Self::step_front), and how far (m) the modes in front have moved in the direction of a port
+    /// of theirs.
     pub fn step_front_along(&mut self, front: &Front, port: &Port) -> f64 {
         let n = front.length.min(self.state.im.len());
         let along = Along {
@@ -141,7 +143,7 @@ impl ModalBody {
             .map(|ear| dot(&ear.weight_re, &self.state.re) + dot(&ear.weight_im, &self.state.im))
     }
 
-    /// [`push`](Self::push) of the modes in front alone.
+    /// [`push`](Self::push) of the modes in front alone, by a force in N.
     pub fn push_front(&mut self, front: &Front, port: &Port, force: f32) {
         let n = front.length.min(self.state.im.len());
         self.kernels.axpy(&mut self.state.re[..n], &port.gain_re[..n], force);

@@ -35,7 +35,7 @@ impl Piece {
         }
     }
 
-    /// Asks for muffling, 0 (none) to 1 (all there is). Acts while it rings, as the tuning does.
+    /// Asks for muffling, from 0 to 1: none, and all there is. Acts while it rings, as the tuning does.
     ///
     /// # Real-time
     /// No allocation, no lock.

@@ -66,7 +66,7 @@ pub struct BuildOptions {
     pub high_band: bool,
     /// Drums without what closes them: see [`DrumSpec::opened`](crate::drum::DrumSpec::opened).
     pub open: bool,
-    /// Pitch of a drum's other head over the struck one's, if not its own.
+    /// Ratio of the pitches of a drum's other head and the struck one, if not its own.
     pub resonant_ratio: Option<f64>,
     /// Mean relative difference of the two members of a drum's pairs, if not its own: how uneven its tension is.
     pub unevenness: Option<f64>,
@@ -78,7 +78,7 @@ pub struct BuildOptions {
 }
 
 impl BuildOptions {
-    /// The instrument as it is played.
+    /// The instrument as it is played, at a sample rate in Hz.
     pub fn new(sample_rate: f64) -> Self {
         BuildOptions {
             sample_rate,
@@ -95,7 +95,7 @@ impl BuildOptions {
         }
     }
 
-    /// The instrument as it stands in the kit: heard by the piece's close microphone.
+    /// The instrument as it stands in the kit, at a sample rate in Hz: heard by the piece's close microphone.
     pub fn in_kit(id: PieceId, sample_rate: f64) -> Self {
         BuildOptions { close: microphones::over_rim(id), ..BuildOptions::new(sample_rate) }
     }

@@ -40,7 +40,9 @@ const COINCIDENCE: f64 = 1e-7;
 
 /// One eigenpair of an order: angular frequency squared and the share of each flat mode.
 pub(super) struct Shell {
+    /// Square of the angular frequency, rad2/s2.
     pub omega_squared: f64,
+    /// Share of each flat mode, `[flat]`.
     pub expansion: Vec<f64>,
 }
 
@@ -67,7 +69,7 @@ pub fn stretching_coefficient(spec: &PlateSpec, zeta: f64) -> f64 {
 }
 
 /// `int Psi lap(w) dA` over the disc for an Airy function and a flat mode of the same order and
-/// member; any radius, for the laplacian's `1/a^2` cancels the area's `a^2`.
+/// member, dimensionless; any radius, for the laplacian's `1/a^2` cancels the area's `a^2`.
 ///
 /// `B^k_p` is this times `2/R`.
 pub fn curvature_overlap(airy: &RadialMode, flat: &RadialMode) -> f64 {

@@ -28,7 +28,7 @@ const TOLERANCE: f64 = 1e-15;
 /// 3.06 apart (clamped, `m = 0`); they approach pi.
 const LEAST_SPACING: f64 = 2.0;
 
-/// Modes of one order of a free plate with wave numbers up to `limit`, ascending.
+/// Modes of one order of a free plate with wave numbers (dimensionless: times the radius) up to `limit`, ascending.
 pub fn free_modes(m: u32, poisson_ratio: f64, limit: f64) -> Vec<RadialMode> {
     let edge = FreeEdge { m, poisson_ratio };
     let first_circle = if m < 2 { 1 } else { 0 };
@@ -37,7 +37,7 @@ pub fn free_modes(m: u32, poisson_ratio: f64, limit: f64) -> Vec<RadialMode> {
     (first_circle..).zip(found).map(mode).collect()
 }
 
-/// Modes of one order of a clamped plate with wave numbers up to `limit`, ascending.
+/// Modes of one order of a clamped plate with wave numbers (dimensionless: times the radius) up to `limit`, ascending.
 pub fn clamped_modes(m: u32, limit: f64) -> Vec<RadialMode> {
     let condition = |k| {
         let (value, slope) = bessel::j_pair(m, k);

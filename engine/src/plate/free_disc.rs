@@ -76,7 +76,7 @@ impl FreeDisc {
         &self.rule.nodes
     }
 
-    /// What a mode does to the air; `root` is its wave number times the radius.
+    /// What a mode does to the air; `root` is its wave number times the radius, dimensionless.
     pub fn radiate(&self, mode: &Radiator, root: f64) -> Radiated {
         let u = mode.omega * self.radius / SPEED_OF_SOUND;
         let m = mode.m as usize;

@@ -20,9 +20,9 @@ use crate::math::bessel::{self, ITable, JTable};
 /// Value and slope at the rim of one part of a radial function.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Rim {
-    /// Value at `r = 1`.
+    /// Value at `r = 1`, dimensionless.
     pub value: f64,
-    /// Derivative with respect to `r` at `r = 1`.
+    /// Derivative with respect to `r` at `r = 1`, dimensionless.
     pub slope: f64,
 }
 
@@ -119,7 +119,7 @@ impl RadialMode {
         self.hankel_of(x, Rim { value, slope: x * slope }, 1e-5)
     }
 
-    /// Hankel transform at `x`, given `J_m(x)` and `x J_m'(x)`.
+    /// Hankel transform at the dimensionless `x`, given `J_m(x)` and `x J_m'(x)`.
     ///
     /// Within `guard` of the removable singularity at `x = k` the first two terms of the Taylor
     /// series stand in (error: about `guard` squared); outside, an error of the given values grows

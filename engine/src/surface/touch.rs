@@ -40,7 +40,7 @@ pub struct TouchPoint {
     pub port: Port,
     /// Pressure at the pickup at once per unit force, Pa/N.
     pub direct: Heard,
-    /// How much it feels of each part of its toucher.
+    /// How much it feels of each part of its toucher: shares.
     pub weights: [f64; PARTS],
     /// The head right under it, so many bands of it.
     pub bands: [Oscillator; BANDS],
@@ -65,7 +65,7 @@ pub struct TouchPoint {
 }
 
 impl TouchPoint {
-    /// No point yet, on a body of so many modes. Allocates.
+    /// No point yet, on a body of so many modes; a sample lasts `dt` s. Allocates.
     pub fn absent(modes: usize, dt: f64) -> TouchPoint {
         let spec = Striker::Stick.spec();
         TouchPoint {
@@ -102,7 +102,7 @@ impl TouchPoint {
         self.force - self.preload
     }
 
-    /// Prepares the sample's contact. `apart` is how far the toucher would be in the surface, both left
+    /// Prepares the sample's contact. `apart` is how far (m) the toucher would be in the surface, both left
     /// alone, measured from equilibrium; `compliance` that of the surface's modes and the toucher.
     pub fn free_flight(&mut self, apart: f64, compliance: f64, dt: f64) {
         let mut yielding = compliance;
@@ -165,7 +165,7 @@ pub struct Toucher {
 }
 
 impl Toucher {
-    /// None yet.
+    /// None yet; a sample lasts `dt` s.
     pub fn absent(dt: f64) -> Toucher {
         Toucher {
             present: false,

@@ -75,7 +75,7 @@ pub struct SnareWires {
 }
 
 impl SnareWires {
-    /// Wires against a head of that material, at rest.
+    /// Wires against a head of that material, at rest; a sample lasts `dt` s.
     pub fn new(head: &Material, lossless: bool, dt: f64) -> SnareWires {
         let tip = Tip::Solid { material: Material::STEEL, radius: RADIUS };
         let law = ContactLaw::new(&tip, head, if lossless { 1.0 } else { RESTITUTION });

@@ -32,7 +32,7 @@ impl AiryOrder {
         AiryOrder { modes, stiffness }
     }
 
-    /// Radial shapes at `radii`, `[airy][r]`.
+    /// Radial shapes at `radii` (shares of the radius), dimensionless, `[airy][r]`.
     ///
     /// # Panics
     /// If the tables do not reach the order.

@@ -14,7 +14,7 @@ use crate::plate::{PlateModes, PlateTables, ShellMode};
 
 /// Radial parts of `A`, `B` and `D` of one shell mode on a grid, for the unit radius.
 pub struct Curvatures {
-    /// `R''`.
+    /// `R''`, `r` being a share of the radius.
     pub radial: Vec<f64>,
     /// `R'/r - m^2 R / r^2`.
     pub around: Vec<f64>,
@@ -23,7 +23,7 @@ pub struct Curvatures {
 }
 
 impl Curvatures {
-    /// Of a shell mode at `radii`, all above 0.
+    /// Of a shell mode at `radii` (shares of the radius), all above 0.
     ///
     /// # Panics
     /// If the tables do not reach the order.

@@ -25,11 +25,11 @@ pub struct Oracle {
 
 /// Parts of an energy.
 pub struct Parts {
-    /// `sum c (P^2 + 2 P l)`.
+    /// `sum c (P^2 + 2 P l)`, J.
     pub energy: f64,
-    /// `sum c l^2`.
+    /// `sum c l^2`, J.
     pub linear: f64,
-    /// Gradient by the cosine and sine amplitude of each shell mode.
+    /// Gradient by the cosine and sine amplitude of each shell mode, N.
     pub gradient: Vec<[f64; 2]>,
 }
 
@@ -60,7 +60,7 @@ impl Oracle {
         }
     }
 
-    /// `c_k`, `P_k` and `l_k` of every Airy function and member.
+    /// `c_k`, `P_k` and `l_k` of every Airy function and member, in units whose `c P^2` is in J; displacements `q` in m.
     pub fn projections(&self, q: &[[f64; 2]]) -> (Vec<f64>, Vec<f64>, Vec<f64>) {
         let (mut stiffness, mut quadratic, mut linear) = (vec![], vec![], vec![]);
         let (n_r, n_t) = (self.radii.len(), self.angles);

@@ -49,7 +49,7 @@ impl Dense {
         Dense { quadratic, linear, stiffness }
     }
 
-    /// `U` and its gradient.
+    /// `U` (J) and its gradient (N) at displacements `q`, m.
     pub fn evaluate(&self, q: &[f64]) -> (f64, Vec<f64>) {
         let (mut energy, mut gradient) = (0.0, vec![0.0; q.len()]);
         let dot = |row: &[f64]| row.iter().zip(q).map(|(a, b)| a * b).sum::<f64>();

@@ -17,7 +17,7 @@ pub const RADII: usize = RINGS * FINER;
 /// Spokes drawn.
 pub const ANGLES: usize = SPOKES * FINER;
 
-/// Heights by ring, the centre first, and spoke. Spoke 0 is to the right, the next ones away from the player.
+/// Heights, m, by ring, the centre first, and spoke. Spoke 0 is to the right, the next ones away from the player.
 pub type Refined = [[f32; ANGLES]; RADII + 1];
 
 /// Displacement at every point of the field, m, along the normal of the struck side; zero where it is not a number.

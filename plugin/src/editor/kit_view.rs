@@ -59,7 +59,7 @@ pub struct Seen<'a> {
     pub shapes: &'a dyn Fn(usize) -> Option<Arc<FieldShapes>>,
     /// Slot of the piece that the panels are about.
     pub selected: usize,
-    /// A parameter's plain value by its index, if microphones are shown.
+    /// A parameter's value in its unit, by its index, if microphones are shown.
     pub microphones: Option<&'a dyn Fn(usize) -> Option<f32>>,
 }
 

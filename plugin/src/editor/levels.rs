@@ -67,7 +67,7 @@ pub fn decibels(peak: f32) -> f32 {
     if peak > 0.0 { 20.0 * peak.log10() } else { FLOOR_DB }
 }
 
-/// A level as text; nothing below the meters.
+/// A level (full scale 1) as text in dB; nothing below the meters.
 pub fn text(level: f32) -> String {
     if level > FLOOR_DB { format!("{level:+.0} dB") } else { String::new() }
 }
@@ -77,7 +77,7 @@ pub fn share(level: f32) -> f32 {
     ((level - FLOOR_DB) / (TOP_DB - FLOOR_DB)).clamp(0.0, 1.0)
 }
 
-/// Draws a level as a bar that grows along the longer side of `rect`.
+/// Draws a level (full scale 1) as a bar that grows along the longer side of `rect`.
 pub fn bar(ui: &Ui, rect: Rect, level: f32, colour: Color32, palette: &Palette) {
     let painter = ui.painter();
     painter.rect_filled(rect, 2.0, palette.background);

@@ -226,7 +226,7 @@ impl Panels {
         self.physics.forget_before(now);
     }
 
-    /// Whether the next frame will look different though nothing new happens.
+    /// Whether the next frame will look different though nothing new happens; `now` in s.
     pub fn moves_on(&self, snapshot: &KitSnapshot, now: f64) -> bool {
         let alone = self.page == Page::Physics && self.physics.moves_on();
         alone || self.levels.move_on() || self.kit.replays(snapshot, now)

@@ -7,10 +7,11 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use egui::{Rect, Ui, pos2};
+use egui::{Color32, Rect, Ui, pos2};
 use overhear_engine::piece::PieceId;
 use overhear_engine::snapshot::{FieldShapes, KitSnapshot, OCTAVES};
 
+use super::plot::Plot;
 use super::theme;
 use crate::sound::Sound;
 
@@ -70,6 +71,20 @@ pub struct Seen<'a> {
     pub sound: &'a Sound,
 }
 
+/// Draws one height (share of the plot's) for each moment over the time that is remembered, up to `now`, s.
+fn over_time(
+    plot: &Plot,
+    moments: &VecDeque<Moment>,
+    now: f64,
+    heights: impl Iterator<Item = f32>,
+    colour: Color32,
+) {
+    let across = moments.iter().map(|moment| 1.0 - ((now - moment.time) / MEMORY) as f32);
+    let points: Vec<_> = across.zip(heights).map(|(x, y)| plot.at(x, y)).collect();
+    plot.curve(&points, colour);
+    plot.ends(&format!("{MEMORY:.0} s ago"), "now");
+}
+
 impl Physics {
     pub fn new() -> Physics {
         Physics {
@@ -101,7 +116,7 @@ impl Physics {
         self.wires.follow(&snapshot.pieces[SNARE].wires, now);
     }
 
-    /// Lets go of what is no longer drawn.
+    /// Lets go of what is no longer drawn at the time `now`, s.
     pub fn forget_before(&mut self, now: f64) {
         while self.moments.front().is_some_and(|moment| now - moment.time > MEMORY) {
             self.moments.pop_front();

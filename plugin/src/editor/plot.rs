@@ -104,7 +104,7 @@ impl Plot {
     }
 }
 
-/// A time in the unit that suits it.
+/// A time (s) in the unit that suits it.
 pub fn time_text(seconds: f32) -> String {
     match seconds {
         s if s >= 1.0 => format!("{s:.1} s"),
@@ -113,7 +113,7 @@ pub fn time_text(seconds: f32) -> String {
     }
 }
 
-/// An energy in the unit that suits it.
+/// An energy (J) in the unit that suits it.
 pub fn energy_text(joules: f32) -> String {
     match joules {
         e if e >= 1.0 => format!("{e:.1} J"),
@@ -124,7 +124,7 @@ pub fn energy_text(joules: f32) -> String {
     }
 }
 
-/// A length in the unit that suits it.
+/// A length (m) in the unit that suits it.
 pub fn length_text(metres: f32) -> String {
     match metres {
         l if l >= 1e-3 => format!("{:.1} mm", 1e3 * l),

@@ -29,8 +29,11 @@ pub fn trouble(
     } else if ready < PieceId::KIT.len() {
         (format!("Building the kit: {ready} of {} pieces", PieceId::KIT.len()), palette.accent)
     } else if late.is_news(now) {
-        let late = snapshot.late_buffers;
-        (format!("{late} buffers were late: lower the quality, or add a worker"), palette.over)
+        let late = match snapshot.late_buffers {
+            1 => "A buffer was".to_owned(),
+            late => format!("{late} buffers were"),
+        };
+        (format!("{late} late: lower the quality, or add a worker"), palette.over)
     } else if snapshot.missed_runs > 0 {
         let missed = snapshot.missed_runs;
         (format!("Workers left pieces silent for {missed} blocks: use fewer of them"), palette.over)
@@ -52,7 +55,7 @@ impl Late {
     /// How long it is said, s.
     const NEWS: f64 = 4.0;
 
-    /// Takes in how many there were so far.
+    /// Takes in how many there were so far, at the time `now`, s.
     pub fn follow(&mut self, count: u64, now: f64) {
         // Those from before the window was opened are old news.
         if self.count.replace(count).is_some_and(|before| before != count) {

@@ -92,7 +92,7 @@ impl ChokeRule {
 pub struct Grip {
     /// The cymbal.
     pub piece: PieceId,
-    /// How firmly: 0 (let go) to 1.
+    /// How firmly, from 0 (let go) to 1.
     pub strength: f64,
 }
 

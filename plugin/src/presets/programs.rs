@@ -12,7 +12,7 @@ const MOST: usize = 128;
 /// A preset, ready for the audio thread.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Program {
-    /// Plain values by place in [`PARAMETERS`]; parameters that are not here stay as they are.
+    /// Values in the parameters' units by place in [`PARAMETERS`]; parameters that are not here stay as they are.
     pub values: Vec<(usize, f32)>,
     /// Assignments of notes, if it says anything about them.
     pub notes: Option<BTreeMap<u8, Assignment>>,

@@ -28,7 +28,7 @@ const NEAR_CENTS: f64 = 150.0;
 /// Motion of the lowest modes of a body over time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motion {
-    /// `[mode][time]`: displacements.
+    /// `[mode][time]`: displacements, m.
     pub modes: Vec<Vec<f32>>,
     /// Samples of each per second.
     pub rate: f64,
@@ -59,7 +59,7 @@ pub fn glide_cents(motion: &Motion, strongest: f64, free_from: f64) -> Option<f6
     Some(1200.0 * (early / late).log2())
 }
 
-/// The motion of the mode that moves most, over the whole.
+/// The motion (m) of the mode that moves most, over the whole.
 pub fn strongest_mode(motion: &Motion) -> Option<&[f32]> {
     let size = |mode: &[f32]| super::rms(mode).unwrap_or(0.0);
     motion.modes.iter().map(Vec::as_slice).max_by(|a, b| size(a).total_cmp(&size(b)))

@@ -1,6 +1,6 @@
 //! Levels of a sound, full scale 1.
 
-/// Greatest magnitude.
+/// Greatest magnitude, full scale 1.
 pub fn peak(samples: &[f32]) -> f64 {
     samples.iter().fold(0.0, |peak: f64, &sample| peak.max(f64::from(sample).abs()))
 }

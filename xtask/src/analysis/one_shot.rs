@@ -40,7 +40,7 @@ impl OneShot {
         Some(OneShot { samples: padded, onset, rate })
     }
 
-    /// The sound from its beginning.
+    /// The sound from its beginning, full scale 1.
     pub fn sound(&self) -> &[f32] {
         &self.samples[self.onset..]
     }

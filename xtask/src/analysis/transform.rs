@@ -27,7 +27,7 @@ impl Transform {
         Transform::of(&samples, rate)
     }
 
-    /// The same in double precision.
+    /// The same in double precision; the rate is in Hz.
     pub fn of(samples: &[f64], rate: f64) -> Option<Transform> {
         let size = (2 * samples.len()).max(16).next_power_of_two();
         let mut planner = RealFftPlanner::<f64>::new();
@@ -78,7 +78,7 @@ impl Transform {
     }
 }
 
-/// Gain of a raised-cosine slope that is a half at its middle: 0 at `-1`, 1 at `1`.
+/// Gain (a factor) of a raised-cosine slope that is a half at its middle: 0 at `-1`, 1 at `1`.
 pub fn slope(place: f64) -> f64 {
     0.5 + 0.5 * (std::f64::consts::FRAC_PI_2 * place.clamp(-1.0, 1.0)).sin()
 }

@@ -22,7 +22,7 @@ const COUNTED: &str = "*bench::workload::Workload::block*";
 pub struct Count {
     /// Name of the scene or piece.
     pub name: String,
-    /// Instructions per second of sound.
+    /// Instructions for a second of sound, 1/s.
     pub instructions_per_s: f64,
 }
 

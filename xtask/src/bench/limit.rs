@@ -15,16 +15,16 @@ const TRIES: usize = 5;
 /// The limit, and how much of it a kit takes whose every mode just rings.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct Limit {
-    /// `f32` multiplications with an addition a second, on one core, in the instruction set in use.
+    /// `f32` multiplications with an addition, 1/s, on one core, in the instruction set in use.
     pub multiply_adds_per_s: f64,
     /// Modes of the whole kit.
     pub modes: usize,
-    /// Those that all of them take a second as they ring, over the limit.
+    /// Share of the limit that all of them take as they ring.
     pub ringing_share: f64,
 }
 
 impl Limit {
-    /// Measures the machine, counts the modes of a kit.
+    /// Measures the machine, counts the modes of a kit at a sample rate in Hz.
     pub fn measure(kit: &[Piece], rate: f64) -> Limit {
         let kernels = Kernels::detect();
         let once = || {

@@ -31,7 +31,7 @@ pub struct Blocks(Vec<f64>);
 pub struct Buffers(Vec<f64>);
 
 impl Buffers {
-    /// Of so many blocks each, in several scenes.
+    /// Of so many blocks each, in several scenes; the rate is in Hz.
     pub fn of(scenes: &[Blocks], blocks: usize, rate: f64) -> Buffers {
         let buffers = scenes.iter().flat_map(|scene| scene.0.chunks_exact(blocks));
         let deadline = (blocks * BLOCK) as f64 / rate;

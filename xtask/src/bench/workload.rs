@@ -105,7 +105,7 @@ pub struct Workload {
 }
 
 impl Workload {
-    /// Builds what plays. A single piece plays in a kit of its own.
+    /// Builds what plays at a rate in Hz. A single piece plays in a kit of its own.
     ///
     /// # Errors
     /// [`BadInput`](crate::error::BadInput) if a piece cannot be built.

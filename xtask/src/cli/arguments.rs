@@ -25,7 +25,11 @@ const LONGEST: f64 = 600.0;
 #[derive(Debug, Subcommand)]
 pub enum Task {
     /// Set up, build, bundle, play a groove through the built CLAP plugin: demo.wav and demo.png
-    Demo,
+    Demo {
+        /// Instead, half a minute of it with every preset, into demo-presets
+        #[arg(long)]
+        all_presets: bool,
+    },
     /// Check everything the project promises, the hosts included
     Test,
     /// Build the release bundles (CLAP, VST3) and the program that needs no host

@@ -45,13 +45,13 @@ pub struct ParameterInfo {
     pub name: String,
     /// Group for people.
     pub module: String,
-    /// Smallest value.
+    /// Smallest value, in the parameter's unit.
     pub min: f64,
-    /// Largest value.
+    /// Largest value, in the parameter's unit.
     pub max: f64,
-    /// Value of a fresh instance.
+    /// Value of a fresh instance, in the parameter's unit.
     pub default: f64,
-    /// Present value.
+    /// Present value, in the parameter's unit.
     pub value: f64,
 }
 
@@ -140,7 +140,7 @@ impl Instance {
             .collect()
     }
 
-    /// A parameter's value as the plugin shows it.
+    /// A value in the parameter's unit as the plugin shows it.
     ///
     /// # Errors
     /// If the plugin does not show it.
@@ -152,7 +152,7 @@ impl Instance {
         Ok(text(shown.map_err(|_| anyhow!("the value {value} is not shown"))?))
     }
 
-    /// The value that a shown text stands for.
+    /// The value that a shown text stands for, in the parameter's unit.
     ///
     /// # Errors
     /// If the plugin does not understand it.
@@ -165,7 +165,7 @@ impl Instance {
             .with_context(|| format!("{shown:?} is not understood"))
     }
 
-    /// Moves parameters while the plugin is not active: `(id, value)`.
+    /// Moves parameters while the plugin is not active: `(id, value)`, in the parameters' units.
     ///
     /// # Errors
     /// If the plugin has no parameters.

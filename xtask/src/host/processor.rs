@@ -52,7 +52,7 @@ impl Processor {
         self.started
     }
 
-    /// Renders one buffer of the main output with the events in it, ordered by offset.
+    /// Renders one buffer of the main output, full scale 1, with the events in it, ordered by offset.
     ///
     /// # Errors
     /// If the buffers are of different or too great lengths, or the plugin fails.
@@ -60,7 +60,7 @@ impl Processor {
         self.process_ports(events, &mut [[left, right]])
     }
 
-    /// Renders one buffer of as many stereo outputs as are given, the main one first.
+    /// Renders one buffer of as many stereo outputs as are given, full scale 1, the main one first.
     ///
     /// # Errors
     /// As [`process`](Self::process).
@@ -93,7 +93,7 @@ impl Processor {
         Ok(())
     }
 
-    /// Parameters that the plugin said it has moved in the latest buffer: id and value.
+    /// Parameters that the plugin said it has moved in the latest buffer: id and value in its unit.
     pub fn moved(&self) -> Vec<(u32, f64)> {
         let values = self.output.iter().filter_map(|event| event.as_event::<ParamValueEvent>());
         values.filter_map(|event| Some((event.param_id()?.get(), event.value()))).collect()

@@ -16,7 +16,7 @@ pub struct Spectrogram {
 }
 
 impl Spectrogram {
-    /// Levels of a sound in so many columns.
+    /// Levels in dB of a sound at a rate in Hz in so many columns.
     pub fn new(samples: &[f32], rate: f64, columns: usize) -> Spectrogram {
         let fft = RealFftPlanner::<f32>::new().plan_fft_forward(WINDOW);
         let (mut input, mut output) = (fft.make_input_vec(), fft.make_output_vec());

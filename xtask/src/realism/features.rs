@@ -63,7 +63,7 @@ pub enum Feature {
     PeaksHigh,
 }
 
-/// The figures of a stroke; what it does not have is left out.
+/// The figures of a stroke, each in the unit of its feature; what it does not have is left out.
 pub type Features = BTreeMap<Feature, f64>;
 
 impl Feature {

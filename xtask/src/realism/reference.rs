@@ -12,9 +12,9 @@ use super::features::Feature;
 pub struct Figure {
     /// What was measured.
     pub feature: Feature,
-    /// Half of the recordings have less.
+    /// Half of the recordings have less, in the feature's unit.
     pub median: f64,
-    /// A tenth have less than the first, a tenth more than the second.
+    /// A tenth have less than the first, a tenth more than the second, in the feature's unit.
     pub range: Option<(f64, f64)>,
 }
 
@@ -37,7 +37,7 @@ pub enum Nearness {
 }
 
 impl Figure {
-    /// What a figure must lie in to count: the range, or what is [near](nearness) the median.
+    /// What a figure must lie in to count, in the feature's unit: the range, or what is [near](nearness) the median.
     pub fn bounds(&self) -> (f64, f64) {
         self.range.unwrap_or_else(|| match nearness(self.feature) {
             Nearness::Factor(factor) => (self.median / factor, self.median * factor),

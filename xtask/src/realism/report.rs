@@ -68,15 +68,15 @@ impl Count {
 pub struct Row {
     /// Name and unit.
     pub feature: &'static str,
-    /// Median of real kits.
+    /// Median of real kits, in the feature's unit.
     pub median: f64,
     /// Whether the bounds are the real 10-90 % range; otherwise they only say what is near the median.
     pub ranged: bool,
-    /// Least that counts as inside.
+    /// Least that counts as inside, in the feature's unit.
     pub low: f64,
-    /// Most that counts as inside.
+    /// Most that counts as inside, in the feature's unit.
     pub high: f64,
-    /// `[speed]`: the median of the places; null for what most strokes do not have.
+    /// `[speed]`: the median of the places, in the feature's unit; null for what most strokes do not have.
     pub values: Vec<Option<f64>>,
     /// `[speed]`: whether it lies inside.
     pub inside: Vec<bool>,
@@ -89,7 +89,7 @@ pub struct SlopeRow {
     pub feature: &'static str,
     /// Growth of real ones, octaves per +20 dB.
     pub median: f64,
-    /// Growth here: the straight line through the speeds by least squares.
+    /// Growth here, octaves per 20 dB: the straight line through the speeds by least squares.
     pub value: Option<f64>,
     /// Whether it is near the real one.
     pub inside: bool,
@@ -136,7 +136,7 @@ fn median(feature: Feature, places: &[Stroke]) -> Option<f64> {
 }
 
 impl PieceReport {
-    /// Sets a piece's strokes, `[speed][place]`, beside the recordings.
+    /// Sets a piece's strokes, `[speed][place]`, beside the recordings; speeds are in m/s.
     pub fn new(subject: &Subject, heard: Ear, speeds: &[f64], strokes: &[Vec<Stroke>]) -> PieceReport {
         let features: Vec<Row> =
             reference::figures(subject.name).iter().map(|figure| Row::new(figure, strokes)).collect();

@@ -47,7 +47,7 @@ impl Subject {
         })
     }
 
-    /// Where its pedal is, 0 (up) to 1 (down).
+    /// Where its pedal is, from 0 (up) to 1 (down).
     pub fn pedal(&self) -> Option<f64> {
         match self.note.and_then(midi_map::foot) {
             Some(Foot::Brought(pedal)) => Some(pedal),

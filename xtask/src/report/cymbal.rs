@@ -77,7 +77,8 @@ fn options() -> BuildOptions {
     BuildOptions::new(RATE)
 }
 
-/// Share by which the energy of a lossless crash, its true stretching included, strays in a second at most.
+/// Share by which the energy of a lossless crash struck at a speed (m/s), its true stretching included, strays in a
+/// second at most.
 pub fn energy_drift(speed: f64) -> f64 {
     let mut piece = build(PieceId::Crash, &BuildOptions { lossless: true, ..options() });
     piece.strike(&stroke(Striker::Stick, speed, 0.92, 0.3));

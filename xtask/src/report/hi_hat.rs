@@ -13,7 +13,7 @@ use crate::analysis::{OneShot, envelope, octave_decays};
 
 const RATE: f64 = 44_100.0;
 
-/// Places of the pedal from open to clamped.
+/// Places of the pedal, from 0 (open) to 1 (clamped).
 pub const PLACES: [f64; 6] = [0.0, 0.25, 0.5, 0.75, 0.9, 1.0];
 
 /// The page.
@@ -34,7 +34,7 @@ pub fn page() -> Result<Page> {
     Ok(sheet.finish())
 }
 
-/// Brings the pedal there and lets all rest.
+/// Brings the pedal there, a share of its way, and lets all rest.
 pub fn hold(hat: &mut Piece, pedal: f64) {
     hat.press_pedal(pedal, SPEED.1);
     hat.finish_controls();
@@ -71,7 +71,7 @@ pub struct Struck {
     pub landings: u32,
 }
 
-/// Strikes the edge with the pedal held.
+/// Strikes the edge at a speed (m/s) with the pedal held at a share of its way.
 pub fn struck(hat: &mut Piece, pedal: f64, speed: f64) -> Struck {
     hat.reset();
     hold(hat, pedal);

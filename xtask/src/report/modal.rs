@@ -25,7 +25,8 @@ const RATE: f64 = 44_100.0;
 /// How long modes are followed, s.
 const SECONDS: f64 = 8.0;
 
-/// Zeros `j_mn`, of which a head's lowest modes in vacuum are multiples. Abramowitz & Stegun, table 9.5.
+/// Zeros `j_mn` (dimensionless), of which a head's lowest modes in vacuum are multiples. Abramowitz & Stegun, table
+/// 9.5.
 pub const ZEROS: [f64; 8] = [
     2.404_825_557_695_773,
     3.831_705_970_207_512,
@@ -130,9 +131,9 @@ const LOOK: usize = 2048;
 pub struct Rung {
     /// How far above its frequency it rang, cents.
     pub off: f64,
-    /// How much faster than said it decayed, in nepers a second.
+    /// How much faster than said it decayed, 1/s.
     pub sigma: f64,
-    /// Turns it was followed for.
+    /// Turns it was followed for, periods being the unit.
     pub turns: f64,
 }
 

@@ -58,7 +58,7 @@ impl Claim {
     }
 }
 
-/// Four figures, no more than there are.
+/// Four figures of a number in any unit, no more than there are.
 pub fn figure(value: f64) -> String {
     let size = if value == 0.0 { 0.0 } else { value.abs().log10().floor() };
     let decimals = (3.0 - size).clamp(0.0, 9.0) as usize;
@@ -129,10 +129,15 @@ impl Sheet {
     /// # Errors
     /// If it cannot be drawn.
     pub fn plot(&mut self, what: &str, caption: &str, plot: &Plot<'_>) -> Result<()> {
+        self.picture(what, caption, plot.png()?);
+        Ok(())
+    }
+
+    /// Adds a PNG, `what` it shows being the last part of its file's name.
+    pub fn picture(&mut self, what: &str, caption: &str, png: Vec<u8>) {
         let file = format!("{}-{what}.png", self.name);
         let _ = write!(self.body, "\n![{caption}]({file})\n\n{caption}.\n");
-        self.pictures.push((file, plot.png()?));
-        Ok(())
+        self.pictures.push((file, png));
     }
 
     /// The page.

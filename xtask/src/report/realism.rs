@@ -1,11 +1,15 @@
 //! Realism: every piece beside recordings, as `realism` measures it.
 
+use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
+
 use anyhow::Result;
 
 use super::page::sources::GOAL;
 use super::plot::{Axis, Line, Plot};
 use super::{Claim, Page, Sheet};
-use crate::realism::{self, Count, Ear, PieceReport, Report, SPEEDS, Subject};
+use crate::picture;
+use crate::realism::{self, Count, Ear, PieceReport, RATE, Report, SPEEDS, SUBJECTS, Subject};
 
 /// Where the figures of recordings come from.
 const RECORDINGS: &str = "3,123 recorded strokes";
@@ -25,7 +29,15 @@ pub fn page() -> Result<Page> {
     );
     let subjects: Vec<Subject> = realism::subjects(&[])?;
     let request = realism::Request { subjects, speeds: SPEEDS.to_vec(), settings: Vec::new(), wav: None };
-    let report = realism::run(&request)?;
+    // What the mix hears of the middle place, by piece and speed.
+    let heard: Mutex<BTreeMap<(&str, u64), Vec<f32>>> = Mutex::default();
+    let report = realism::run_and_show(&request, &|job, [_, mix]| {
+        if job.place == job.subject.places[1] {
+            let key = (job.subject.name, job.speed.to_bits());
+            heard.lock().unwrap_or_else(PoisonError::into_inner).insert(key, mix.clone());
+        }
+    })?;
+    let heard = heard.into_inner().unwrap_or_else(PoisonError::into_inner);
     for heard in Ear::ALL {
         for piece in report.pieces.iter().filter(|piece| piece.heard == heard) {
             let (share, goal) = (piece.firm.share(), heard.goal());
@@ -61,8 +73,32 @@ pub fn page() -> Result<Page> {
                 .into(),
         },
     )?;
+    spectrograms(&mut sheet, &heard)?;
     report.pieces.iter().for_each(|piece| table(&mut sheet, piece, &report.speeds_m_s));
     Ok(sheet.finish())
+}
+
+/// A picture of every piece at every speed.
+fn spectrograms(sheet: &mut Sheet, heard: &BTreeMap<(&str, u64), Vec<f32>>) -> Result<()> {
+    for subject in &SUBJECTS {
+        let length = (shown(subject) * f64::from(RATE)) as usize;
+        let panel = |speed: &f64| {
+            let sound = heard.get(&(subject.name, speed.to_bits()))?;
+            Some((format!("{} {speed} m/s", subject.name), sound.get(..length).unwrap_or(sound)))
+        };
+        let panels: Vec<(String, &[f32])> = SPEEDS.iter().filter_map(panel).collect();
+        sheet.picture(
+            subject.name,
+            &format!("{} in the mix at three speeds, each from its loudest down to -90 dB", subject.name),
+            picture::spectrograms(&panels, f64::from(RATE))?,
+        );
+    }
+    Ok(())
+}
+
+/// How much of a stroke is shown, s: what is heard of it.
+fn shown(subject: &Subject) -> f64 {
+    if subject.piece.is_drum() || subject.name == "hi-hat-closed" { 1.5 } else { 4.0 }
 }
 
 fn table(sheet: &mut Sheet, piece: &PieceReport, speeds: &[f64]) {

@@ -3,17 +3,24 @@
 //! Counted is the processor time that the kernel gave to each thread (`/proc/self/task/*/schedstat`), which says the same
 //! on a machine that others use as well. A window's threads are those that were not there before the first one was opened:
 //! the one that draws, the rasterizer's where the processor draws, and the one that watches.
+//!
+//! The audio thread does the same work with a window or without; what a window can take from it is the processor's
+//! own: a shared core, shared caches, heat. Its time is therefore told in that of the calibration loop of `bench`, a slice of
+//! which runs after every buffer on the same thread: what slows the whole core is in both, what is left is the
+//! plugin's.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::Mutex;
 use std::sync::mpsc::{Sender, channel};
 use std::time::{Duration, Instant};
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result, anyhow, ensure};
+use cpu_time::ThreadTime;
 
 use super::window::HostWindow;
 use super::{BLOCK, RATE, Shot, pass, play, shot, with_view};
+use crate::bench::calibration::Calibration;
 use crate::host::{Bundle, Instance, Processor};
 
 /// Size of the window, points: the smallest there is.
@@ -55,11 +62,11 @@ pub fn here(plugin: &Path) -> Result<()> {
     let bundle = Bundle::load(plugin)?;
     let mut instance = bundle.instantiate()?;
     let (notes, played) = channel();
-    let audio = AtomicU64::new(0);
-    let own = &audio;
+    let meter = Meter::default();
+    let own = &meter;
     let work = move |processor: &mut Processor| {
-        own.store(own_thread()?, Ordering::Release);
-        play(processor, &played)
+        let mut calibration = Calibration::new();
+        play(processor, &played, |sound| own.time(&mut calibration, sound))
     };
     instance.run_beside(RATE, 1..=BLOCK as u32, work, |instance| {
         pass(instance, Duration::from_secs(1));
@@ -85,11 +92,34 @@ pub fn here(plugin: &Path) -> Result<()> {
             ensure!(frames > 1.0, "the window draws {frames:.1} frames a second of the {} page", page.name);
             println!("{}", row(page, &resting, &ringing, frames));
         }
-        let thread = audio.load(Ordering::Acquire);
-        println!("{}", beside(instance, thread, &notes)?);
+        println!("{}", beside(instance, &meter, &notes)?);
         drop(notes);
         Ok(())
     })
+}
+
+/// Processor time of the audio thread: what the plugin took, and the calibration slices between its buffers, s.
+#[derive(Default)]
+struct Meter {
+    /// Behind a lock, as whoever measures waits for nobody's deadline.
+    taken: Mutex<[f64; 2]>,
+}
+
+impl Meter {
+    /// Does a buffer's work and a slice of the loop, and counts both.
+    fn time(&self, calibration: &mut Calibration, work: &mut dyn FnMut() -> Result<()>) -> Result<()> {
+        let start = ThreadTime::now();
+        work()?;
+        let took = [start.elapsed().as_secs_f64(), calibration.slice()];
+        let mut taken = self.taken.lock().map_err(|_| anyhow!("who reads the meter died"))?;
+        taken.iter_mut().zip(took).for_each(|(sum, time)| *sum += time);
+        Ok(())
+    }
+
+    /// What has been counted so far.
+    fn taken(&self) -> Result<[f64; 2]> {
+        Ok(*self.taken.lock().map_err(|_| anyhow!("the audio thread died"))?)
+    }
 }
 
 /// Opens a page, works beside it, and closes it.
@@ -178,48 +208,45 @@ fn frames(instance: &mut Instance, window: &HostWindow, notes: &Sender<(u8, f32)
     Ok(f64::from(pictures) / begun.elapsed().as_secs_f64())
 }
 
-/// What the audio thread takes with a window open against without, in a line.
+/// What the audio thread takes with a window open against without, in two lines: in slices of the calibration loop, and
+/// as the clock has it.
 ///
 /// Both play the same strokes; closed and open take turns, and the middle of the ratios counts, so that what else goes
 /// on in the machine falls out.
-fn beside(instance: &mut Instance, thread: u64, notes: &Sender<(u8, f32)>) -> Result<String> {
-    let mut ratios = Vec::new();
+fn beside(instance: &mut Instance, meter: &Meter, notes: &Sender<(u8, f32)>) -> Result<String> {
+    let mut ratios = [Vec::new(), Vec::new()];
     for pair in 0..PAIRS {
-        let mut took = [0.0; 2];
+        let mut took = [[0.0; 2]; 2];
         // Whoever comes second finds the processor warm: they take turns.
         for turn in [pair % 2, 1 - pair % 2] {
             took[turn] = match turn {
-                0 => audio_time(instance, thread, notes)?,
-                _ => beside_window(instance, &PAGES[0], |instance, _| audio_time(instance, thread, notes))?,
+                0 => audio_time(instance, meter, notes)?,
+                _ => beside_window(instance, &PAGES[0], |instance, _| audio_time(instance, meter, notes))?,
             };
         }
-        ratios.push(took[1] / took[0]);
+        let [[closed, unit], [open, unit_open]] = took;
+        ratios[0].push((open / unit_open) / (closed / unit));
+        ratios[1].push(open / closed);
     }
-    ratios.sort_by(f64::total_cmp);
-    let percent = |ratio: f64| 100.0 * (ratio - 1.0);
+    let [measured, clock] = ratios.map(|mut ratios| {
+        ratios.sort_by(f64::total_cmp);
+        let percent = |ratio: f64| 100.0 * (ratio - 1.0);
+        let middle = percent(0.5 * (ratios[(PAIRS - 1) / 2] + ratios[PAIRS / 2]));
+        format!("{middle:+.1} % ({:+.1} to {:+.1} %)", percent(ratios[0]), percent(ratios[PAIRS - 1]))
+    });
     Ok(format!(
-        "audio thread with the window open: {:+.1} % (middle of {PAIRS}; {:+.1} to {:+.1} %)",
-        percent(0.5 * (ratios[PAIRS / 2 - 1] + ratios[PAIRS / 2])),
-        percent(ratios[0]),
-        percent(ratios[PAIRS - 1])
+        "audio thread with the window open, middle of {PAIRS} pairs: {measured} of calibrations,\n\
+         {clock} of processor time, what a busier processor does to any work included"
     ))
 }
 
-/// Processor time of the audio thread while it plays a groove, s.
-fn audio_time(instance: &mut Instance, thread: u64, notes: &Sender<(u8, f32)>) -> Result<f64> {
-    let of =
-        || -> Result<f64> { Ok(times()?.get(&thread).context("the audio thread is gone")?.1.as_secs_f64()) };
+/// Processor time of the audio thread while it plays a groove: what the plugin took, and the loop, s.
+fn audio_time(instance: &mut Instance, meter: &Meter, notes: &Sender<(u8, f32)>) -> Result<[f64; 2]> {
     groove(instance, Some(notes), Duration::from_secs(1))?;
-    let before = of()?;
+    let before = meter.taken()?;
     groove(instance, Some(notes), Duration::from_secs(4))?;
-    Ok(of()? - before)
-}
-
-/// This thread's id.
-fn own_thread() -> Result<u64> {
-    let path = std::fs::read_link("/proc/thread-self").context("the system does not tell its threads")?;
-    let name = path.file_name().and_then(|name| name.to_str()).context("a thread without a name")?;
-    Ok(name.parse()?)
+    let after = meter.taken()?;
+    Ok([after[0] - before[0], after[1] - before[1]])
 }
 
 /// What every thread of this process has taken so far.
@@ -243,13 +270,31 @@ mod tests {
     #[cfg(target_os = "linux")]
     #[test]
     fn work_of_a_thread_is_counted_as_its_own() {
-        let (thread, before) = (own_thread().unwrap(), times().unwrap());
-        let begun = Instant::now();
-        while begun.elapsed() < Duration::from_millis(50) {
-            std::hint::black_box(begun.elapsed());
-        }
-        let after = times().unwrap();
-        let spent = after[&thread].1 - before[&thread].1;
+        let work = || {
+            let begun = Instant::now();
+            while begun.elapsed() < Duration::from_millis(50) {
+                std::hint::black_box(begun.elapsed());
+            }
+        };
+        let path = std::fs::read_link("/proc/thread-self").unwrap();
+        let thread = path.file_name().unwrap().to_str().unwrap().parse().unwrap();
+        let spent = |times: &Times| {
+            let (_, spent): &(String, Duration) = &times[&thread];
+            *spent
+        };
+        let before = times().unwrap();
+        work();
+        let spent = spent(&times().unwrap()) - spent(&before);
         assert!(spent > Duration::from_millis(5) && spent <= Duration::from_millis(100), "{spent:?}");
+    }
+
+    #[test]
+    fn a_buffer_and_its_slice_are_counted_apart() {
+        let (meter, mut calibration) = (Meter::default(), Calibration::new());
+        for _ in 0..3 {
+            meter.time(&mut calibration, &mut || Ok(())).unwrap();
+        }
+        let [sound, unit] = meter.taken().unwrap();
+        assert!(unit > 0.0 && sound < 0.1 * unit, "{sound} {unit}");
     }
 }

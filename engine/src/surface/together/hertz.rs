@@ -14,7 +14,7 @@
 use crate::contact::ContactLaw;
 use crate::modal::simd::Kernels;
 
-/// The exponent these are solved for.
+/// The dimensionless exponent these are solved for.
 pub const EXPONENT: f64 = 1.5;
 
 /// Steps before the general solver is asked; 3 to 5 do it.

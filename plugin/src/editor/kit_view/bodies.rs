@@ -72,7 +72,7 @@ impl Frame {
         add(self.centre, add(flat, scale(self.normal, z)))
     }
 
-    /// A direction from its parts.
+    /// A direction from its parts, m.
     pub fn direction(&self, x: f32, y: f32, z: f32) -> V3 {
         add(add(scale(self.right, x), scale(self.away, y)), scale(self.normal, z))
     }

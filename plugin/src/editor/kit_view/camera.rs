@@ -39,12 +39,12 @@ impl Default for Camera {
 }
 
 impl Camera {
-    /// A camera by its turn, height and distance, within the room.
+    /// A camera by its turn and height (rad) and its distance (m), within the room.
     pub fn of([yaw, pitch, distance]: [f32; 3]) -> Camera {
         Camera { yaw, pitch: pitch.clamp(PITCH.0, PITCH.1), distance: distance.clamp(DISTANCE.0, DISTANCE.1) }
     }
 
-    /// Turn, height and distance.
+    /// Turn and height, rad, and distance, m.
     pub fn numbers(&self) -> [f32; 3] {
         [self.yaw, self.pitch, self.distance]
     }
@@ -120,12 +120,12 @@ impl Eye {
         add(self.forward, add(scale(self.right, offset.x), scale(self.up, -offset.y)))
     }
 
-    /// How far to the right of the screen a direction goes.
+    /// How far (m) to the right of the screen a direction goes.
     pub fn along(&self, direction: V3) -> f32 {
         dot(direction, self.right)
     }
 
-    /// How far away from the eye a direction goes.
+    /// How far (m) away from the eye a direction goes.
     pub fn ahead(&self, direction: V3) -> f32 {
         dot(direction, self.forward)
     }

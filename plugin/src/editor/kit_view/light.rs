@@ -53,7 +53,7 @@ fn power(x: f32, doublings: u32) -> f32 {
     (0..doublings).fold(x, |x, _| x * x)
 }
 
-/// A colour under light, with white added.
+/// A colour under a share of full light, with a share of white added.
 pub fn shade(colour: Color32, light: f32, white: f32) -> Color32 {
     let channel = |channel: u8| (f32::from(channel) * light + 255.0 * white).clamp(0.0, 255.0) as u8;
     Color32::from_rgb(channel(colour.r()), channel(colour.g()), channel(colour.b()))

@@ -36,7 +36,7 @@ pub struct Shown {
 /// How near a pointer must come to take hold of one, points.
 const REACH: f32 = 18.0;
 
-/// Every microphone; `value` gives a parameter's plain value by its index.
+/// Every microphone; `value` gives a parameter's value in its unit, by its index.
 pub fn all(bodies: &[Body], value: &dyn Fn(usize) -> Option<f32>, palette: &Palette) -> Vec<Shown> {
     let single = |x: [f64; 3]| x.map(|x| x as f32);
     let close = bodies.iter().enumerate().map(|(slot, body)| {

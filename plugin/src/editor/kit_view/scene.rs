@@ -77,7 +77,7 @@ impl Scene {
         self.taper(from, to, [radius; 2], [dark, light]);
     }
 
-    /// A [`rod`](Self::rod) with another radius at each end.
+    /// A [`rod`](Self::rod) with another radius (m) at each end.
     pub fn taper(&mut self, from: V3, to: V3, radii: [f32; 2], [dark, light]: [Color32; 2]) {
         /// Length of a part, m.
         const PART: f32 = 0.12;

@@ -143,7 +143,7 @@ fn ring(scene: &mut Scene, frame: &Frame, radii: [f32; 2], z: f32, colour: Color
     }
 }
 
-/// A circle about the axis at a height.
+/// A circle about the axis: its radius and its height, m, and the width of its line, points.
 pub fn circle(scene: &mut Scene, frame: &Frame, radius: f32, z: f32, width: f32, colour: Color32) {
     let at = |side: usize| {
         let (sin, cos) = (side as f32 * TAU / SIDES as f32).sin_cos();

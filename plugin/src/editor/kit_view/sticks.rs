@@ -12,7 +12,7 @@ use super::scene::Scene;
 use super::vector::{V3, add, scale, sub, unit};
 use crate::editor::theme::Palette;
 
-/// How many times slower the replay is.
+/// How many times slower the replay is: a factor.
 pub const STRETCH: f64 = 30.0;
 
 /// Time of the replay before the tip touches, s unstretched.
@@ -44,7 +44,7 @@ impl Replay {
         }
     }
 
-    /// Whether there is something to be seen.
+    /// Whether there is something to be seen at a time, s.
     pub fn is_on(&self, strike: &StrikeSnapshot, now: f64) -> bool {
         self.count > 0 && self.time(now) < f64::from(strike.contact_time) + AFTER
     }

@@ -12,7 +12,7 @@ use overhear_engine::hi_hat::HiHatSpec;
 use overhear_engine::piece::PieceId;
 use overhear_engine::snapshot::{FieldShapes, PieceSnapshot};
 
-use super::{MEMORY, Moment};
+use super::{Moment, over_time};
 use crate::editor::field;
 use crate::editor::plot::Plot;
 use crate::editor::theme;
@@ -35,7 +35,7 @@ pub fn thickness(piece: PieceId) -> Option<f32> {
     Some(plate.thickness() as f32)
 }
 
-/// Largest displacement by which a plate is bent now, over its thickness; nothing of what is none.
+/// Largest displacement by which a plate is bent now, in units of its thickness; nothing of what is none.
 pub fn of(piece: PieceId, state: &PieceSnapshot, shapes: Option<&FieldShapes>) -> f32 {
     let moves = state.energy > LEAST;
     let Some((thickness, shapes)) = thickness(piece).zip(shapes).filter(|_| moves) else { return 0.0 };
@@ -63,15 +63,9 @@ pub(super) fn show(
     let thickness = plot.at(0.0, 1.0 / (1.08 * top)).y;
     let palette = theme::of(ui);
     plot.painter().hline(plot.area.x_range(), thickness, Stroke::new(1.0, palette.raised));
-    let points: Vec<_> = moments
-        .iter()
-        .map(|moment| {
-            plot.at(1.0 - ((now - moment.time) / MEMORY) as f32, moment.bending[slot] / (1.08 * top))
-        })
-        .collect();
-    plot.curve(&points, accent);
+    let heights = moments.iter().map(|moment| moment.bending[slot] / (1.08 * top));
+    over_time(&plot, moments, now, heights, accent);
     plot.remark_at(thickness, "its thickness");
-    plot.ends(&format!("{MEMORY:.0} s ago"), "now");
 }
 
 #[cfg(test)]

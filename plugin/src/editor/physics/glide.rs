@@ -12,7 +12,7 @@ use overhear_engine::drum::DrumSpec;
 use overhear_engine::membrane::MembraneSpec;
 use overhear_engine::piece::PieceId;
 
-use super::{MEMORY, Moment};
+use super::{Moment, over_time};
 use crate::editor::plot::Plot;
 
 /// Glide of a head whose stretch holds an energy (J) at a tension at rest (N/m), cents; nothing of what is no drum.
@@ -48,20 +48,37 @@ pub(super) fn show(
     (slot, now): (usize, f64),
     accent: Color32,
 ) {
-    let most = moments.iter().map(|moment| moment.cents[slot]).fold(0.0, f32::max);
+    let cents = settled(&moments.iter().map(|moment| moment.cents[slot]).collect::<Vec<_>>());
+    let most = cents.iter().copied().fold(0.0, f32::max);
     let plot = Plot::new(ui, rect, "Pitch glide", &format!("up to +{most:.0} cents"));
-    let top = most.max(20.0);
-    let points: Vec<_> = moments
-        .iter()
-        .map(|moment| plot.at(1.0 - ((now - moment.time) / MEMORY) as f32, moment.cents[slot] / (1.1 * top)))
-        .collect();
-    plot.curve(&points, accent);
-    plot.ends(&format!("{MEMORY:.0} s ago"), "now");
+    let top = 1.1 * most.max(20.0);
+    over_time(&plot, moments, now, cents.iter().map(|cents| cents / top), accent);
+}
+
+/// The glide that is heard: the mean over snapshots next to each other. One catches the stretch somewhere in its swing,
+/// which goes twice as fast as the head; pitch follows what it is on the whole.
+fn settled(cents: &[f32]) -> Vec<f32> {
+    /// Snapshots to either side: with them 60 ms, some swings of the lowest head.
+    const AROUND: usize = 2;
+    let mean = |i: usize| {
+        let near = &cents[i.saturating_sub(AROUND)..(i + AROUND + 1).min(cents.len())];
+        near.iter().sum::<f32>() / near.len() as f32
+    };
+    (0..cents.len()).map(mean).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_swings_settles_at_its_mean_and_a_steady_glide_stays() {
+        let swinging: Vec<f32> = (0..100).map(|i| 10.0 + 10.0 * (i as f32 * 2.1).sin()).collect();
+        let settled = super::settled(&swinging);
+        assert!(settled[5..95].iter().all(|cents| (cents - 10.0).abs() < 4.0), "{settled:?}");
+        assert_eq!(super::settled(&[7.0; 9]), [7.0; 9]);
+        assert!(super::settled(&[]).is_empty());
+    }
 
     #[test]
     fn a_head_at_rest_is_at_its_pitch_and_a_stretched_one_above() {

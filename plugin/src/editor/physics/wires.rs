@@ -37,7 +37,7 @@ impl Wires {
         self.seen[group].map_or(0.0, |seen| (1.0 - (now - seen) / GLOW).clamp(0.0, 1.0) as f32)
     }
 
-    /// Draws the head with its groups.
+    /// Draws the head with its groups at the time `now`, s.
     pub fn show(&self, ui: &Ui, rect: Rect, wires: &WireSnapshot, now: f64, accent: Color32) {
         let palette = theme::of(ui);
         let plot = Plot::new(ui, rect, "Snare wires", &remark(wires));

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::*;
 use crate::midi::assignments::Assignment;
 use crate::performer::Performer;
-use crate::strokes::Strokes;
+use crate::strokes::strokes;
 
 /// Sample rate, Hz.
 const RATE: f64 = 48_000.0;
@@ -25,9 +25,9 @@ fn hear(performer: &mut Performer, stroke: Stroke) -> Heard {
         (snapshot.pieces.map(|piece| piece.strike.count), snapshot)
     };
     let (before, _) = counts(performer);
-    let strokes = Strokes::default();
+    let (strokes, mut waiting) = strokes();
     strokes.play(stroke);
-    strokes.deliver(performer);
+    waiting.deliver(performer);
     let (mut left, mut right) = (vec![0.0; 4_800], vec![0.0; 4_800]);
     performer.render(&mut left, &mut right);
     let (after, snapshot) = counts(performer);

@@ -1,0 +1,122 @@
+//! Every command of the README, run as it stands there.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::PathBuf;
+
+use xtask::report::page;
+
+use super::{Folder, SONG, root};
+
+/// Commands that take seconds.
+const SHORT: &[&str] = &["render", "hear", "modes"];
+
+/// Commands that take minutes, and what is added to them here: one run of everything costs nobody's time twice, and the
+/// pages of the sources are not to be written over.
+const LONG: &[(&str, &[&str])] = &[
+    ("demo", &[]),
+    ("install", &[]),
+    ("bundle", &[]),
+    ("bench", &["--runs", "1"]),
+    ("report", &["-o", "report"]),
+];
+
+/// What runs this.
+const THIS: &str = "test";
+
+/// What follows `cargo xtask` in every line of a block and between every pair of backquotes.
+fn commands() -> Vec<String> {
+    let readme = fs::read_to_string(root().join("README.md")).expect("a README");
+    let after = |text: &str| Some(text.strip_prefix("cargo xtask ")?.split(" #").next()?.trim().to_owned());
+    let lines = readme.lines().filter_map(after);
+    let quoted = readme.lines().filter(|line| !line.starts_with("```"));
+    let quoted = quoted.flat_map(|line| line.split('`').skip(1).step_by(2)).filter_map(after);
+    let mut commands = Vec::new();
+    for command in lines.chain(quoted) {
+        if !commands.contains(&command) {
+            commands.push(command);
+        }
+    }
+    commands
+}
+
+/// The lines of a command.
+fn of(name: &str) -> Vec<String> {
+    let is = |line: &String| line.split_whitespace().next() == Some(name);
+    let lines: Vec<_> = commands().into_iter().filter(is).collect();
+    assert!(!lines.is_empty(), "the README has no `{name}`");
+    lines
+}
+
+#[test]
+fn the_short_commands_do_what_it_says() {
+    let folder = Folder::new("readme");
+    folder.file("song.mid", SONG);
+    fs::create_dir(folder.0.join("songs")).unwrap();
+    folder.file("songs/one.mid", SONG);
+    folder.file("songs/two.mid", SONG);
+    for line in SHORT.iter().flat_map(|name| of(name)) {
+        folder.succeed(&line.split_whitespace().collect::<Vec<_>>());
+    }
+    for file in ["song.wav", "snare.wav", "sounds/two.wav", "stems/two/kick.wav"] {
+        assert!(folder.0.join(file).exists(), "{file}: {:?}", folder.names());
+    }
+}
+
+#[test]
+fn no_command_is_left_out_here() {
+    let known: BTreeSet<&str> =
+        SHORT.iter().copied().chain(LONG.iter().map(|(name, _)| *name)).chain([THIS]).collect();
+    let commands = commands();
+    let named: BTreeSet<&str> = commands.iter().filter_map(|line| line.split_whitespace().next()).collect();
+    assert_eq!(named, known);
+}
+
+/// Builds the bundles, plays, measures everything: `cargo xtask test` runs it by itself.
+#[test]
+#[ignore = "takes minutes"]
+fn the_long_commands_do_what_it_says() {
+    let folder = Folder::new("readme-long");
+    for (name, more) in LONG {
+        for line in of(name) {
+            let arguments: Vec<&str> = line.split_whitespace().chain(more.iter().copied()).collect();
+            eprintln!("{}", arguments.join(" "));
+            let output = at_home(&folder, &arguments).output().expect("the command runs");
+            let said = String::from_utf8_lossy(&output.stderr);
+            assert!(output.status.success(), "{arguments:?}: {said}");
+        }
+    }
+    for file in ["demo.wav", "demo.png", "demo-shots/kit-dark-1x.png"] {
+        assert!(folder.0.join(file).exists(), "{file}: {:?}", folder.names());
+    }
+    #[cfg(target_os = "linux")]
+    for file in [".clap/Overhear.clap", ".vst3/Overhear.vst3"] {
+        assert!(folder.0.join(file).exists(), "{file}: {:?}", folder.names());
+    }
+    let program = format!("bundled/overhear-standalone{}", std::env::consts::EXE_SUFFIX);
+    assert!(xtask::workspace::target_dir().unwrap().join(program).exists());
+    for (name, _) in xtask::report::PAGES {
+        let claims = |folder: PathBuf| {
+            let page = fs::read_to_string(folder.join(name).with_extension("md")).unwrap_or_default();
+            let rows =
+                page.lines().filter(|line| [page::MET, page::MISSED].iter().any(|end| line.ends_with(end)));
+            rows.filter_map(|row| Some(row.split(" | ").next()?.to_owned())).collect::<Vec<_>>()
+        };
+        let measured = claims(folder.0.join("report"));
+        assert!(!measured.is_empty(), "{name} claims nothing");
+        assert_eq!(measured, claims(root().join("docs/report")), "docs/report/{name}.md is another page's");
+    }
+}
+
+/// A command that finds the user's folders in this one, and the tools where they are.
+fn at_home(folder: &Folder, arguments: &[&str]) -> std::process::Command {
+    let mut command = folder.command(arguments);
+    if let Some(home) = std::env::var_os("HOME").map(PathBuf::from) {
+        for (variable, usual) in [("CARGO_HOME", ".cargo"), ("RUSTUP_HOME", ".rustup")] {
+            let set = std::env::var_os(variable).map_or_else(|| home.join(usual), PathBuf::from);
+            command.env(variable, set);
+        }
+    }
+    command.env("HOME", &folder.0);
+    command
+}
