@@ -41,25 +41,27 @@ pub struct Placement {
     pub normal: Point,
     /// Depth of the body behind it, as far as sound comes from its other end too, m.
     pub depth: f64,
+    /// Radius within which no other drum can stand, m: a drum's own; 0 of a cymbal, which hangs above.
+    pub radius: f64,
 }
 
 impl Placement {
     /// Where the piece stands by default.
     pub fn of(id: PieceId) -> Placement {
-        let (centre, normal, depth) = match id {
-            PieceId::Kick => ([0.0, 0.30, -0.23], [0.0, 0.0, -1.0], 0.457),
-            PieceId::Snare => ([-0.40, 0.66, -0.40], [0.0, 0.97, -0.24], 0.140),
-            PieceId::RackTom => ([-0.14, 0.88, -0.12], [0.15, 0.85, -0.5], 0.229),
-            PieceId::FloorTom => ([0.47, 0.62, -0.34], [0.0, 1.0, 0.0], 0.406),
-            PieceId::Crash => ([-0.64, 1.20, 0.0], [0.22, 0.95, -0.25], 0.0),
-            PieceId::Ride => ([0.68, 1.06, -0.04], [-0.16, 0.96, -0.22], 0.0),
-            PieceId::Splash => ([0.16, 1.22, 0.08], [0.0, 0.97, -0.25], 0.0),
-            PieceId::HiHat => ([-0.72, 0.86, -0.30], [0.0, 1.0, 0.0], 0.0),
+        let (centre, normal, depth, radius) = match id {
+            PieceId::Kick => ([0.0, 0.30, -0.23], [0.0, 0.0, -1.0], 0.457, 0.279),
+            PieceId::Snare => ([-0.40, 0.66, -0.40], [0.0, 0.97, -0.24], 0.140, 0.178),
+            PieceId::RackTom => ([-0.14, 0.88, -0.12], [0.15, 0.85, -0.5], 0.229, 0.152),
+            PieceId::FloorTom => ([0.47, 0.62, -0.34], [0.0, 1.0, 0.0], 0.406, 0.203),
+            PieceId::Crash => ([-0.64, 1.20, 0.0], [0.22, 0.95, -0.25], 0.0, 0.0),
+            PieceId::Ride => ([0.68, 1.06, -0.04], [-0.16, 0.96, -0.22], 0.0, 0.0),
+            PieceId::Splash => ([0.16, 1.22, 0.08], [0.0, 0.97, -0.25], 0.0, 0.0),
+            PieceId::HiHat => ([-0.72, 0.86, -0.30], [0.0, 1.0, 0.0], 0.0, 0.0),
             // Beyond the floor tom, a turn of the stool away. A kettle is closed.
-            PieceId::Timpani => ([0.86, 0.78, -0.86], [-0.1, 0.99, -0.05], 0.0),
+            PieceId::Timpani => ([0.86, 0.78, -0.86], [-0.1, 0.99, -0.05], 0.0, 0.330),
         };
         let length = length(&normal);
-        Placement { centre, normal: normal.map(|x| x / length), depth }
+        Placement { centre, normal: normal.map(|x| x / length), depth, radius }
     }
 
     /// A place on the axis, so far behind the struck surface, m.
@@ -140,11 +142,12 @@ impl Layout {
 
     /// The way of sound between two pieces, m, by place in [`PieceId::KIT`]: from the middle of one to the struck head
     /// of the other, the shorter of the two. The same both ways: if it were not, the air between them would do
-    /// work.
+    /// work. Nor is it less than the radii of both: what each sends out and feels as a point, with no account of how its own
+    /// modes move the air for each other, would do work in the other's place.
     pub fn way(&self, a: usize, b: usize) -> f64 {
         let [a, b] = [a, b].map(|piece| &self.pieces[piece]);
         let ways = [distance(&a.source(), &b.centre), distance(&b.source(), &a.centre)];
-        ways[0].min(ways[1]).clamp(NEAREST, FARTHEST)
+        ways[0].min(ways[1]).clamp(NEAREST.max(a.radius + b.radius), FARTHEST)
     }
 }
 
@@ -155,13 +158,29 @@ mod tests {
 
     #[test]
     fn a_disc_that_faces_up_sees_the_player_at_angle_0_and_the_right_at_a_quarter() {
-        let disc = Placement { centre: [0.0; 3], normal: [0.0, 1.0, 0.0], depth: 0.0 };
+        let disc = Placement { centre: [0.0; 3], normal: [0.0, 1.0, 0.0], depth: 0.0, radius: 0.0 };
         let above = disc.sees(&[0.0, 2.0, 0.0]);
         assert!((above.distance - 2.0).abs() < 1e-12 && above.inclination.abs() < 1e-6);
         let player = disc.sees(&[0.0, 0.0, -1.0]);
         assert!((player.inclination - FRAC_PI_2).abs() < 1e-9 && player.azimuth.abs() < 1e-9);
         let right = disc.sees(&[1.0, 1.0, 0.0]);
         assert!((right.azimuth - FRAC_PI_2).abs() < 1e-9, "{}", right.azimuth);
+    }
+
+    #[test]
+    fn drums_keep_as_far_apart_as_their_shells_do_and_stand_so_by_default() {
+        let layout = Layout::default();
+        let drums = || PieceId::KIT.into_iter().filter(|id| id.is_drum()).filter_map(PieceId::slot);
+        let mut crowded = layout;
+        crowded.pieces.iter_mut().for_each(|piece| piece.centre = [0.0, 0.7, 0.0]);
+        for (a, b) in drums().flat_map(|a| drums().filter(move |&b| b != a).map(move |b| (a, b))) {
+            let shells = layout.pieces[a].radius + layout.pieces[b].radius;
+            assert!(shells > NEAREST && crowded.way(a, b) >= shells, "{a} {b}");
+            // By default it is the places that decide.
+            let [from, to] = [a, b].map(|piece| &layout.pieces[piece]);
+            let placed = distance(&from.source(), &to.centre).min(distance(&to.source(), &from.centre));
+            assert_eq!(layout.way(a, b), placed, "{a} {b}");
+        }
     }
 
     #[test]
