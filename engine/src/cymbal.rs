@@ -5,7 +5,7 @@
 //! modes up to a frequency that the quality chooses ([`VonKarman`]); above, they stay linear. The
 //! rigid motions are too slow to be heard. The plate stands in free air ([`FreeDisc`]).
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use overhear_kept::{Kept, Shared};
 use serde::{Deserialize, Serialize};
@@ -100,6 +100,13 @@ pub(crate) const LIMIT_HZ: f64 = 21_000.0;
 /// Share of the sample rate that modes may reach.
 pub(crate) const LIMIT_OF_RATE: f64 = 0.48;
 
+/// Where crash and splash are heard from: behind them as the player sees it, 16 degrees over the rim. *Measured*: from 27
+/// degrees and the player's side the dome's tilting as one, 550 Hz of the crash, covers all else. Here 75 % of a firm
+/// crash's figures are as recordings have them instead of 67, 81 % of a splash's instead of 64; and as far from the
+/// stick as the cymbal allows a hard crash's swell is not covered by the click. A hand nearer, the air that the lowest
+/// modes push about is heard.
+const BEHIND: ListeningPoint = ListeningPoint { distance: 0.55, inclination: 1.29, azimuth: PI };
+
 impl CymbalSpec {
     /// Lowest, default and highest ratio a cymbal's frequencies can be scaled by.
     pub const TUNING: (f64, f64, f64) = (0.5, 1.0, 2.0);
@@ -113,7 +120,7 @@ impl CymbalSpec {
             // A strip of tape near the edge. *By ear*.
             muffler: Muffler::Gel { sigma: 40.0, radius: 0.85, angle: 2.3 },
             splitting: Splitting::CYMBAL,
-            // Beside the cymbal, a little above its plane. *Measured*: from straight above, its dome's breathing
+            // Beside the cymbal, above its plane. *Measured*: from straight above, its dome's breathing
             // covers all else; from here the balance of a ride is that of recordings within 2 dB.
             listening_point: ListeningPoint { distance: 0.5, inclination: 1.1, azimuth: 0.4 },
             far_point: ListeningPoint::far(0.5, 0.4),
@@ -122,7 +129,7 @@ impl CymbalSpec {
 
     /// A 16 in crash.
     pub const fn crash() -> CymbalSpec {
-        CymbalSpec::bronze(PlateSpec::CRASH)
+        CymbalSpec { listening_point: BEHIND, ..CymbalSpec::bronze(PlateSpec::CRASH) }
     }
 
     /// A 20 in ride.
@@ -132,7 +139,7 @@ impl CymbalSpec {
 
     /// A 10 in splash.
     pub const fn splash() -> CymbalSpec {
-        CymbalSpec::bronze(PlateSpec::SPLASH)
+        CymbalSpec { listening_point: BEHIND, ..CymbalSpec::bronze(PlateSpec::SPLASH) }
     }
 }
 

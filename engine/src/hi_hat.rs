@@ -61,6 +61,12 @@ pub const TOUCHING: f64 = 0.6;
 /// Force at the pedal's end, N. *Derived*: a seventh of a drummer's weight.
 pub const CLAMPING: f64 = 100.0;
 
+/// Bronze as it gives where two hammered rims lie on each other. A place stands for a sixteenth of the rim: seven
+/// centimetres that touch at their highest spots first, and are not flat. It gives by 10 um under its share of a foot's
+/// force, smooth edges (110 GPa) by 2. *Measured*: a closed one, struck with the shoulder, has 82 % of its figures as
+/// recordings have them, 79 % with 5 GPa and 62 % with smooth edges, whose clatter lies too high.
+const WAVY_RIM: Material = Material { youngs_modulus: 4e9, ..Material::BRONZE };
+
 /// A hi-hat's description.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HiHatSpec {
@@ -78,6 +84,8 @@ pub struct HiHatSpec {
     pub toward: f64,
     /// Radius of the rims where they meet, m.
     pub edge: f64,
+    /// What the upper rim is made of, as the lower one feels it.
+    pub rim: Material,
     /// Restitution of a landing, a ratio of speeds.
     pub restitution: f64,
     /// Decay rate that rims which are clamped together add to every mode of both.
@@ -96,7 +104,7 @@ impl Default for HiHatSpec {
             loss: LossLaw { constant: 1.2, per_khz: 0.06 },
             muffler: Muffler::Gel { sigma: 40.0, radius: 0.85, angle: 2.3 },
             splitting: Splitting { seed, ..Splitting::CYMBAL },
-            ..CymbalSpec::crash()
+            ..CymbalSpec::ride()
         };
         HiHatSpec {
             top: half(PlateSpec::HI_HAT_TOP, 5),
@@ -106,6 +114,7 @@ impl Default for HiHatSpec {
             tilt: 0.009,
             toward: 2.0,
             edge: 1e-3,
+            rim: WAVY_RIM,
             restitution: 0.2,
             // *Measured*: with it closed ones decay within a third as recordings of them do, 0.43 to 0.27 s.
             rubbing: LossLaw { constant: 21.0, per_khz: 0.6 },
@@ -378,7 +387,7 @@ fn assemble(
             cymbal::coupling_stride(highest_hz, options.sample_rate),
         );
     }
-    let tip = Tip::Solid { material: Material::BRONZE, radius: spec.edge };
+    let tip = Tip::Solid { material: spec.rim, radius: spec.edge };
     let law = ContactLaw::new(&tip, &spec.bottom.material, if lossless { 1.0 } else { spec.restitution });
     let leaning = spec.top.plate.radius() * spec.tilt;
     let dt = 1.0 / options.sample_rate;

@@ -14,7 +14,7 @@
 //! | 60 to 63 | bongos, high congas | rack tom, soft mallet for a hand |
 //! | 64 | low conga | floor tom, soft mallet for a hand |
 //! | 65, 66 | timbales | rack tom, floor tom, stick |
-//! | 42, 46 | closed, open hi-hat | hi-hat, stick on the edge; brings the pedal down, or up |
+//! | 42, 46 | closed, open hi-hat | hi-hat, stick shoulder on the edge; brings the pedal down, or up |
 //! | 44 | pedal hi-hat | the hi-hat's pedal, down, as fast as the note is loud |
 //! | 39, 54, 56, 58, 67 to 81 | hand percussion | silent: nothing in the kit sounds like it |
 //!
@@ -166,7 +166,7 @@ pub static MAP: [Row; (LAST_NOTE - FIRST_NOTE + 1) as usize] = {
         row(39, "Hand Clap", NOTHING_LIKE_IT),
         row(40, "Electric Snare", strikes(Snare, 0.40, 0.3, RimShot)),
         row(41, "Low Floor Tom", strikes(FloorTom, 0.25, -0.4, Stick)),
-        row(42, "Closed Hi-Hat", strikes(HiHat, 0.97, 0.0, Stick)),
+        row(42, "Closed Hi-Hat", strikes(HiHat, 0.97, 0.0, Shoulder)),
         row(43, "High Floor Tom", strikes(FloorTom, 0.35, -0.4, Stick)),
         row(44, "Pedal Hi-Hat", Meaning::Steps(Foot::Chick)),
         row(45, "Low Tom", strikes(FloorTom, 0.45, -0.4, Stick)),
