@@ -100,11 +100,9 @@ pub(crate) const LIMIT_HZ: f64 = 21_000.0;
 /// Share of the sample rate that modes may reach.
 pub(crate) const LIMIT_OF_RATE: f64 = 0.48;
 
-/// Where crash and splash are heard from: behind them as the player sees it, 16 degrees over the rim. *Measured*: from 27
-/// degrees and the player's side the dome's tilting as one, 550 Hz of the crash, covers all else. Here 75 % of a firm
-/// crash's figures are as recordings have them instead of 67, 81 % of a splash's instead of 64; and as far from the
-/// stick as the cymbal allows a hard crash's swell is not covered by the click. A hand nearer, the air that the lowest
-/// modes push about is heard.
+/// Where a splash is heard from: behind it as the player sees it, 16 degrees over the rim. *Measured*: from 27 degrees and
+/// the player's side the dome's tilting as one covers all else. Here 81 % of a firm splash's figures are as recordings
+/// have them instead of 64.
 const BEHIND: ListeningPoint = ListeningPoint { distance: 0.55, inclination: 1.29, azimuth: PI };
 
 impl CymbalSpec {
@@ -129,7 +127,7 @@ impl CymbalSpec {
 
     /// A 16 in crash.
     pub const fn crash() -> CymbalSpec {
-        CymbalSpec { listening_point: BEHIND, ..CymbalSpec::bronze(PlateSpec::CRASH) }
+        CymbalSpec::bronze(PlateSpec::CRASH)
     }
 
     /// A 20 in ride.

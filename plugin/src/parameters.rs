@@ -298,19 +298,17 @@ mod tests {
     }
 
     #[test]
-    fn tunings_span_what_the_engine_accepts() {
+    fn tunings_span_what_the_engine_accepts_about_the_pieces_own_pitch() {
         for parameter in &PARAMETERS {
+            let Parameter { min, centre, max, default, .. } = *parameter;
             let (piece, spanned): (_, [f32; 3]) = match parameter.drives {
-                Drives::Control(Control::Tuning(piece)) => {
-                    (piece, [parameter.min, parameter.default, parameter.max])
-                }
-                Drives::Semitones(piece) => {
-                    (piece, [parameter.min, parameter.default, parameter.max].map(|st| (st / 12.0).exp2()))
-                }
+                Drives::Control(Control::Tuning(piece)) => (piece, [min, centre, max]),
+                Drives::Semitones(piece) => (piece, [min, centre, max].map(|st| (st / 12.0).exp2())),
                 _ => continue,
             };
-            let (min, default, max) = Piece::tuning_range(piece);
-            assert_eq!(spanned, [min, default, max].map(|value| value as f32), "{piece:?}");
+            assert!((min..=max).contains(&default), "{piece:?}");
+            let (min, own, max) = Piece::tuning_range(piece);
+            assert_eq!(spanned, [min, own, max].map(|value| value as f32), "{piece:?}");
         }
     }
 

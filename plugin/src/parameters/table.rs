@@ -14,13 +14,23 @@ pub static PARAMETERS: [Parameter; 86] = {
         drum_tune(Kick, "Kick", "kktune", "kick_tune", [35.0, 55.0, 90.0]),
         muffle(Kick, "Kick", "kkmuff", "kick_muffle", 0.15),
         level(Kick, "Kick", "kklevl", "kick_level", 0.0),
-        drum_tune(Snare, "Snare", "sntune", "snare_tune", [140.0, 220.0, 360.0]),
+        Parameter {
+            // *Measured*: close by, a snare of 220 Hz is taken for one of 370 Hz, its (1,1); so tuned it has the fundamental and
+            // the decays that recordings have.
+            default: 195.0,
+            ..drum_tune(Snare, "Snare", "sntune", "snare_tune", [140.0, 220.0, 360.0])
+        },
         muffle(Snare, "Snare", "snmuff", "snare_muffle", 0.0),
         level(Snare, "Snare", "snlevl", "snare_level", -4.0),
         drum_tune(RackTom, "Rack tom", "rttune", "rack_tom_tune", [90.0, 140.0, 260.0]),
         muffle(RackTom, "Rack tom", "rtmuff", "rack_tom_muffle", 0.0),
         level(RackTom, "Rack tom", "rtlevl", "rack_tom_level", 3.0),
-        drum_tune(FloorTom, "Floor tom", "fttune", "floor_tom_tune", [55.0, 82.0, 160.0]),
+        Parameter {
+            // About a fifth under the rack tom. *Measured*: so tuned it is nearest to recordings, above all its second
+            // partial and the middle of its first 50 ms.
+            default: 100.0,
+            ..drum_tune(FloorTom, "Floor tom", "fttune", "floor_tom_tune", [55.0, 82.0, 160.0])
+        },
         muffle(FloorTom, "Floor tom", "ftmuff", "floor_tom_muffle", 0.0),
         level(FloorTom, "Floor tom", "ftlevl", "floor_tom_level", 2.0),
         cymbal_tune(Crash, "Crash", "crtune", "crash_tune"),
@@ -64,7 +74,9 @@ pub static PARAMETERS: [Parameter; 86] = {
             unit: " N",
             min: 0.03,
             max: 1.5,
-            default: 0.15,
+            // *Measured*: looser than the engine's own 0.15 N, so that a hard stroke buzzes as much brighter for its
+            // loudness as recorded ones do.
+            default: 0.08,
             // As much knob for the loose half of what drummers use as for the tight one.
             centre: 0.15,
             // Of the steps about as fine as this, the largest of which 0.03, 0.15 and 1.5 are exact multiples

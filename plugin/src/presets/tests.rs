@@ -61,7 +61,7 @@ fn a_preset_written_is_read_back_the_same() {
 fn what_is_not_named_is_at_its_default_but_the_player_s_set_up_stays() {
     let preset = Preset::parse("p", "format = 1\n[parameters]\nkick_tune = 60\n").unwrap();
     assert_eq!(preset.value(at("kick_tune")), Some(60.0));
-    assert_eq!(preset.value(at("snare_tune")), Some(220.0));
+    assert_eq!(preset.value(at("snare_tune")), Some(195.0));
     for name in ["note_map", "midi_channel", "chokes", "quality", "offline_quality", "velocity_curve"] {
         assert_eq!(preset.value(at(name)), None, "{name}");
     }
