@@ -26,7 +26,7 @@ pub static PARAMETERS: [Parameter; 86] = {
         muffle(RackTom, "Rack tom", "rtmuff", "rack_tom_muffle", 0.0),
         level(RackTom, "Rack tom", "rtlevl", "rack_tom_level", 3.0),
         Parameter {
-            // About a fifth under the rack tom. *Measured*: so tuned it is nearest to recordings, above all its second
+            // Half an octave under the rack tom. *Measured*: so tuned it is nearest to recordings, above all its second
             // partial and the middle of its first 50 ms.
             default: 100.0,
             ..drum_tune(FloorTom, "Floor tom", "fttune", "floor_tom_tune", [55.0, 82.0, 160.0])
