@@ -154,6 +154,7 @@ impl Layout {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::drum::DrumSpec;
     use std::f64::consts::FRAC_PI_2;
 
     #[test]
@@ -165,6 +166,21 @@ mod tests {
         assert!((player.inclination - FRAC_PI_2).abs() < 1e-9 && player.azimuth.abs() < 1e-9);
         let right = disc.sees(&[1.0, 1.0, 0.0]);
         assert!((right.azimuth - FRAC_PI_2).abs() < 1e-9, "{}", right.azimuth);
+    }
+
+    #[test]
+    fn shells_are_as_wide_as_their_heads() {
+        let drums = [
+            (PieceId::Kick, DrumSpec::kick()),
+            (PieceId::Snare, DrumSpec::snare()),
+            (PieceId::RackTom, DrumSpec::rack_tom()),
+            (PieceId::FloorTom, DrumSpec::floor_tom()),
+            (PieceId::Timpani, DrumSpec::timpani()),
+        ];
+        for (id, drum) in drums {
+            let head = drum.batter.membrane.radius;
+            assert!((Placement::of(id).radius - head).abs() < 1e-3, "{id:?}: {head}");
+        }
     }
 
     #[test]

@@ -23,12 +23,17 @@ const KEPT: usize = 96;
 /// A piece's peak above which it can be heard, full scale 1.
 pub const AUDIBLE: f32 = 1e-5;
 
+/// Less energy than this is at rest in every diagram, J.
+pub const STILL: f32 = 1e-9;
+
 /// The audio thread's end.
 pub struct Publisher {
     snapshots: Input<KitSnapshot>,
     latest: KitSnapshot,
     sound: Sound,
     past: Producer<KitSnapshot>,
+    /// Whether the latest is among the past.
+    kept: bool,
     news: Arc<AtomicU64>,
     /// Samples from one snapshot to the next.
     interval: usize,
@@ -59,7 +64,7 @@ pub fn monitor() -> (Publisher, Viewer) {
         past: Arc::new(Mutex::new(kept)),
         news: news.clone(),
     };
-    (Publisher { snapshots: input, latest, sound, past, news, interval: 1, elapsed: 0 }, viewer)
+    (Publisher { snapshots: input, latest, sound, past, kept: false, news, interval: 1, elapsed: 0 }, viewer)
 }
 
 impl Publisher {
@@ -97,10 +102,29 @@ impl Publisher {
             carry_peaks(&former, &mut self.latest);
         }
         self.news.store(news(&self.latest), Ordering::Relaxed);
-        // When all places are taken nobody looks, or has not for a second: what is new then is lost to the diagrams.
-        let _ = self.past.push(self.latest);
+        self.keep(&former);
         self.snapshots.write(self.latest);
     }
+
+    /// Keeps the latest for the diagrams while something moves, and the one at rest on either side: an idle kit leaves all
+    /// places to the next stroke, however rarely a window at rest looks.
+    fn keep(&mut self, former: &KitSnapshot) {
+        let begins = moves(&self.latest) && !self.kept;
+        let keeps = moves(&self.latest) || moves(former);
+        // When all places are taken nobody looks, or has not for a second: what is new then is lost to the diagrams.
+        if begins {
+            let _ = self.past.push(*former);
+        }
+        if keeps {
+            let _ = self.past.push(self.latest);
+        }
+        self.kept = keeps;
+    }
+}
+
+/// Whether anything vibrates, heard or muted.
+fn moves(snapshot: &KitSnapshot) -> bool {
+    snapshot.pieces.iter().any(|piece| piece.energy > STILL || piece.peak > AUDIBLE)
 }
 
 impl Viewer {
@@ -115,7 +139,7 @@ impl Viewer {
         self.news.load(Ordering::Relaxed)
     }
 
-    /// Every snapshot since the last call, the oldest first, as far as they are kept.
+    /// Every snapshot since the last call while something moved, the oldest first, as far as they are kept.
     pub fn since(&self) -> Vec<KitSnapshot> {
         let mut past = self.past.lock().unwrap_or_else(PoisonError::into_inner);
         // Those that come meanwhile are for the next call.
@@ -157,6 +181,8 @@ fn carry_peaks(from: &KitSnapshot, into: &mut KitSnapshot) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use overhear_engine::piece::{BuildOptions, Piece, PieceId, Quality};
+    use overhear_engine::strike::{Strike, Striker};
 
     #[test]
     fn snapshots_appear_at_their_rate_whatever_the_buffers() {
@@ -175,10 +201,42 @@ mod tests {
             clock = now;
         }
         assert!((80..=90).contains(&seen), "{seen} in a second");
-        let past = viewer.since();
-        assert_eq!(past.len(), seen);
-        assert!(past.is_sorted_by_key(|snapshot| snapshot.clock) && past[seen - 1].clock == clock);
+        assert!(viewer.since().is_empty(), "at rest there is no past to draw");
+    }
+
+    #[test]
+    fn after_any_rest_a_stroke_is_kept_from_its_beginning() {
+        let mut performer = Performer::new(48_000.0);
+        let options = BuildOptions { quality: Quality::Eco, ..BuildOptions::new(48_000.0) };
+        performer.install(Box::new(Piece::new(PieceId::Splash, &options).unwrap()));
+        let (mut publisher, viewer) = monitor();
+        publisher.set_sample_rate(48_000.0);
+        let mut sound = [[0.0; 64]; 2];
+        let mut play = |performer: &mut Performer, buffers: usize| {
+            for _ in 0..buffers {
+                let [left, right] = &mut sound;
+                performer.render(left, right);
+                publisher.rendered(64, performer);
+            }
+        };
+        // Longer than all places last.
+        play(&mut performer, 2 * 750);
         assert!(viewer.since().is_empty());
+        performer.strike(PieceId::Splash, &hit());
+        play(&mut performer, 375);
+        let past = viewer.since();
+        assert!((40..=45).contains(&past.len()), "{} in half a second", past.len());
+        let clocks: Vec<_> = past.iter().map(|snapshot| snapshot.clock).collect();
+        assert!(clocks.windows(2).all(|pair| (1..=640).contains(&(pair[1] - pair[0]))), "{clocks:?}");
+        let counts: Vec<_> = past.iter().map(|snapshot| snapshot.pieces[SPLASH].strike.count).collect();
+        assert_eq!(counts[..2], [0, 1], "the last at rest, then the stroke");
+    }
+
+    /// A splash's place in the kit.
+    const SPLASH: usize = 6;
+
+    fn hit() -> Strike {
+        Strike { speed: 3.0, radius: 0.5, angle: 0.0, striker: Striker::Stick }
     }
 
     #[test]

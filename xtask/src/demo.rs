@@ -13,7 +13,7 @@ use anyhow::{Result, ensure};
 use crate::levels::{self, Row};
 use crate::player::{Blocks, Played, Setup, Source, Take};
 use crate::progress::Progress;
-use crate::render::{Style, takes};
+use crate::render::{Style, decibels, takes};
 use crate::song::Song;
 use crate::stage::Stage;
 use crate::system::{self, WINDOW_LIBRARIES, XVFB};
@@ -126,9 +126,4 @@ fn report(take: &Take, played: &Played, levels: &[Row], [wav, png, clap]: [&Path
             println!("`cargo xtask install` puts {} into {}", format.bundle_file(), folder.display());
         }
     }
-}
-
-/// A peak, full scale 1, as text.
-fn decibels(peak: f32) -> String {
-    if peak > 0.0 { format!("{:.1} dBFS", 20.0 * peak.log10()) } else { "silent".to_owned() }
 }

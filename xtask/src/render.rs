@@ -16,7 +16,7 @@ use crate::settings::Setting;
 use crate::stage::Stage;
 use crate::wav::Bits;
 
-pub use job::{Job, Report, takes};
+pub use job::{Job, Report, decibels, takes};
 
 /// What to render, as asked for.
 #[derive(Debug, Clone)]

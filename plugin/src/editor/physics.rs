@@ -13,6 +13,7 @@ use overhear_engine::snapshot::{FieldShapes, KitSnapshot, OCTAVES};
 
 use super::plot::Plot;
 use super::theme;
+use crate::monitor::STILL;
 use crate::sound::Sound;
 
 mod bending;
@@ -132,9 +133,7 @@ impl Physics {
 
     /// Whether the page moves by itself: a mode that swings, or a past that has not gone by yet.
     pub fn moves_on(&self) -> bool {
-        /// Less than this is at rest in every diagram, J.
-        const LEAST: f32 = 1e-9;
-        let moved = |moment: &Moment| moment.octaves.iter().flatten().any(|&energy| energy > LEAST);
+        let moved = |moment: &Moment| moment.octaves.iter().flatten().any(|&energy| energy > STILL);
         self.mode.is_some() || self.moments.iter().any(moved)
     }
 

@@ -5,9 +5,9 @@ use std::path::Path;
 use anyhow::{Context, Result, ensure};
 use overhear::presets::Library;
 
-use super::{RATE, clap_bundle, decibels, play, style};
+use super::{RATE, clap_bundle, play, style};
 use crate::player::Source;
-use crate::render::takes;
+use crate::render::{decibels, takes};
 use crate::song::Song;
 use crate::wav::{Bits, WavFile};
 use crate::{output::Folder, workspace};

@@ -136,7 +136,7 @@ fn busy_share(busy: Duration, seconds: f64) -> f64 {
     if seconds > 0.0 { busy.as_secs_f64() / seconds } else { 0.0 }
 }
 
-/// A peak in dBFS.
-fn decibels(peak: f32) -> String {
+/// A peak, full scale 1, as text in dBFS.
+pub fn decibels(peak: f32) -> String {
     if peak > 0.0 { format!("{:.1} dBFS", 20.0 * peak.log10()) } else { "silent".to_owned() }
 }

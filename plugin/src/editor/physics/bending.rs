@@ -16,9 +16,7 @@ use super::{Moment, over_time};
 use crate::editor::field;
 use crate::editor::plot::Plot;
 use crate::editor::theme;
-
-/// Less energy than this bends nothing to speak of, J.
-const LEAST: f32 = 1e-9;
+use crate::monitor::STILL;
 
 /// Nodal diameters and circles of the motions that bend nothing: up and down, and tilting.
 const RIGID: [[u32; 2]; 2] = [[0, 0], [1, 0]];
@@ -37,7 +35,7 @@ pub fn thickness(piece: PieceId) -> Option<f32> {
 
 /// Largest displacement by which a plate is bent now, in units of its thickness; nothing of what is none.
 pub fn of(piece: PieceId, state: &PieceSnapshot, shapes: Option<&FieldShapes>) -> f32 {
-    let moves = state.energy > LEAST;
+    let moves = state.energy > STILL;
     let Some((thickness, shapes)) = thickness(piece).zip(shapes).filter(|_| moves) else { return 0.0 };
     let mut modes = state.displacement;
     for (q, order) in modes.iter_mut().zip(&shapes.orders) {
