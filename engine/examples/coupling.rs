@@ -29,7 +29,7 @@ fn main() {
         let transform = best(|| {
             black_box(stretching.evaluate(black_box(&bent), &mut gradient));
         });
-        let blocks = blocks(&plate, &pairs);
+        let blocks = blocks(&plate, &tables, &pairs);
         let coefficients: usize = blocks.iter().map(|[k, p, q]| k * p * q).sum();
         let padded = |[k, p, q]: &[usize; 3]| k * (p * q).next_multiple_of(LANES);
         let mut table = zero_row(blocks.iter().map(padded).sum());
@@ -63,18 +63,14 @@ fn pairs(plate: &PlateModes, hz: f64) -> (Vec<CoupledPair>, usize) {
 }
 
 /// Airy functions, modes of one order and modes of the other, of every table.
-fn blocks(plate: &PlateModes, pairs: &[CoupledPair]) -> Vec<[usize; 3]> {
+fn blocks(plate: &PlateModes, tables: &PlateTables, pairs: &[CoupledPair]) -> Vec<[usize; 3]> {
     let shells = || pairs.iter().map(|pair| &plate.shells[pair.shell]);
     let highest = shells().map(|shell| shell.m).max().unwrap_or(0);
     let of_order = |m: u32| shells().filter(|shell| shell.m == m).count();
-    let root = |pair: &CoupledPair| {
-        let shell = &plate.shells[pair.shell];
-        plate.flat_of(shell).iter().find(|flat| flat.n == shell.n).map_or(0.0, |flat| flat.root)
-    };
-    let finest = pairs.iter().map(root).fold(0.0, f64::max);
+    let finest = shells().map(|shell| plate.wave_number(shell)).fold(0.0, f64::max);
     let mut out = Vec::new();
-    for m in 0..=highest {
-        let airys = AiryOrder::new(plate, m, finest).modes.len();
+    for (m, order) in (0..).zip(AiryOrder::all(plate, tables, highest, finest)) {
+        let airys = order.stiffness.len();
         for p in 0..=highest {
             for q in p..=highest {
                 for _ in [p + q, q - p].into_iter().filter(|&sum| sum == m && airys > 0) {

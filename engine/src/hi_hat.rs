@@ -39,7 +39,7 @@ use crate::listening::ListeningPoint;
 use crate::math::roots;
 use crate::modal::Mode;
 use crate::piece::{BuildOptions, ModeInfo, ModeKind};
-use crate::plate::PlateSpec;
+use crate::plate::{Bell, PlateSpec};
 use crate::split::Splitting;
 use crate::surface::{Surface, SurfaceParts};
 
@@ -98,8 +98,8 @@ pub struct HiHatSpec {
 
 impl Default for HiHatSpec {
     fn default() -> HiHatSpec {
-        let half = |plate, seed| CymbalSpec {
-            plate,
+        let half = |plate: PlateSpec, seed| CymbalSpec {
+            plate: plate.shaped(0.010, Bell { radius: 0.045, rise: 0.015 }, 0.8),
             // *Measured*: with it open ones decay within a quarter as recordings of them do, 3.3 to 2.5 s.
             loss: LossLaw { constant: 1.2, per_khz: 0.06 },
             muffler: Muffler::Gel { sigma: 40.0, radius: 0.85, angle: 2.3 },

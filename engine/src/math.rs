@@ -1,9 +1,10 @@
-//! The mathematics the bodies are built from: cylinder functions, quadrature, roots, eigenproblems, interpolation.
+//! The mathematics the bodies are built from: cylinder functions, polynomials, quadrature, roots, eigenproblems, interpolation.
 //!
 //! Everything here runs while a piece is built or, the interpolation, once a block; in `f64`; nothing runs per sample.
 
 pub mod bessel;
 pub mod cubic;
 pub mod eigen;
+pub mod jacobi;
 pub mod quadrature;
 pub mod roots;

@@ -1,12 +1,12 @@
 //! Cymbals' plates: geometry and metal turned into modes.
 //!
-//! Model: a thin circular plate of uniform thickness (Kirchhoff), free at its rim, domed to a
-//! shallow spherical cap (Marguerre). [`spec`] describes the plate, [`edges`] finds the flat plate's
-//! modes, [`dome`] turns those of each order into shell modes, [`radial`] knows their shapes and
-//! transforms, [`radiation`] what they lose to the air. Nothing is said here of losses in the metal, of a bell, a taper, a hole or a stand.
+//! Model: a thin circular plate (Kirchhoff), free at its rim, domed to a shallow shell (Marguerre).
+//! [`spec`] describes the plate, [`edges`] finds the flat plate's modes, [`dome`] turns those of each order into shell
+//! modes of a cap as thick everywhere, [`uneven`] into those of a plate with a bell or a taper; [`radial`] and [`bent`] know
+//! their shapes, [`free_disc`] what they do to the air. Nothing is said here of losses in the metal, of a hole or a stand.
 //!
 //! Coordinates: `r` is a share of the radius; shapes are `R(r) cos(m theta)` and
-//! `R(r) sin(m theta)`, of unit mean square over the disc, so each mode's mass is the plate's.
+//! `R(r) sin(m theta)`, of unit mean square over the metal, so each mode's mass is the plate's.
 //!
 //! Limits: complete up to the frequency asked for; rigid motions of the plate on its stand are not
 //! among the modes.
@@ -19,17 +19,19 @@ use crate::air;
 use crate::error::SpecError;
 use crate::math::bessel::{ITable, JTable};
 
+pub mod bent;
 pub mod dome;
 pub mod edges;
 pub mod free_disc;
 pub mod radial;
-pub mod radiation;
 pub mod spec;
+pub mod uneven;
 
+use bent::Bent;
 use radial::RadialMode;
-use radiation::Radiator;
+use uneven::Section;
 
-pub use spec::PlateSpec;
+pub use spec::{Bell, PlateSpec};
 
 /// Wave numbers by which the flat modes of an eigenproblem reach past the frequency asked for: four
 /// more modes an order. *Measured*: any more move no frequency by 0.01 %.
@@ -44,8 +46,17 @@ pub struct ShellMode {
     pub n: u32,
     /// Undamped angular frequency, rad/s.
     pub omega: f64,
-    /// Share of each flat mode of its order, as in [`PlateModes::flat`]; a unit vector.
+    /// Share of each flat mode of its order, as in [`PlateModes::flat`].
     pub expansion: Vec<f64>,
+    /// Share of the rigid motion `r^m` that keeps the plate in balance; none of an even plate or from order 2 on.
+    pub rigid: f64,
+}
+
+impl ShellMode {
+    /// The rigid part of the radial shape at the share `r` of the radius.
+    fn rigid_shape(&self, r: f64) -> f64 {
+        if self.rigid == 0.0 { 0.0 } else { self.rigid * r.powi(self.m as i32) }
+    }
 }
 
 /// Every mode of a plate up to a frequency.
@@ -75,6 +86,14 @@ impl PlateTables {
     pub fn new(max_order: u32, x_max: f64) -> PlateTables {
         PlateTables { j: JTable::orders(max_order, x_max), i: ITable::orders(max_order, x_max) }
     }
+
+    /// Both of one order.
+    ///
+    /// # Panics
+    /// If they do not reach it.
+    pub fn order(&self, m: u32) -> (&JTable, &ITable) {
+        (&self.j[m as usize], &self.i[m as usize])
+    }
 }
 
 impl PlateModes {
@@ -86,13 +105,19 @@ impl PlateModes {
         spec.check()?;
         SpecError::check("highest mode (Hz)", limit_hz, 100.0, 48_000.0)?;
         let limit = TAU * limit_hz;
-        let reach = (limit / spec.flat_omega()).sqrt() + FLAT_MARGIN;
+        let reach = (limit / spec.flat_omega()).sqrt() * shortening(spec) + FLAT_MARGIN;
         // Every order from 2 on begins with a higher wave number than the one before.
         let flat: Vec<Vec<RadialMode>> = (0..)
             .map(|m| edges::free_modes(m, spec.poisson_ratio, reach))
             .take_while(|modes| !modes.is_empty())
             .collect();
-        let mut shells: Vec<ShellMode> = flat.iter().flat_map(|modes| order_shells(spec, modes)).collect();
+        let mut shells: Vec<ShellMode> = if spec.is_even() {
+            flat.iter().flat_map(|modes| even_shells(spec, modes)).collect()
+        } else {
+            let tables = PlateTables::new(flat.len() as u32, reach);
+            let section = Section::new(spec, reach);
+            flat.iter().flat_map(|modes| uneven_shells(spec, &section, modes, &tables)).collect()
+        };
         shells.retain(|shell| shell.omega <= limit);
         shells.sort_by(|a, b| a.omega.total_cmp(&b.omega));
         Ok(PlateModes { spec: *spec, flat, shells })
@@ -103,25 +128,34 @@ impl PlateModes {
         &self.flat[shell.m as usize]
     }
 
+    /// Wave number of a shell mode's finest ripples times the radius, dimensionless.
+    pub fn wave_number(&self, shell: &ShellMode) -> f64 {
+        let flat = self.flat_of(shell).iter().find(|flat| flat.n == shell.n);
+        flat.map_or(0.0, |flat| flat.root) * shortening(&self.spec)
+    }
+
     /// Radial shape of a shell mode, of unit mean square, at the share `r` of the radius, to rounding.
     pub fn radial_shape(&self, shell: &ShellMode, r: f64) -> f64 {
-        self.expand(shell, |flat| flat.value(r))
-    }
-
-    /// Hankel transform `int_0^1 R(r) J_m(x r) r dr` of a shell mode's radial shape, dimensionless.
-    pub fn hankel(&self, shell: &ShellMode, x: f64) -> f64 {
-        self.expand(shell, |flat| flat.hankel(x))
-    }
-
-    /// Sum over the flat modes of a shell mode.
-    fn expand(&self, shell: &ShellMode, of_flat: impl Fn(&RadialMode) -> f64) -> f64 {
         let terms = self.flat_of(shell).iter().zip(&shell.expansion);
-        terms.map(|(flat, share)| share * of_flat(flat)).sum()
+        terms.map(|(flat, share)| share * flat.value(r)).sum::<f64>() + shell.rigid_shape(r)
+    }
+
+    /// A shell mode bent, at `radii` (shares of the radius), all above 0.
+    ///
+    /// # Panics
+    /// If the tables do not reach the order.
+    pub fn bent(&self, tables: &PlateTables, shell: &ShellMode, radii: &[f64]) -> Bent {
+        let mut sum = Bent::zero(radii.len());
+        for (flat, &share) in self.flat_of(shell).iter().zip(&shell.expansion) {
+            sum.add(share, &Bent::of(flat, tables.order(shell.m), radii));
+        }
+        // The rigid part bends nothing.
+        sum.value.iter_mut().zip(radii).for_each(|(value, &r)| *value += shell.rigid_shape(r));
+        sum
     }
 
     /// Highest order and largest (dimensionless) argument the tables must reach for this plate's modes, at
     /// frequencies up to `limit_hz`, Hz.
-    /// frequencies up to `limit_hz`.
     pub fn table_extent(&self, limit_hz: f64) -> (u32, f64) {
         let root = self.flat.iter().flatten().map(|flat| flat.root).fold(0.0, f64::max);
         let trace = TAU * limit_hz * self.spec.radius() / air::SPEED_OF_SOUND;
@@ -161,25 +195,19 @@ impl PlateModes {
                     *shape += share * flat;
                 }
             }
+            shape.iter_mut().zip(radii).for_each(|(shape, &r)| *shape += shell.rigid_shape(r));
         }
         shapes
     }
-
-    /// Radiation resistance of every shell mode at its own frequency, both faces, kg/s.
-    ///
-    /// What it adds to a mode's decay rate is this over twice the plate's mass.
-    ///
-    /// # Panics
-    /// If the tables do not reach the plate's highest order.
-    pub fn radiation_resistances(&self, tables: &PlateTables) -> Vec<f64> {
-        let mut radiator = Radiator::new(&tables.j, self.spec.radius());
-        let shells = self.shells.iter();
-        shells.map(|s| radiator.resistance(self.flat_of(s), &s.expansion, s.omega)).collect()
-    }
 }
 
-/// Shell modes of one order.
-fn order_shells(spec: &PlateSpec, flat: &[RadialMode]) -> Vec<ShellMode> {
+/// By how much waves are shorter where a plate is thinnest than where it is as thick as in the mean.
+fn shortening(spec: &PlateSpec) -> f64 {
+    spec.relative_thickness(1.0).sqrt().recip()
+}
+
+/// Shell modes of one order of a cap as thick everywhere.
+fn even_shells(spec: &PlateSpec, flat: &[RadialMode]) -> Vec<ShellMode> {
     let unit = spec.flat_omega();
     let omegas: Vec<f64> = flat.iter().map(|mode| unit * mode.root * mode.root).collect();
     let solved = dome::shells(flat, &omegas, spec.ring_omega());
@@ -189,6 +217,27 @@ fn order_shells(spec: &PlateSpec, flat: &[RadialMode]) -> Vec<ShellMode> {
         n: flat.n,
         omega: shell.omega_squared.sqrt(),
         expansion: shell.expansion,
+        rigid: 0.0,
+    };
+    named.map(shell).collect()
+}
+
+/// Shell modes of one order of any profile.
+fn uneven_shells(
+    spec: &PlateSpec,
+    section: &Section,
+    flat: &[RadialMode],
+    tables: &PlateTables,
+) -> Vec<ShellMode> {
+    let Some(first) = flat.first() else { return Vec::new() };
+    let solved = uneven::shells(spec, section, flat, tables.order(first.m));
+    let named = solved.into_iter().zip(flat);
+    let shell = |(shell, flat): (uneven::Shell, &RadialMode)| ShellMode {
+        m: flat.m,
+        n: flat.n,
+        omega: shell.omega_squared.sqrt(),
+        expansion: shell.expansion,
+        rigid: shell.rigid,
     };
     named.map(shell).collect()
 }

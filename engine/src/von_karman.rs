@@ -15,7 +15,7 @@
 //!
 //! Evaluation: by transform. Displacements become the three curvatures of the surface on a polar
 //! grid (radii of Gauss's rule along the SIMD lanes, a discrete Fourier sum around), the bracket is
-//! a product point by point (see [`coupling`]), back to orders, projected on the Airy functions; the
+//! a product point by point (see [`bent`](crate::plate::bent)), back to orders, projected on the Airy functions; the
 //! stress they make goes the same way back. Energy and gradient use one quadrature, whose rule is
 //! exactly transposed: the gradient is that of the energy to rounding, whatever the grid.
 //!
@@ -31,7 +31,6 @@
 //! Struct. 42, 2005; Ducceschi & Touze, J. Sound Vib. 344, 2015 (modal, conserving schemes).
 
 pub mod airy;
-pub mod coupling;
 #[cfg(test)]
 mod oracle;
 #[cfg(test)]
@@ -41,11 +40,11 @@ use crate::math::quadrature::GaussLegendre;
 use crate::modal::simd::polar::{BLOCK, Circle, Radials, SLOTS};
 use crate::modal::simd::{Kernels, LANES};
 use crate::modal::{Row, zero_row};
+use crate::plate::bent::Bent;
 use crate::plate::{PlateModes, PlateTables};
 use crate::potential::{Evaluation, Potential};
 
 use airy::AiryOrder;
-use coupling::Curvatures;
 
 /// Radii per unit of the largest wave number. *Measured*: 0.7 leaves 2e-4 of the gradient.
 const RADII: f64 = 0.7;
@@ -114,15 +113,10 @@ impl VonKarman {
     /// If the tables do not reach the pairs' orders, or if one order has more than 16 modes.
     pub fn new(plate: &PlateModes, tables: &PlateTables, pairs: &[CoupledPair]) -> VonKarman {
         let shell = |pair: &CoupledPair| &plate.shells[pair.shell];
-        let wave_number = |pair: &CoupledPair| {
-            let flat = plate.flat_of(shell(pair)).iter().find(|flat| flat.n == shell(pair).n);
-            flat.map_or(0.0, |flat| flat.root)
-        };
-        let finest = pairs.iter().map(wave_number).fold(0.0, f64::max);
+        let finest = pairs.iter().map(|pair| plate.wave_number(shell(pair))).fold(0.0, f64::max);
         let highest = pairs.iter().map(|pair| shell(pair).m).max().unwrap_or(0) as usize;
-        let mut airy: Vec<AiryOrder> =
-            (0..=highest as u32).map(|m| AiryOrder::new(plate, m, finest)).collect();
-        let used = airy.iter().rposition(|order| !order.modes.is_empty()).unwrap_or(0);
+        let mut airy = AiryOrder::all(plate, tables, highest as u32, finest);
+        let used = airy.iter().rposition(|order| !order.stiffness.is_empty()).unwrap_or(0);
         airy.truncate(used + 1);
         // Enough angles that no product of two displacements and an Airy function folds over.
         let quarter = (2 * highest + used + 1).div_ceil(4).next_multiple_of(BLOCK);
@@ -136,8 +130,7 @@ impl VonKarman {
         for pair in pairs {
             let m = shell(pair).m;
             let row = bends.row(m as usize);
-            let Curvatures { radial, around, twist } =
-                Curvatures::new(plate, tables, shell(pair), &rule.nodes);
+            let Bent { radial, around, twist, .. } = plate.bent(tables, shell(pair), &rule.nodes);
             let (sin, cos) = (f64::from(m) * pair.axis).sin_cos();
             let cos_at = row * 2 * SLOTS + curvatures[row].len();
             places.push(Place { mode: pair.mode, m, cos_at, cos: cos as f32, sin: sin as f32 });

@@ -19,19 +19,16 @@
 //! `sqrt(omega_p^2 + omega_R^2)`, so the `n`-th of an order belongs to the `n`-th flat one.
 //!
 //! The sum over a finite set of Airy functions, which nonlinear stretching needs, approaches this
-//! from below; see [`stretching_coefficient`] and [`curvature_overlap`].
+//! from below; see [`curvature_overlap`].
 //!
 //! Source: Thomas, Touze, Chaigne, Non-linear vibrations of free-edge thin spherical shells,
 //! Int. J. Solids Struct. 42, 2005. The closed sum is ours; a test holds it against the sum.
 //!
-//! Limits: shallow (rise up to about a quarter of the radius), thin, uniform, no bell.
-
-use std::f64::consts::PI;
+//! Limits: shallow (rise up to about a quarter of the radius), thin, uniform, no bell; for those see [`uneven`](super::uneven).
 
 use nalgebra::DMatrix;
 
 use super::radial::{RadialMode, angular_norm};
-use super::spec::PlateSpec;
 use crate::math::eigen;
 
 /// Relative distance of two wave numbers below which an overlap is taken in the limit: there the
@@ -60,14 +57,6 @@ pub(super) fn shells(flat: &[RadialMode], omegas: &[f64], ring_omega: f64) -> Ve
     pairs.map(|(omega_squared, expansion)| Shell { omega_squared, expansion }).collect()
 }
 
-/// `c_k = E h a^2 / (8 pi zeta_k^4)`, N m, of the Airy function with wave number `zeta`.
-///
-/// The stretching energy is the sum of `c_k (P_k + l_k)^2`; `P_k` and `l_k` have no dimension.
-pub fn stretching_coefficient(spec: &PlateSpec, zeta: f64) -> f64 {
-    let stiffness = spec.youngs_modulus * spec.thickness() * spec.radius().powi(2);
-    stiffness / (8.0 * PI * zeta.powi(4))
-}
-
 /// `int Psi lap(w) dA` over the disc for an Airy function and a flat mode of the same order and
 /// member, dimensionless; any radius, for the laplacian's `1/a^2` cancels the area's `a^2`.
 ///
@@ -91,7 +80,9 @@ pub fn curvature_overlap(airy: &RadialMode, flat: &RadialMode) -> f64 {
 mod tests {
     use super::*;
     use crate::math::quadrature::GaussLegendre;
+    use crate::plate::PlateSpec;
     use crate::plate::edges::{clamped_modes, free_modes};
+    use crate::plate::uneven::stiffness_unit;
     use std::f64::consts::TAU;
 
     #[test]
@@ -116,7 +107,7 @@ mod tests {
     fn summed(spec: &PlateSpec, flat: &[RadialMode], limit: f64) -> DMatrix<f64> {
         let mut sum = DMatrix::zeros(flat.len(), flat.len());
         for airy in clamped_modes(flat[0].m, limit) {
-            let twice = 2.0 * stretching_coefficient(spec, airy.root) / spec.mass;
+            let twice = 2.0 * stiffness_unit(spec) / (airy.root.powi(4) * spec.mass);
             let coupling = |w: &RadialMode| 2.0 * spec.curvature() * curvature_overlap(&airy, w);
             let row: Vec<f64> = flat.iter().map(coupling).collect();
             sum += DMatrix::from_fn(row.len(), row.len(), |p, q| twice * row[p] * row[q]);

@@ -41,6 +41,7 @@ use crate::listening::rings::Rings;
 use crate::listening::{ListeningPoint, Radiator};
 use crate::math::bessel;
 use crate::math::bessel::lanes::LANES;
+use crate::math::jacobi;
 use crate::math::quadrature::{self, GaussLegendre};
 
 /// What a mode does to the air.
@@ -108,26 +109,15 @@ impl FreeDisc {
     /// The basis functions on the grid, `[function][r]`.
     fn basis(&self, m: usize, count: usize) -> Vec<Vec<f64>> {
         let mut out = vec![vec![0.0; self.rule.nodes.len()]; count];
-        let (a, b) = (m as f64, 0.5);
+        let mut polynomials = vec![0.0; count];
         for (at, &r) in self.rule.nodes.iter().enumerate() {
-            let t = 1.0 - 2.0 * r * r;
             let edge = r.powi(m as i32) * (1.0 - r * r).sqrt();
-            // Jacobi's polynomials by their recurrence (A & S 22.7.1); gamma(i + 3/2) / i! along.
-            let (mut before, mut now) = (0.0, 1.0);
-            let mut scale = 0.5 * PI.sqrt();
-            for (i, row) in out.iter_mut().enumerate() {
-                row[at] = edge * now / (scale * 2.0 / PI.sqrt());
-                let n = i as f64;
-                let s = 2.0 * n + a + b;
-                let next = if i == 0 {
-                    0.5 * (a - b + (a + b + 2.0) * t)
-                } else {
-                    let lead = 2.0 * (n + 1.0) * (n + a + b + 1.0) * s;
-                    let middle = (s + 1.0) * (a * a - b * b + s * (s + 2.0) * t);
-                    (middle * now - 2.0 * (n + a) * (n + b) * (s + 2.0) * before) / lead
-                };
-                (before, now) = (now, next);
-                scale *= (n + 1.5) / (n + 1.0);
+            jacobi::fill(m as f64, 0.5, 1.0 - 2.0 * r * r, &mut polynomials);
+            // (i + 1/2)! over i! (1/2)!.
+            let mut scale = 1.0;
+            for ((i, row), polynomial) in out.iter_mut().enumerate().zip(&polynomials) {
+                row[at] = edge * polynomial / scale;
+                scale *= (i as f64 + 1.5) / (i as f64 + 1.0);
             }
         }
         out

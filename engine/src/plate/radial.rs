@@ -6,7 +6,7 @@
 //!
 //! Everything is held as values and slopes at the rim, where both parts are of the order of one:
 //! the modified part inside is its rim value times `I_m(k r) / I_m(k)`, which cannot overflow.
-//! Norms, Hankel transforms and overlaps follow from Green's identity at the rim; nothing is
+//! Norms and overlaps follow from Green's identity at the rim; nothing is
 //! integrated numerically.
 //!
 //! Source: Leissa, Vibration of Plates (NASA SP-160), ch. 2; Abramowitz & Stegun, 11.3.
@@ -113,33 +113,6 @@ impl RadialMode {
         Rim { value: k2 * (i.value - j.value), slope: k2 * (i.slope - j.slope) }
     }
 
-    /// Hankel transform `H(x) = int_0^1 W(r) J_m(x r) r dr`.
-    pub fn hankel(&self, x: f64) -> f64 {
-        let (value, slope) = bessel::j_pair(self.m, x);
-        self.hankel_of(x, Rim { value, slope: x * slope }, 1e-5)
-    }
-
-    /// Hankel transform at the dimensionless `x`, given `J_m(x)` and `x J_m'(x)`.
-    ///
-    /// Within `guard` of the removable singularity at `x = k` the first two terms of the Taylor
-    /// series stand in (error: about `guard` squared); outside, an error of the given values grows
-    /// as `1 / guard`.
-    #[inline]
-    pub fn hankel_of(&self, x: f64, wave: Rim, guard: f64) -> f64 {
-        let RadialMode { root: k, gain, bessel: j, modified: i, .. } = *self;
-        let (k2, x2) = (k * k, x * x);
-        let modified = (i.slope * wave.value - i.value * wave.slope) / (k2 + x2);
-        let bessel = if (x - k).abs() > guard {
-            (j.value * wave.slope - j.slope * wave.value) / (k2 - x2)
-        } else {
-            let m2 = f64::from(self.m * self.m);
-            let at_root = (j.slope * j.slope + (k2 - m2) * j.value * j.value) / (2.0 * k2 * gain);
-            let slope = (0.5 * j.value * j.value / gain - at_root) / k;
-            at_root + (x - k) * slope
-        };
-        bessel + modified
-    }
-
     /// Inner product with the harmonic function `r^m cos(m theta)` of unit mean square.
     ///
     /// Zero for a free plate's `m` 0 and 1, where that function is a rigid motion.
@@ -181,18 +154,6 @@ mod tests {
                         assert!((mean - want).abs() < 1e-10, "m {m}, {p} and {q}: {mean}");
                     }
                 }
-            }
-        }
-    }
-
-    #[test]
-    fn the_hankel_transform_is_the_integral() {
-        let rule = GaussLegendre::unit(200);
-        for mode in modes().step_by(5) {
-            for x in [0.0, 0.01, 0.9, 7.3, 40.0, 111.0, mode.root, mode.root + 2e-6, mode.root - 0.1] {
-                let want = rule.integrate(|r| mode.value(r) * bessel::j(mode.m, x * r) * r);
-                let got = mode.hankel(x);
-                assert!((got - want).abs() < 1e-10, "{mode:?} at {x}: {got} for {want}");
             }
         }
     }

@@ -22,8 +22,12 @@ pub struct PlateSpec {
     pub diameter: f64,
     /// Mass, kg, 0.02 to 20.
     pub mass: f64,
-    /// Rise of the dome's centre over its rim, m, 0 (flat) to a quarter of the diameter.
+    /// Rise of the bow's centre over its rim, without a bell, m, 0 (flat) to a quarter of the diameter.
     pub rise: f64,
+    /// What rises over the bow in the middle, if anything does.
+    pub bell: Option<Bell>,
+    /// Thickness at the rim over that in the middle, 0.3 to 1 (as thick everywhere).
+    pub taper: f64,
     /// Young's modulus, Pa, 1e9 to 1e12.
     pub youngs_modulus: f64,
     /// Poisson's ratio, 0 to 0.49.
@@ -32,16 +36,25 @@ pub struct PlateSpec {
     pub density: f64,
 }
 
+/// A cymbal's bell: a hump about the middle, `rise (1 - (r / radius)^2)^3`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Bell {
+    /// Where it meets the bow, m, a twentieth to half of the plate's radius.
+    pub radius: f64,
+    /// Rise over the bow, m, 0 to its radius.
+    pub rise: f64,
+}
+
 impl PlateSpec {
-    /// A 16 inch crash.
+    /// A 16 inch crash as a cap, without a bell.
     pub const CRASH: PlateSpec = PlateSpec::bronze(0.4064, 1.10, 0.020);
-    /// A 20 inch ride.
+    /// A 20 inch ride as a cap, without a bell.
     pub const RIDE: PlateSpec = PlateSpec::bronze(0.5080, 2.50, 0.028);
-    /// A 10 inch splash.
+    /// A 10 inch splash as a cap, without a bell.
     pub const SPLASH: PlateSpec = PlateSpec::bronze(0.2540, 0.25, 0.012);
-    /// The upper of a pair of 14 inch hi-hat cymbals.
+    /// The upper of a pair of 14 inch hi-hat cymbals as a cap, without a bell.
     pub const HI_HAT_TOP: PlateSpec = PlateSpec::bronze(0.3556, 0.95, 0.014);
-    /// The lower of a pair of 14 inch hi-hat cymbals.
+    /// The lower of a pair of 14 inch hi-hat cymbals as a cap, without a bell.
     pub const HI_HAT_BOTTOM: PlateSpec = PlateSpec::bronze(0.3556, 1.25, 0.014);
 
     /// A bronze plate from its diameter (m), mass (kg) and rise (m).
@@ -50,10 +63,22 @@ impl PlateSpec {
             diameter,
             mass,
             rise,
+            bell: None,
+            taper: 1.0,
             youngs_modulus: BRONZE_YOUNGS_MODULUS,
             poisson_ratio: BRONZE_POISSON_RATIO,
             density: BRONZE_DENSITY,
         }
+    }
+
+    /// The same plate, as heavy, with another rise of its bow (m), a bell and a taper.
+    pub const fn shaped(self, rise: f64, bell: Bell, taper: f64) -> PlateSpec {
+        PlateSpec { rise, bell: Some(bell), taper, ..self }
+    }
+
+    /// Whether it is a cap as thick everywhere.
+    pub fn is_even(&self) -> bool {
+        self.bell.is_none() && self.taper == 1.0
     }
 
     /// Checks every field, and that the plate they make is thin.
@@ -64,6 +89,12 @@ impl PlateSpec {
         SpecError::check("plate diameter (m)", self.diameter, 0.1, 0.8)?;
         SpecError::check("plate mass (kg)", self.mass, 0.02, 20.0)?;
         SpecError::check("plate rise (m)", self.rise, 0.0, 0.25 * self.diameter)?;
+        if let Some(bell) = self.bell {
+            let radius = self.radius();
+            SpecError::check("bell radius (m)", bell.radius, 0.05 * radius, 0.5 * radius)?;
+            SpecError::check("bell rise (m)", bell.rise, 0.0, bell.radius)?;
+        }
+        SpecError::check("taper", self.taper, 0.3, 1.0)?;
         SpecError::check("Young's modulus (Pa)", self.youngs_modulus, 1e9, 1e12)?;
         SpecError::check("Poisson's ratio", self.poisson_ratio, 0.0, 0.49)?;
         SpecError::check("plate density (kg/m3)", self.density, 500.0, 25_000.0)?;
@@ -78,18 +109,43 @@ impl PlateSpec {
         0.5 * self.diameter
     }
 
-    /// Thickness, m, from the mass.
+    /// Thickness, m, from the mass; its mean over the area if it has a taper.
     pub fn thickness(&self) -> f64 {
         self.mass / (self.density * PI * self.radius().powi(2))
     }
 
-    /// Flexural rigidity D = E h^3 / (12 (1 - nu^2)), N m.
+    /// Thickness at the share `r` of the radius over the mean: it falls straight toward the rim.
+    pub fn relative_thickness(&self, r: f64) -> f64 {
+        let lost = 1.0 - self.taper;
+        (1.0 - lost * r) / (1.0 - 2.0 / 3.0 * lost)
+    }
+
+    /// Curvatures along the radius and around, 1/m, at the share `r` of the radius: `w0''` and `w0'/r` of the profile.
+    pub fn curvatures(&self, r: f64) -> [f64; 2] {
+        let bow = self.curvature();
+        let Some(bell) = self.bell else { return [bow; 2] };
+        let s = (r * self.radius() / bell.radius).powi(2);
+        let edge = (1.0 - s).max(0.0);
+        let unit = 6.0 * bell.rise / bell.radius.powi(2) * edge;
+        [bow + unit * (1.0 - 5.0 * s), bow + unit * edge]
+    }
+
+    /// Height over the rim at the share `r` of the radius, m.
+    pub fn height(&self, r: f64) -> f64 {
+        let hump = |bell: Bell| {
+            let s = (r * self.radius() / bell.radius).powi(2);
+            bell.rise * (1.0 - s).max(0.0).powi(3)
+        };
+        self.rise * (1.0 - r * r) + self.bell.map_or(0.0, hump)
+    }
+
+    /// Flexural rigidity D = E h^3 / (12 (1 - nu^2)) where it is as thick as in the mean, N m.
     pub fn flexural_rigidity(&self) -> f64 {
         let nu = self.poisson_ratio;
         self.youngs_modulus * self.thickness().powi(3) / (12.0 * (1.0 - nu * nu))
     }
 
-    /// Curvature 1 / R of the cap, 1/m; R = (a^2 + H^2) / (2 H).
+    /// Curvature 1 / R of the bow, a cap, 1/m; R = (a^2 + H^2) / (2 H).
     pub fn curvature(&self) -> f64 {
         let (a, rise) = (self.radius(), self.rise);
         2.0 * rise / (a * a + rise * rise)
@@ -110,6 +166,7 @@ impl PlateSpec {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::quadrature::GaussLegendre;
 
     #[test]
     fn a_plate_that_cannot_be_is_refused_by_name() {
@@ -118,6 +175,24 @@ mod tests {
         assert!(refused(PlateSpec { rise: 0.3, ..crash }).starts_with("plate rise (m) is 0.3"));
         assert!(refused(PlateSpec { diameter: f64::NAN, ..crash }).contains("diameter"));
         assert!(refused(PlateSpec { mass: 15.0, ..crash }).contains("thickness"));
+    }
+
+    #[test]
+    fn a_taper_leaves_the_mass_and_a_bells_curvatures_are_those_of_its_profile() {
+        let spec = PlateSpec::CRASH.shaped(0.010, Bell { radius: 0.06, rise: 0.02 }, 0.5);
+        let rule = GaussLegendre::unit(20);
+        let mean = rule.integrate(|r| 2.0 * r * spec.relative_thickness(r));
+        assert!((mean - 1.0).abs() < 1e-12, "{mean}");
+        let depth = |x: f64| -spec.height(x / spec.radius());
+        for x in [0.01, 0.03, 0.05, 0.08, 0.19] {
+            let step = 1e-5;
+            let slope = (depth(x + step) - depth(x - step)) / (2.0 * step);
+            let second = (depth(x + step) - 2.0 * depth(x) + depth(x - step)) / (step * step);
+            let [radial, around] = spec.curvatures(x / spec.radius());
+            // A cap's radius counts its rise, which a parabola does not: half a percent.
+            assert!((radial - second).abs() < 5e-3 * second.abs() + 1e-3, "{x}: {radial} {second}");
+            assert!((around - slope / x).abs() < 5e-3 * slope / x, "{x}: {around} {}", slope / x);
+        }
     }
 
     #[test]

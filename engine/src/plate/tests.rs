@@ -2,7 +2,9 @@
 
 use std::f64::consts::PI;
 
+use super::free_disc::FreeDisc;
 use super::*;
+use crate::listening::{ListeningPoint, Radiator};
 use crate::math::quadrature::GaussLegendre;
 
 fn hz(plate: &PlateModes, m: u32, n: u32) -> f64 {
@@ -72,6 +74,20 @@ fn more_flat_modes_would_move_no_frequency_by_0_01_percent() {
 }
 
 #[test]
+fn more_functions_of_both_kinds_would_move_a_belled_plates_lowest_frequency_by_0_1_percent_and_others_less() {
+    let spec = PlateSpec::CRASH.shaped(0.01, BELL, 0.8);
+    let coarse = PlateModes::new(&spec, 21_000.0).unwrap();
+    let fine = PlateModes::new(&spec, 31_500.0).unwrap();
+    for shell in &coarse.shells {
+        let share = if (shell.m, shell.n) == (0, 1) { 1.5e-3 } else { 5e-4 };
+        assert_close(shell.omega / TAU, hz(&fine, shell.m, shell.n), share);
+    }
+}
+
+/// A crash's.
+const BELL: Bell = Bell { radius: 0.055, rise: 0.020 };
+
+#[test]
 fn a_shell_mode_carries_the_circles_of_the_flat_mode_that_dominates_it() {
     for spec in [PlateSpec::CRASH, PlateSpec::RIDE, PlateSpec::SPLASH] {
         let plate = PlateModes::new(&spec, 20_000.0).unwrap();
@@ -104,23 +120,18 @@ fn shell_shapes_have_unit_mean_square_and_are_read_from_tables_within_1e_6() {
 }
 
 #[test]
-fn the_transform_of_a_shell_mode_is_the_integral_of_its_shape() {
-    let plate = PlateModes::new(&PlateSpec::CRASH, 4000.0).unwrap();
-    let rule = GaussLegendre::unit(128);
-    for shell in plate.shells.iter().step_by(7) {
-        for x in [0.4, 5.0, 30.0] {
-            let wave = |r: f64| crate::math::bessel::j(shell.m, x * r);
-            let want = rule.integrate(|r| plate.radial_shape(shell, r) * wave(r) * r);
-            assert!((plate.hankel(shell, x) - want).abs() < 1e-10, "{shell:?} at {x}");
-        }
-    }
-}
-
-#[test]
 fn a_crash_radiates_little_below_coincidence_and_its_whole_area_above() {
     let plate = PlateModes::new(&PlateSpec::CRASH, 24_000.0).unwrap();
     let (max_order, x_max) = plate.table_extent(24_000.0);
-    let resistances = plate.radiation_resistances(&PlateTables::new(max_order, x_max));
+    let point = ListeningPoint { distance: 0.5, inclination: 0.6, azimuth: 0.0 };
+    let disc = FreeDisc::new(plate.spec.radius(), [point; 2], 140);
+    let shapes = plate.radial_shapes(&PlateTables::new(max_order, x_max), disc.radii());
+    let shells = plate.shells.iter().zip(shapes.chunks_exact(disc.radii().len()));
+    let resistance = |(shell, radial): (&ShellMode, &[f64])| {
+        let wave = Radiator { m: shell.m, radial, omega: shell.omega };
+        disc.radiate(&wave, plate.wave_number(shell)).resistance
+    };
+    let resistances: Vec<f64> = shells.map(resistance).collect();
     let whole = 2.0 * air::DENSITY * air::SPEED_OF_SOUND * PI * plate.spec.radius().powi(2);
     let mean = |from: f64, to: f64| {
         let inside = |shell: &ShellMode| (from..to).contains(&(shell.omega / TAU));
@@ -132,6 +143,69 @@ fn a_crash_radiates_little_below_coincidence_and_its_whole_area_above() {
     assert!(mean(1000.0, 4000.0) < 0.1, "{}", mean(1000.0, 4000.0));
     assert!(mean(22_000.0, 24_000.0) > 0.9, "{}", mean(22_000.0, 24_000.0));
     assert!(resistances.iter().all(|&resistance| resistance >= 0.0));
+}
+
+#[test]
+fn an_uneven_plate_as_even_as_a_cap_has_the_caps_modes() {
+    let cap = PlateModes::new(&PlateSpec::CRASH, 6000.0).unwrap();
+    // So small a bell is none, but takes the other way.
+    let spec = PlateSpec::CRASH.shaped(PlateSpec::CRASH.rise, Bell { radius: 0.03, rise: 0.0 }, 1.0);
+    let uneven = PlateModes::new(&spec, 6000.0).unwrap();
+    for shell in &cap.shells {
+        let other = uneven.shells.iter().find(|other| (other.m, other.n) == (shell.m, shell.n)).unwrap();
+        assert_close(other.omega, shell.omega, 1e-4);
+        for r in [0.2, 0.6, 1.0] {
+            let (got, want) = (uneven.radial_shape(other, r), cap.radial_shape(shell, r));
+            assert!((got.abs() - want.abs()).abs() < 2e-3, "({}, {}): {got} {want}", shell.m, shell.n);
+        }
+    }
+}
+
+#[test]
+fn a_taper_and_a_bell_leave_unit_mean_square_over_the_metal_and_no_rigid_momentum() {
+    let spec = PlateSpec::CRASH.shaped(0.02, BELL, 0.5);
+    let plate = PlateModes::new(&spec, 6000.0).unwrap();
+    let rule = GaussLegendre::unit(120);
+    for m in 0..6 {
+        let shells: Vec<&ShellMode> = plate.shells.iter().filter(|shell| shell.m == m).collect();
+        let mean = |of: &dyn Fn(f64) -> f64| {
+            let metal = |r: f64| spec.relative_thickness(r) * of(r) * r;
+            radial::angular_norm(m) / PI * rule.integrate(metal)
+        };
+        for (i, a) in shells.iter().enumerate() {
+            for b in &shells[..=i] {
+                let product = mean(&|r| plate.radial_shape(a, r) * plate.radial_shape(b, r));
+                let want = if a.n == b.n { 1.0 } else { 0.0 };
+                assert!((product - want).abs() < 1e-6, "{m}: {} with {}: {product}", a.n, b.n);
+            }
+            if m < 2 {
+                let momentum = mean(&|r| r.powi(m as i32) * plate.radial_shape(a, r));
+                assert!(momentum.abs() < 1e-6, "({m}, {}): {momentum}", a.n);
+            }
+        }
+    }
+}
+
+#[test]
+fn waves_along_a_thin_rim_are_slower() {
+    let spec = PlateSpec { rise: 0.0, ..PlateSpec::CRASH };
+    let even = PlateModes::new(&spec, 2000.0).unwrap();
+    let tapered = PlateModes::new(&PlateSpec { taper: 0.5, ..spec }, 2000.0).unwrap();
+    // They are as fast as the rim is thick, 0.75 of the mean, and reach inward less the more nodes they have.
+    let ratio = |m| hz(&tapered, m, 0) / hz(&even, m, 0);
+    assert!((0.75..0.9).contains(&ratio(14)) && ratio(14) < ratio(6) && ratio(6) < ratio(3));
+}
+
+#[test]
+fn a_bell_holds_what_bends_the_middle() {
+    let cap = PlateModes::new(&PlateSpec::CRASH, 8000.0).unwrap();
+    let belled = PlateModes::new(&PlateSpec::CRASH.shaped(PlateSpec::CRASH.rise, BELL, 1.0), 8000.0).unwrap();
+    for n in 4..8 {
+        let ratio = hz(&belled, 0, n) / hz(&cap, 0, n);
+        assert!((1.2..1.6).contains(&ratio), "(0, {n}): {ratio}");
+    }
+    // What moves the rim alone does not feel it.
+    assert_close(hz(&belled, 10, 0), hz(&cap, 10, 0), 1e-3);
 }
 
 #[test]

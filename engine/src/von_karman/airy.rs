@@ -1,4 +1,4 @@
-//! Airy functions of a plate's stretching: the clamped plate's modes.
+//! Airy functions of a plate's stretching: the clamped plate's modes, or what they become if it is not even.
 //!
 //! Model: the membrane forces of a stretched plate derive from a stress function `F` with
 //! `grad^4 F = -(E h / 2) (L(w, w) + (2/R) lap(w))`, `F = F' = 0` at a rim that is free in its plane.
@@ -9,27 +9,54 @@
 //! P_k = int Psi_k L(w, w) dA,  l_k = (2/R) int Psi_k lap(w) dA
 //! ```
 //!
+//! Where the thickness is `h t(r)`, `grad^4 F` becomes the compliance of the metal and the functions its own
+//! ([`StressModes`]); where the rise `w0` is no cap, `(1/R) lap(w)` becomes `L(w0, w)`.
+//!
 //! Source: Thomas, Touze, Chaigne, Int. J. Solids Struct. 42, 2005.
 
-use crate::plate::dome::{curvature_overlap, stretching_coefficient};
+use crate::plate::dome::curvature_overlap;
 use crate::plate::edges::clamped_modes;
 use crate::plate::radial::RadialMode;
+use crate::plate::uneven::{Section, StressModes, stiffness_unit};
 use crate::plate::{PlateModes, PlateTables, ShellMode};
 
-/// Airy functions of one order.
+/// Airy functions of one order, ascending by wave number, which may be none.
 pub struct AiryOrder {
-    /// Ascending by wave number, which may be none.
-    pub modes: Vec<RadialMode>,
     /// `c_k`, J.
     pub stiffness: Vec<f64>,
+    functions: Functions,
+}
+
+enum Functions {
+    Clamped(Vec<RadialMode>),
+    Uneven(StressModes),
 }
 
 impl AiryOrder {
-    /// Every Airy function of order `m` with a wave number up to `limit`.
-    pub fn new(plate: &PlateModes, m: u32, limit: f64) -> AiryOrder {
-        let modes = clamped_modes(m, limit);
-        let stiffness = modes.iter().map(|mode| stretching_coefficient(&plate.spec, mode.root)).collect();
-        AiryOrder { modes, stiffness }
+    /// Every Airy function with a wave number up to `limit` (dimensionless: times the radius), `[order]`, up to order `highest`.
+    ///
+    /// # Panics
+    /// If the tables do not reach the orders.
+    pub fn all(plate: &PlateModes, tables: &PlateTables, highest: u32, limit: f64) -> Vec<AiryOrder> {
+        let unit = stiffness_unit(&plate.spec);
+        let section = || {
+            let reach = plate.flat.iter().flatten().map(|flat| flat.root).fold(0.0, f64::max);
+            Section::new(&plate.spec, reach)
+        };
+        let section = (!plate.spec.is_even()).then(section);
+        let order = |m: u32| match &section {
+            None => {
+                let modes = clamped_modes(m, limit);
+                let stiffness = modes.iter().map(|mode| unit / mode.root.powi(4)).collect();
+                AiryOrder { stiffness, functions: Functions::Clamped(modes) }
+            }
+            Some(section) => {
+                let modes = StressModes::new(section, &plate.flat[m as usize], m, tables.order(m), limit);
+                let stiffness = modes.compliance.iter().map(|compliance| unit / compliance).collect();
+                AiryOrder { stiffness, functions: Functions::Uneven(modes) }
+            }
+        };
+        (0..=highest).map(order).collect()
     }
 
     /// Radial shapes at `radii` (shares of the radius), dimensionless, `[airy][r]`.
@@ -39,19 +66,30 @@ impl AiryOrder {
     pub fn shapes(&self, tables: &PlateTables, radii: &[f64]) -> Vec<Vec<f64>> {
         let sample = |mode: &RadialMode| {
             let mut row = vec![0.0; radii.len()];
-            mode.sample(&tables.j[mode.m as usize], &tables.i[mode.m as usize], radii, &mut row);
+            let (j, i) = tables.order(mode.m);
+            mode.sample(j, i, radii, &mut row);
             row
         };
-        self.modes.iter().map(sample).collect()
+        match &self.functions {
+            Functions::Clamped(modes) => modes.iter().map(sample).collect(),
+            Functions::Uneven(modes) => modes.shapes(radii),
+        }
     }
 
     /// `B^k_p` with a shell mode of the same order, `[airy]`: `l_k` per unit of its displacement, 1/m.
     pub fn curvature(&self, plate: &PlateModes, shell: &ShellMode) -> Vec<f64> {
         let scale = 2.0 * plate.spec.curvature();
-        let overlap = |airy: &RadialMode| {
-            let terms = plate.flat_of(shell).iter().zip(&shell.expansion);
-            scale * terms.map(|(flat, share)| share * curvature_overlap(airy, flat)).sum::<f64>()
+        let sum = |of: &dyn Fn(usize, &RadialMode) -> f64| {
+            let terms = plate.flat_of(shell).iter().zip(&shell.expansion).enumerate();
+            terms.map(|(p, (flat, share))| share * of(p, flat)).sum::<f64>()
         };
-        self.modes.iter().map(overlap).collect()
+        match &self.functions {
+            Functions::Clamped(modes) => {
+                modes.iter().map(|airy| scale * sum(&|_, flat| curvature_overlap(airy, flat))).collect()
+            }
+            Functions::Uneven(modes) => {
+                (0..self.stiffness.len()).map(|k| sum(&|p, _| modes.doming[(k, p)])).collect()
+            }
+        }
     }
 }

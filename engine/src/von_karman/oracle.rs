@@ -3,15 +3,15 @@
 use std::f64::consts::TAU;
 
 use super::airy::AiryOrder;
-use super::coupling::Curvatures;
 use crate::math::quadrature::GaussLegendre;
+use crate::plate::bent::Bent;
 use crate::plate::{PlateModes, PlateTables};
 
 /// Shell modes and Airy functions on a polar grid.
 pub struct Oracle {
     /// Order of each shell mode.
     pub orders: Vec<u32>,
-    curvatures: Vec<Curvatures>,
+    curvatures: Vec<Bent>,
     airy: Vec<AiryOrder>,
     /// `[order][airy][r]`.
     airy_shapes: Vec<Vec<Vec<f64>>>,
@@ -46,10 +46,10 @@ impl Oracle {
         let shells = &plate.shells[..count];
         let highest = shells.iter().map(|shell| shell.m).max().unwrap();
         // Products of two orders reach twice as far.
-        let airy: Vec<AiryOrder> = (0..=highest).map(|m| AiryOrder::new(plate, m, limit)).collect();
+        let airy = AiryOrder::all(plate, tables, highest, limit);
         Oracle {
             orders: shells.iter().map(|shell| shell.m).collect(),
-            curvatures: shells.iter().map(|s| Curvatures::new(plate, tables, s, &rule.nodes)).collect(),
+            curvatures: shells.iter().map(|s| plate.bent(tables, s, &rule.nodes)).collect(),
             airy_shapes: airy.iter().map(|order| order.shapes(tables, &rule.nodes)).collect(),
             bends: shells.iter().map(|s| airy[s.m as usize].curvature(plate, s)).collect(),
             airy,

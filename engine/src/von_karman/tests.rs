@@ -53,10 +53,7 @@ fn random_state(plate: &PlateModes, count: usize, size: f64, seed: u64) -> Vec<[
 }
 
 fn finest(plate: &PlateModes, count: usize) -> f64 {
-    let root = |shell: &crate::plate::ShellMode| {
-        plate.flat_of(shell).iter().find(|flat| flat.n == shell.n).unwrap().root
-    };
-    plate.shells[..count].iter().map(root).fold(0.0, f64::max)
+    plate.shells[..count].iter().map(|shell| plate.wave_number(shell)).fold(0.0, f64::max)
 }
 
 #[test]

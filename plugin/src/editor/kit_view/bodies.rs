@@ -32,8 +32,8 @@ pub enum Kind {
     Drum { depth: f32, shell: Color32 },
     /// A bowl of that depth (m).
     Kettle { depth: f32 },
-    /// A plate that rises by so much (m) from its edge to its middle.
-    Cymbal { rise: f32 },
+    /// A plate.
+    Cymbal { plate: PlateSpec },
 }
 
 /// Where a surface lies and which way it faces.
@@ -83,7 +83,7 @@ impl Body {
         let drum = |spec: DrumSpec| spec.batter.membrane.radius as f32;
         let lacquer = Color32::from_rgb(122, 34, 32);
         let shell = |shell| Kind::Drum { depth: placement.depth as f32, shell };
-        let plate = |plate: PlateSpec| (plate.radius() as f32, Kind::Cymbal { rise: plate.rise as f32 });
+        let plate = |plate: PlateSpec| (plate.radius() as f32, Kind::Cymbal { plate });
         let (radius, kind) = match piece {
             PieceId::Kick => (drum(DrumSpec::kick()), shell(lacquer)),
             PieceId::Snare => (drum(DrumSpec::snare()), shell(Color32::from_rgb(150, 147, 142))),
@@ -107,13 +107,9 @@ impl Body {
     /// Height of the surface at rest at a distance from the middle (radii), m. A cymbal's edge lies at the frame, its
     /// bow and bell rise over it.
     pub fn profile(&self, radius: f32) -> f32 {
-        /// Radius of a bell over the cymbal's, and its share of the rise. *By ear*, so to say.
-        const BELL: (f32, f32) = (0.21, 0.4);
-        let Kind::Cymbal { rise } = self.kind else { return 0.0 };
-        let bell = 1.0 - (radius / BELL.0).powi(2);
-        let bow = 1.0 - radius * radius;
+        let Kind::Cymbal { plate } = self.kind else { return 0.0 };
         // Plates are drawn a little more domed than they are: what is thinner than a point has no shape.
-        1.35 * rise * ((1.0 - BELL.1) * bow + BELL.1 * bell.max(0.0).sqrt())
+        1.35 * plate.height(f64::from(radius)) as f32
     }
 
     /// A point of the surface at rest from shares of the radius, with a displacement (m).
