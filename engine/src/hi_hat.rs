@@ -39,7 +39,7 @@ use crate::listening::ListeningPoint;
 use crate::math::roots;
 use crate::modal::Mode;
 use crate::piece::{BuildOptions, ModeInfo, ModeKind};
-use crate::plate::{Bell, PlateSpec};
+use crate::plate::PlateSpec;
 use crate::split::Splitting;
 use crate::surface::{Surface, SurfaceParts};
 
@@ -98,8 +98,9 @@ pub struct HiHatSpec {
 
 impl Default for HiHatSpec {
     fn default() -> HiHatSpec {
-        let half = |plate: PlateSpec, seed| CymbalSpec {
-            plate: plate.shaped(0.010, Bell { radius: 0.045, rise: 0.015 }, 0.8),
+        let half = |plate, seed| CymbalSpec {
+            plate,
+            shape: cymbal::shape(0.010, (0.045, 0.015)),
             // *Measured*: with it open ones decay within a quarter as recordings of them do, 3.3 to 2.5 s.
             loss: LossLaw { constant: 1.2, per_khz: 0.06 },
             muffler: Muffler::Gel { sigma: 40.0, radius: 0.85, angle: 2.3 },
@@ -125,6 +126,12 @@ impl Default for HiHatSpec {
 }
 
 impl HiHatSpec {
+    /// The same as it stands in the kit, with bells and tapers.
+    #[must_use]
+    pub const fn shaped(self) -> HiHatSpec {
+        HiHatSpec { top: self.top.shaped(), bottom: self.bottom.shaped(), ..self }
+    }
+
     /// The same heard from two points: near, and in which direction from far.
     pub fn heard_at(self, listening_point: ListeningPoint, far_point: ListeningPoint) -> HiHatSpec {
         let heard = |cymbal: CymbalSpec| CymbalSpec { listening_point, far_point, ..cymbal };

@@ -88,6 +88,7 @@ impl Piece {
         let cymbal = |spec: CymbalSpec| {
             let listening_point = options.close.unwrap_or(spec.listening_point);
             let spec = CymbalSpec { listening_point, far_point, ..spec };
+            let spec = if options.shaped { spec.shaped() } else { spec };
             Cymbal::new(&spec, options).map(|cymbal| (listening_point, Voice::Cymbal(Box::new(cymbal))))
         };
         let (close, voice) = match id {
@@ -103,6 +104,7 @@ impl Piece {
                 let spec = HiHatSpec::default();
                 let listening_point = options.close.unwrap_or(spec.top.listening_point);
                 let spec = spec.heard_at(listening_point, far_point);
+                let spec = if options.shaped { spec.shaped() } else { spec };
                 (listening_point, Voice::HiHat(Box::new(HiHat::new(&spec, options)?)))
             }
         };

@@ -31,7 +31,7 @@ use bent::Bent;
 use radial::RadialMode;
 use uneven::Section;
 
-pub use spec::{Bell, PlateSpec};
+pub use spec::{Bell, PlateSpec, Shape};
 
 /// Wave numbers by which the flat modes of an eigenproblem reach past the frequency asked for: four
 /// more modes an order. *Measured*: any more move no frequency by 0.01 %.

@@ -46,7 +46,9 @@ use crate::potential::{Evaluation, Potential};
 
 use airy::AiryOrder;
 
-/// Radii per unit of the largest wave number. *Measured*: 0.7 leaves 2e-4 of the gradient.
+/// Radii per unit of the largest wave number. *Measured*: 0.7 leaves 6e-4 of a cap's gradient. Of a belled crash's to 2 kHz, for whom
+/// it comes to 16 lanes, it leaves 4 % in a state that rings everywhere; to 4 kHz 4e-6. The next 16 would make the crash half as
+/// dear again and move no band of a hard stroke by more than 0.2 dB.
 const RADII: f64 = 0.7;
 
 /// A pair of modes of the body that stretch the plate.

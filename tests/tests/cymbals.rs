@@ -38,6 +38,9 @@ fn mean_frequency(piece: &mut Piece, limit_hz: f64) -> f64 {
     weighted / sum
 }
 
+/// Caps as thick everywhere, and with the bell and the taper they have in the kit.
+const SHAPED: [bool; 2] = [false, true];
+
 const CYMBALS: [PieceId; 3] = [PieceId::Crash, PieceId::Ride, PieceId::Splash];
 
 fn crash(options: BuildOptions) -> Piece {
@@ -55,24 +58,29 @@ fn crash_sound(options: BuildOptions, speed: f64, seconds: f64) -> Vec<f32> {
 fn a_lossless_plate_keeps_its_true_energy() {
     // Metal 1 mm thick: 0.3 m/s bends it by less than that, 25 m/s by more than three times.
     for (speed, tolerance) in [(0.3, 1e-3), (25.0, 5e-3)] {
-        let drift = cymbal::energy_drift(speed);
-        println!("{speed} m/s: {drift:.1e}");
-        assert!(drift < tolerance, "{speed} m/s: {drift}");
+        for shaped in SHAPED {
+            let drift = cymbal::energy_drift(speed, shaped);
+            println!("{speed} m/s, shaped {shaped}: {drift:.1e}");
+            assert!(drift < tolerance, "{speed} m/s, shaped {shaped}: {drift}");
+        }
     }
 }
 
 #[test]
 fn a_stroke_and_a_lossless_plate_keep_their_energy_together() {
-    for id in CYMBALS {
+    for (id, shaped) in CYMBALS.into_iter().flat_map(|id| SHAPED.map(|shaped| (id, shaped))) {
         for (speed, striker) in [(5.0, Striker::Stick), (25.0, Striker::Shoulder), (6.0, Striker::YarnMallet)]
         {
-            let mut piece = Piece::new(id, &BuildOptions { lossless: true, ..options() }).unwrap();
+            let mut piece = Piece::new(id, &BuildOptions { lossless: true, shaped, ..options() }).unwrap();
             piece.strike(&hit(speed, 0.9, striker));
             let brought = piece.striker_energy();
             for _ in 0..10 {
                 render(&mut piece, 0.01);
                 let all = piece.energy() + piece.striker_energy() + piece.departed_energy();
-                assert!((all / brought - 1.0).abs() < 1e-3, "{id:?} {striker:?}: {all} of {brought}");
+                assert!(
+                    (all / brought - 1.0).abs() < 1e-3,
+                    "{id:?} {shaped} {striker:?}: {all} of {brought}"
+                );
             }
         }
     }
@@ -112,18 +120,19 @@ fn a_hard_stroke_swells_and_a_linear_plate_only_fades() {
 
 #[test]
 fn above_3_khz_a_hard_crash_peaks_later_than_30_ms_and_a_soft_one_at_once() {
-    for quality in [Quality::High, Quality::Offline] {
+    let ways = [Quality::High, Quality::Offline];
+    for (quality, shaped) in ways.into_iter().flat_map(|quality| SHAPED.map(|shaped| (quality, shaped))) {
         // Where the MIDI map has the crash played.
         let bloom = |speed| {
-            let mut piece = crash(BuildOptions { quality, ..options() });
+            let mut piece = crash(BuildOptions { quality, shaped, ..options() });
             piece.strike(&hit(speed, 0.97, Striker::Shoulder));
             let shot = OneShot::new(&render(&mut piece, 0.8), RATE).unwrap();
             envelope::bloom_ms(&shot).unwrap()
         };
         let (soft, medium, hard) = (bloom(1.5), bloom(5.0), bloom(6.0));
-        println!("{quality:?}: {soft} ms, {medium} ms, {hard} ms");
-        assert!(soft < 15.0, "{quality:?}: {soft} ms");
-        assert!(medium > 30.0 && hard > 30.0, "{quality:?}: {medium} ms, {hard} ms");
+        println!("{quality:?}, shaped {shaped}: {soft} ms, {medium} ms, {hard} ms");
+        assert!(soft < 15.0, "{quality:?}, shaped {shaped}: {soft} ms");
+        assert!(medium > 30.0 && hard > 30.0, "{quality:?}, shaped {shaped}: {medium} ms, {hard} ms");
     }
 }
 
@@ -257,27 +266,27 @@ fn two_25_m_s_hits_50_ms_apart_stay_finite_and_fade() {
 }
 
 /// Strikes hard a thousand times, ten a second; whether `psi` stays true and a soft stroke's pitch the same.
-fn a_thousand_hard_strokes(id: PieceId) {
-    let (worst, cents) = cymbal::many_hard_strokes(id, 1000);
-    println!("{id:?}: psi off by {worst:.1e} at most, {cents:.3} cents");
+fn a_thousand_hard_strokes(id: PieceId, shaped: bool) {
+    let (worst, cents) = cymbal::many_hard_strokes((id, shaped), 1000);
+    println!("{id:?}, shaped {shaped}: psi off by {worst:.1e} at most, {cents:.3} cents");
     assert!(worst < 0.01, "psi off by {worst}");
     assert!(cents.abs() < 1.0, "{cents} cents");
 }
 
 #[test]
 fn after_a_thousand_hard_strokes_psi_is_true_and_the_pitch_the_same() {
-    a_thousand_hard_strokes(PieceId::Splash);
+    SHAPED.into_iter().for_each(|shaped| a_thousand_hard_strokes(PieceId::Splash, shaped));
 }
 
 #[test]
 #[ignore = "half a minute; the whole suite runs it"]
 fn after_a_thousand_hard_strokes_on_a_crash_psi_is_true_and_the_pitch_the_same() {
-    a_thousand_hard_strokes(PieceId::Crash);
+    SHAPED.into_iter().for_each(|shaped| a_thousand_hard_strokes(PieceId::Crash, shaped));
 }
 
 /// Rolls for a minute, twenty strokes a second; whether `psi` stays true and the energy bounded.
-fn a_roll_of_a_minute(quality: Quality) {
-    let mut piece = crash(BuildOptions { quality, ..options() });
+fn a_roll_of_a_minute(quality: Quality, shaped: bool) {
+    let mut piece = crash(BuildOptions { quality, shaped, ..options() });
     let (mut largest, mut worst) = (0.0_f64, 0.0_f64);
     for stroke in 0..1200 {
         piece.strike(&hit(4.0, 0.85, Striker::YarnMallet));
@@ -287,32 +296,32 @@ fn a_roll_of_a_minute(quality: Quality) {
         worst = worst.max(off.abs());
         largest = largest.max(piece.energy());
     }
-    println!("{quality:?}: psi off by {worst:.1e} at most, {largest} J");
+    println!("{quality:?}, shaped {shaped}: psi off by {worst:.1e} at most, {largest} J");
     assert!(largest < 20.0 * 0.5 * 0.030 * 16.0, "{largest} J");
     assert_eq!(piece.quarantines(), 0);
 }
 
 #[test]
 fn a_roll_of_a_minute_stays_bounded_and_true() {
-    a_roll_of_a_minute(Quality::Eco);
+    SHAPED.into_iter().for_each(|shaped| a_roll_of_a_minute(Quality::Eco, shaped));
 }
 
 #[test]
 #[ignore = "half a minute; the whole suite runs it"]
 fn a_roll_of_a_minute_at_standard_stays_bounded_and_true() {
-    a_roll_of_a_minute(Quality::Standard);
+    SHAPED.into_iter().for_each(|shaped| a_roll_of_a_minute(Quality::Standard, shaped));
 }
 
 #[test]
 #[ignore = "half a minute; the whole suite runs it"]
 fn two_25_m_s_hits_50_ms_apart_decay_to_silence_by_themselves() {
-    for id in CYMBALS {
-        let mut piece = Piece::new(id, &options()).unwrap();
+    for (id, shaped) in CYMBALS.into_iter().flat_map(|id| SHAPED.map(|shaped| (id, shaped))) {
+        let mut piece = Piece::new(id, &BuildOptions { shaped, ..options() }).unwrap();
         piece.strike(&hit(25.0, 0.9, Striker::Shoulder));
         render(&mut piece, 0.05);
         piece.strike(&hit(25.0, 0.9, Striker::Shoulder));
         render(&mut piece, 40.0);
-        assert!(piece.energy() < 1e-10, "{id:?}: {} J left", piece.energy());
+        assert!(piece.energy() < 1e-10, "{id:?}, shaped {shaped}: {} J left", piece.energy());
         assert_eq!(piece.quarantines(), 0);
     }
 }

@@ -66,7 +66,7 @@ pub fn piece(name: &str) -> Result<PieceId> {
 /// Checks that what is asked of the build is something the piece has.
 ///
 /// # Errors
-/// [`BadInput`](crate::error::BadInput) naming the option: a cymbal has no heads.
+/// [`BadInput`](crate::error::BadInput) naming the option: a cymbal has no heads, a drum no bell.
 pub fn check_options(id: PieceId, options: &BuildOptions) -> Result<()> {
     let of_drums = [
         ("--open", options.open),
@@ -75,6 +75,9 @@ pub fn check_options(id: PieceId, options: &BuildOptions) -> Result<()> {
         ("--muffler", options.muffler.is_some()),
         ("--no-high-band", !options.high_band),
     ];
+    if options.shaped && id.is_drum() {
+        return Err(bad_input!("--bell is of cymbals, the {} is a drum", id.name()));
+    }
     match of_drums.into_iter().find(|&(_, asked)| asked && !id.is_drum()) {
         Some((option, _)) => Err(bad_input!("{option} is of drums, the {} is a cymbal", id.name())),
         None => Ok(()),

@@ -66,6 +66,9 @@ pub struct BuildOptions {
     pub high_band: bool,
     /// Drums without what closes them: see [`DrumSpec::opened`](crate::drum::DrumSpec::opened).
     pub open: bool,
+    /// Cymbals with the bell and the taper they have in the kit; else caps as thick everywhere, whose modes
+    /// are known in closed form.
+    pub shaped: bool,
     /// Ratio of the pitches of a drum's other head and the struck one, if not its own.
     pub resonant_ratio: Option<f64>,
     /// Mean relative difference of the two members of a drum's pairs, if not its own: how uneven its tension is.
@@ -78,7 +81,7 @@ pub struct BuildOptions {
 }
 
 impl BuildOptions {
-    /// The instrument as it is played, at a sample rate in Hz.
+    /// The piece by itself, at a sample rate in Hz.
     pub fn new(sample_rate: f64) -> Self {
         BuildOptions {
             sample_rate,
@@ -88,6 +91,7 @@ impl BuildOptions {
             quality: Quality::Standard,
             high_band: true,
             open: false,
+            shaped: false,
             resonant_ratio: None,
             unevenness: None,
             muffler: None,
@@ -95,8 +99,8 @@ impl BuildOptions {
         }
     }
 
-    /// The instrument as it stands in the kit, at a sample rate in Hz: heard by the piece's close microphone.
+    /// The piece as it stands in the kit, at a sample rate in Hz: heard by its close microphone, cymbals with their bells.
     pub fn in_kit(id: PieceId, sample_rate: f64) -> Self {
-        BuildOptions { close: microphones::over_rim(id), ..BuildOptions::new(sample_rate) }
+        BuildOptions { close: microphones::over_rim(id), shaped: true, ..BuildOptions::new(sample_rate) }
     }
 }

@@ -45,6 +45,17 @@ pub struct Bell {
     pub rise: f64,
 }
 
+/// How a cymbal is shaped: as in [`PlateSpec`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Shape {
+    /// Rise of the bow, m.
+    pub rise: f64,
+    /// The bell.
+    pub bell: Bell,
+    /// Thickness at the rim over that in the middle.
+    pub taper: f64,
+}
+
 impl PlateSpec {
     /// A 16 inch crash as a cap, without a bell.
     pub const CRASH: PlateSpec = PlateSpec::bronze(0.4064, 1.10, 0.020);
@@ -71,9 +82,9 @@ impl PlateSpec {
         }
     }
 
-    /// The same plate, as heavy, with another rise of its bow (m), a bell and a taper.
-    pub const fn shaped(self, rise: f64, bell: Bell, taper: f64) -> PlateSpec {
-        PlateSpec { rise, bell: Some(bell), taper, ..self }
+    /// The same plate, as wide and as heavy, in another shape.
+    pub const fn shaped(self, shape: &Shape) -> PlateSpec {
+        PlateSpec { rise: shape.rise, bell: Some(shape.bell), taper: shape.taper, ..self }
     }
 
     /// Whether it is a cap as thick everywhere.
@@ -179,7 +190,11 @@ mod tests {
 
     #[test]
     fn a_taper_leaves_the_mass_and_a_bells_curvatures_are_those_of_its_profile() {
-        let spec = PlateSpec::CRASH.shaped(0.010, Bell { radius: 0.06, rise: 0.02 }, 0.5);
+        let spec = PlateSpec::CRASH.shaped(&Shape {
+            rise: 0.010,
+            bell: Bell { radius: 0.06, rise: 0.02 },
+            taper: 0.5,
+        });
         let rule = GaussLegendre::unit(20);
         let mean = rule.integrate(|r| 2.0 * r * spec.relative_thickness(r));
         assert!((mean - 1.0).abs() < 1e-12, "{mean}");

@@ -3,6 +3,7 @@ use std::f64::consts::TAU;
 use super::oracle::{Oracle, wash};
 use super::reference::{Dense, Modes};
 use super::*;
+use crate::cymbal::CymbalSpec;
 use crate::modal::{ModalBody, Mode, Pickup};
 use crate::plate::PlateSpec;
 use crate::potential::NonlinearForce;
@@ -58,7 +59,17 @@ fn finest(plate: &PlateModes, count: usize) -> f64 {
 
 #[test]
 fn of_random_states_energy_and_gradient_are_those_of_direct_quadrature_of_the_bracket() {
-    for (spec, hz) in [(PlateSpec::CRASH, 2000.0), (PlateSpec::RIDE, 1000.0), (PlateSpec::SPLASH, 2000.0)] {
+    let belled = |spec: CymbalSpec| spec.shaped().plate;
+    // Of plates with bells the same number of radii leaves more: see `RADII`.
+    for (spec, hz, energies, gradients) in [
+        (PlateSpec::CRASH, 2000.0, 3e-4, 1e-3),
+        (PlateSpec::RIDE, 1000.0, 3e-4, 1e-3),
+        (PlateSpec::SPLASH, 2000.0, 3e-4, 1e-3),
+        (belled(CymbalSpec::crash()), 2000.0, 2e-2, 6e-2),
+        (belled(CymbalSpec::ride()), 2000.0, 2e-2, 6e-2),
+        (belled(CymbalSpec::splash()), 2000.0, 2e-2, 6e-2),
+        (belled(CymbalSpec::crash()), 4000.0, 1e-5, 1e-4),
+    ] {
         let (plate, tables) = built(&spec);
         let count = below(&plate, hz);
         let (pairs, modes) = pairs(&plate, count);
@@ -70,12 +81,12 @@ fn of_random_states_energy_and_gradient_are_those_of_direct_quadrature_of_the_br
             let mut gradient = vec![0.0; modes.next_multiple_of(LANES)];
             let got = fast.evaluate(&to_body(&plate, &pairs, &q, modes), &mut gradient);
             let scale = want.energy.abs().max(want.linear);
-            assert!((got.energy - want.energy).abs() < 3e-4 * scale, "{} {}", got.energy, want.energy);
+            assert!((got.energy - want.energy).abs() < energies * scale, "{} {}", got.energy, want.energy);
             assert!((got.depth - want.linear).abs() < 1e-4 * want.linear, "{} {}", got.depth, want.linear);
             let wanted = to_body(&plate, &pairs, &want.gradient, modes);
             let size: f32 = wanted.iter().map(|g| g * g).sum::<f32>().sqrt();
             let error: f32 = wanted.iter().zip(&gradient).map(|(a, b)| (a - b).powi(2)).sum::<f32>().sqrt();
-            assert!(error < 1e-3 * size, "{error} of {size}");
+            assert!(error < gradients * size, "{error} of {size}");
         }
     }
 }

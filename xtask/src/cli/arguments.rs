@@ -296,6 +296,9 @@ pub struct HearArguments {
     /// Take off what closes a drum: the resonant head, or the timpani's kettle
     #[arg(long)]
     open: bool,
+    /// Give a cymbal the bell and the taper it has in the kit
+    #[arg(long)]
+    bell: bool,
     /// Tune a drum's other head to so many times the struck one's pitch
     #[arg(long, value_name = "RATIO", value_parser = ratio)]
     resonant_ratio: Option<f64>,
@@ -337,6 +340,7 @@ impl HearArguments {
         options.linear = self.linear;
         options.high_band = !self.no_high_band;
         options.open = self.open;
+        options.shaped = self.bell;
         options.resonant_ratio = self.resonant_ratio;
         options.unevenness = self.uneven;
         options.muffler = self.muffler;
@@ -364,6 +368,9 @@ pub struct ModesArguments {
     /// Take off what closes a drum: the resonant head, or the timpani's kettle
     #[arg(long)]
     open: bool,
+    /// Give a cymbal the bell and the taper it has in the kit
+    #[arg(long)]
+    bell: bool,
     /// Perfectly round bodies, whose pairs of modes share one frequency
     #[arg(long)]
     unsplit: bool,
@@ -372,7 +379,8 @@ pub struct ModesArguments {
 impl ModesArguments {
     /// How the piece is built.
     pub fn options(&self) -> BuildOptions {
-        BuildOptions { open: self.open, unsplit: self.unsplit, ..BuildOptions::new(f64::from(self.rate)) }
+        let own = BuildOptions::new(f64::from(self.rate));
+        BuildOptions { open: self.open, shaped: self.bell, unsplit: self.unsplit, ..own }
     }
 }
 

@@ -90,10 +90,10 @@ impl Body {
             PieceId::RackTom => (drum(DrumSpec::rack_tom()), shell(lacquer)),
             PieceId::FloorTom => (drum(DrumSpec::floor_tom()), shell(lacquer)),
             PieceId::Timpani => (drum(DrumSpec::timpani()), Kind::Kettle { depth: KETTLE }),
-            PieceId::Crash => plate(CymbalSpec::crash().plate),
-            PieceId::Ride => plate(CymbalSpec::ride().plate),
-            PieceId::Splash => plate(CymbalSpec::splash().plate),
-            PieceId::HiHat => plate(HiHatSpec::default().top.plate),
+            PieceId::Crash => plate(CymbalSpec::crash().shaped().plate),
+            PieceId::Ride => plate(CymbalSpec::ride().shaped().plate),
+            PieceId::Splash => plate(CymbalSpec::splash().shaped().plate),
+            PieceId::HiHat => plate(HiHatSpec::default().shaped().top.plate),
         };
         Body { piece, frame: Frame::of(placement), radius, kind }
     }

@@ -24,10 +24,10 @@ const RIGID: [[u32; 2]; 2] = [[0, 0], [1, 0]];
 /// Thickness of a piece that is a plate, m.
 pub fn thickness(piece: PieceId) -> Option<f32> {
     let plate = match piece {
-        PieceId::Crash => CymbalSpec::crash().plate,
-        PieceId::Ride => CymbalSpec::ride().plate,
-        PieceId::Splash => CymbalSpec::splash().plate,
-        PieceId::HiHat => HiHatSpec::default().top.plate,
+        PieceId::Crash => CymbalSpec::crash().shaped().plate,
+        PieceId::Ride => CymbalSpec::ride().shaped().plate,
+        PieceId::Splash => CymbalSpec::splash().shaped().plate,
+        PieceId::HiHat => HiHatSpec::default().shaped().top.plate,
         _ => return None,
     };
     Some(plate.thickness() as f32)
