@@ -250,7 +250,7 @@ fn a_press_on_each_head_and_plate_strikes_that_piece_at_that_place() {
             let (x, y) = place(strike.radius, strike.angle);
             let (u, v) = place(f64::from(radius), f64::from(angle));
             let away = (x - u).hypot(y - v);
-            assert!(away < if piece.is_drum() { 0.02 } else { 0.2 }, "{piece:?}: {away} off");
+            assert!(away < 0.02, "{piece:?}: {away} off");
             assert!((0.4..=6.0).contains(&strike.speed), "{} m/s", strike.speed);
             struck += 1;
         }
