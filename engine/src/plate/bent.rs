@@ -67,13 +67,13 @@ impl Bent {
         }
     }
 
-    /// Laplacian at a place of the grid.
+    /// Laplacian at a place of the grid, for the unit radius, dimensionless per displacement.
     pub fn laplacian(&self, at: usize) -> f64 {
         self.radial[at] + self.around[at]
     }
 
-    /// The bracket `L` with another of the same order and member at a place of the grid, around the circle in the mean
-    /// for each square of the angular part.
+    /// The bracket `L` with another of the same order and member at a place of the grid, in the mean around the circle over
+    /// that of the angular part's square; for the unit radius, dimensionless per displacement squared.
     pub fn bracket(&self, other: &Bent, at: usize) -> f64 {
         self.radial[at] * other.around[at] + self.around[at] * other.radial[at]
             - 2.0 * self.twist[at] * other.twist[at]

@@ -52,7 +52,7 @@ pub struct Shape {
     pub rise: f64,
     /// The bell.
     pub bell: Bell,
-    /// Thickness at the rim over that in the middle.
+    /// Thickness at the rim over that in the middle, 0.3 to 1.
     pub taper: f64,
 }
 

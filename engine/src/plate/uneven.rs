@@ -236,7 +236,7 @@ pub(super) fn shells(
 pub struct StressModes {
     /// Nodal diameters.
     pub m: u32,
-    /// Fourth power of the wave number that a uniform plate's would have, `[function]`, ascending.
+    /// Fourth power of the wave number that a uniform plate's would have, dimensionless, `[function]`, ascending.
     pub compliance: Vec<f64>,
     /// Share of each polynomial, of unit mean square, `[polynomial][function]`.
     mix: DMatrix<f64>,
