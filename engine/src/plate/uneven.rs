@@ -248,7 +248,7 @@ impl StressModes {
     /// Those of order `modes` with a wave number up to `limit` (dimensionless: times the radius).
     ///
     /// # Panics
-    /// As [`shells`].
+    /// If the tables are of another order or do not reach the modes' wave numbers.
     pub fn new(
         section: &Section,
         modes: &[RadialMode],

@@ -84,7 +84,7 @@ fn on_surface(body: &Body, from: V3, ray: V3) -> Option<Hit> {
         let place = sub(add(from, scale(ray, far)), frame.centre);
         (far, dot(place, frame.right) / body.radius, dot(place, frame.away) / body.radius)
     };
-    let height = if cymbal { on_plate(body, steep < 0.0, &meets) } else { 0.0 };
+    let height = if cymbal { on_plate(body, steep < 0.0, meets) } else { 0.0 };
     let (far, x, y) = meets(height);
     let radius = x.hypot(y);
     (far > 0.0 && far.is_finite() && radius <= 1.0).then(|| (far, Some((radius, x.atan2(-y)))))
