@@ -28,6 +28,7 @@ pub mod spec;
 pub mod uneven;
 
 use bent::Bent;
+use dome::Shell;
 use radial::RadialMode;
 use uneven::Section;
 
@@ -112,11 +113,12 @@ impl PlateModes {
             .take_while(|modes| !modes.is_empty())
             .collect();
         let mut shells: Vec<ShellMode> = if spec.is_even() {
-            flat.iter().flat_map(|modes| even_shells(spec, modes)).collect()
+            flat.iter().flat_map(|modes| named(modes, dome::shells(spec, modes))).collect()
         } else {
             let tables = PlateTables::new(flat.len() as u32, reach);
             let section = Section::new(spec, reach);
-            flat.iter().flat_map(|modes| uneven_shells(spec, &section, modes, &tables)).collect()
+            let solve = |m, modes: &[RadialMode]| uneven::shells(spec, &section, modes, tables.order(m));
+            (0..).zip(&flat).flat_map(|(m, modes)| named(modes, solve(m, modes))).collect()
         };
         shells.retain(|shell| shell.omega <= limit);
         shells.sort_by(|a, b| a.omega.total_cmp(&b.omega));
@@ -206,40 +208,15 @@ fn shortening(spec: &PlateSpec) -> f64 {
     spec.relative_thickness(1.0).sqrt().recip()
 }
 
-/// Shell modes of one order of a cap as thick everywhere.
-fn even_shells(spec: &PlateSpec, flat: &[RadialMode]) -> Vec<ShellMode> {
-    let unit = spec.flat_omega();
-    let omegas: Vec<f64> = flat.iter().map(|mode| unit * mode.root * mode.root).collect();
-    let solved = dome::shells(flat, &omegas, spec.ring_omega());
-    let named = solved.into_iter().zip(flat);
-    let shell = |(shell, flat): (dome::Shell, &RadialMode)| ShellMode {
-        m: flat.m,
-        n: flat.n,
-        omega: shell.omega_squared.sqrt(),
-        expansion: shell.expansion,
-        rigid: 0.0,
-    };
-    named.map(shell).collect()
-}
-
-/// Shell modes of one order of any profile.
-fn uneven_shells(
-    spec: &PlateSpec,
-    section: &Section,
-    flat: &[RadialMode],
-    tables: &PlateTables,
-) -> Vec<ShellMode> {
-    let Some(first) = flat.first() else { return Vec::new() };
-    let solved = uneven::shells(spec, section, flat, tables.order(first.m));
-    let named = solved.into_iter().zip(flat);
-    let shell = |(shell, flat): (uneven::Shell, &RadialMode)| ShellMode {
+/// Solved modes of one order with the names of the flat modes they grow out of.
+fn named(flat: &[RadialMode], solved: Vec<Shell>) -> impl Iterator<Item = ShellMode> {
+    solved.into_iter().zip(flat).map(|(shell, flat)| ShellMode {
         m: flat.m,
         n: flat.n,
         omega: shell.omega_squared.sqrt(),
         expansion: shell.expansion,
         rigid: shell.rigid,
-    };
-    named.map(shell).collect()
+    })
 }
 
 #[cfg(test)]

@@ -20,7 +20,7 @@
 //! exactly transposed: the gradient is that of the energy to rounding, whatever the grid.
 //!
 //! *Measured* for the crash's modes to 2 kHz, 132 amplitudes and 94 Airy functions: `16 x 60` grid
-//! points integrate the gradient within 2e-4, in 3.7 us; to 4 kHz 10 us, to 8 kHz 20 us (AVX-512, one core
+//! points integrate a cap's gradient within 6e-4, in 3.7 us; to 4 kHz 10 us, to 8 kHz 20 us (AVX-512, one core
 //! of 3.6 GHz). The Fourier sums run at the machine's peak and are half of that. The inner loops of dense tables
 //! alone take 21 us, 92 us and 390 us (the example `coupling`): their blocks are shorter than the lanes are wide.
 //!

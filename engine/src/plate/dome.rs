@@ -29,23 +29,27 @@
 use nalgebra::DMatrix;
 
 use super::radial::{RadialMode, angular_norm};
+use super::spec::PlateSpec;
 use crate::math::eigen;
 
 /// Relative distance of two wave numbers below which an overlap is taken in the limit: there the
 /// closed form has lost half its digits.
 const COINCIDENCE: f64 = 1e-7;
 
-/// One eigenpair of an order: angular frequency squared and the share of each flat mode.
+/// One eigenpair of an order: angular frequency squared, the share of each flat mode, and of the rigid motion.
 pub(super) struct Shell {
     /// Square of the angular frequency, rad2/s2.
     pub omega_squared: f64,
     /// Share of each flat mode, `[flat]`.
     pub expansion: Vec<f64>,
+    /// Share of the rigid motion `r^m`; none of a cap as thick everywhere.
+    pub rigid: f64,
 }
 
-/// Shell modes of one order, ascending, from its flat modes and their angular frequencies.
-pub(super) fn shells(flat: &[RadialMode], omegas: &[f64], ring_omega: f64) -> Vec<Shell> {
-    let ring = ring_omega * ring_omega;
+/// Shell modes of one order, ascending, from its flat modes.
+pub(super) fn shells(spec: &PlateSpec, flat: &[RadialMode]) -> Vec<Shell> {
+    let (unit, ring) = (spec.flat_omega(), spec.ring_omega() * spec.ring_omega());
+    let omegas: Vec<f64> = flat.iter().map(|mode| unit * mode.root * mode.root).collect();
     let overlaps: Vec<f64> = flat.iter().map(RadialMode::harmonic_overlap).collect();
     let stiffness = DMatrix::from_fn(flat.len(), flat.len(), |p, q| {
         let diagonal = if p == q { omegas[p] * omegas[p] + ring } else { 0.0 };
@@ -54,7 +58,7 @@ pub(super) fn shells(flat: &[RadialMode], omegas: &[f64], ring_omega: f64) -> Ve
     let solved = eigen::symmetric(stiffness);
     let columns = solved.vectors.column_iter().map(|v| v.iter().copied().collect());
     let pairs = solved.values.into_iter().zip(columns);
-    pairs.map(|(omega_squared, expansion)| Shell { omega_squared, expansion }).collect()
+    pairs.map(|(omega_squared, expansion)| Shell { omega_squared, expansion, rigid: 0.0 }).collect()
 }
 
 /// `int Psi lap(w) dA` over the disc for an Airy function and a flat mode of the same order and
@@ -80,7 +84,6 @@ pub fn curvature_overlap(airy: &RadialMode, flat: &RadialMode) -> f64 {
 mod tests {
     use super::*;
     use crate::math::quadrature::GaussLegendre;
-    use crate::plate::PlateSpec;
     use crate::plate::edges::{clamped_modes, free_modes};
     use crate::plate::uneven::stiffness_unit;
     use std::f64::consts::TAU;
@@ -140,7 +143,7 @@ mod tests {
             let flat = free_modes(m, spec.poisson_ratio, 60.0);
             let flat_omega = |p: usize| spec.flat_omega() * flat[p].root * flat[p].root;
             let omegas: Vec<f64> = (0..flat.len()).map(flat_omega).collect();
-            let closed = shells(&flat, &omegas, spec.ring_omega());
+            let closed = shells(&spec, &flat);
             for limit in [120.0, 240.0] {
                 let mut stiffness = summed(&spec, &flat, limit);
                 for (p, omega) in omegas.iter().enumerate() {

@@ -4,6 +4,8 @@ use std::f64::consts::PI;
 
 use super::free_disc::FreeDisc;
 use super::*;
+use crate::cymbal::CymbalSpec;
+use crate::hi_hat::HiHatSpec;
 use crate::listening::{ListeningPoint, Radiator};
 use crate::math::quadrature::GaussLegendre;
 
@@ -182,6 +184,23 @@ fn a_taper_and_a_bell_leave_unit_mean_square_over_the_metal_and_no_rigid_momentu
                 let momentum = mean(&|r| r.powi(m as i32) * plate.radial_shape(a, r));
                 assert!(momentum.abs() < 1e-6, "({m}, {}): {momentum}", a.n);
             }
+        }
+    }
+}
+
+#[test]
+fn no_order_of_the_kits_plates_and_no_circle_is_missing() {
+    let cymbals = [CymbalSpec::crash(), CymbalSpec::ride(), CymbalSpec::splash()];
+    let hats = HiHatSpec::default();
+    for cymbal in cymbals.into_iter().chain([hats.top, hats.bottom]) {
+        let plate = PlateModes::new(&cymbal.shaped().plate, 21_000.0).unwrap();
+        let highest = plate.shells.iter().map(|shell| shell.m).max().unwrap();
+        assert!(highest >= 40, "{highest}");
+        for m in 0..=highest {
+            let circles = plate.shells.iter().filter(|shell| shell.m == m).map(|shell| shell.n);
+            let first = if m < 2 { 1 } else { 0 };
+            assert!(circles.clone().eq((first..).take(circles.count())), "order {m}");
+            assert!(plate.shells.iter().any(|shell| shell.m == m), "order {m}");
         }
     }
 }

@@ -26,14 +26,15 @@
 use std::f64::consts::PI;
 
 use nalgebra::{Cholesky, DMatrix};
+use overhear_kept::Shared;
 
 use super::bent::Bent;
+use super::dome::Shell;
 use super::radial::{RadialMode, angular_norm};
 use super::spec::PlateSpec;
 use crate::math::bessel::{ITable, JTable};
 use crate::math::quadrature::{self, GaussLegendre};
 use crate::math::{eigen, jacobi};
-use overhear_kept::Shared;
 
 /// Degrees of stress functions over the largest wave number of the modes: so much relatively, and so many. *Measured*: half as
 /// many functions again of both kinds move a crash's (0,1) by 0.1 % and no other of its frequencies by 0.03 %.
@@ -49,16 +50,6 @@ pub struct Section {
     poisson_ratio: f64,
     /// Of stress functions.
     degree: f64,
-}
-
-/// One eigenpair of an order: angular frequency squared, the share of each flat mode, and of the rigid motion.
-pub(super) struct Shell {
-    /// rad2/s2.
-    pub omega_squared: f64,
-    /// `[flat]`.
-    pub expansion: Vec<f64>,
-    /// Of `r^m`; 0 from order 2 on.
-    pub rigid: f64,
 }
 
 impl Section {
