@@ -28,6 +28,7 @@ use crate::rim::Rim;
 use crate::shapes::ShapeTable;
 use crate::split::Splitting;
 use crate::strike::Strike;
+use crate::surface::patch::Film;
 use crate::surface::wires::PRELOAD;
 use crate::surface::{Surface, SurfaceParts};
 
@@ -97,6 +98,8 @@ pub struct Drum {
     far_shapes: Option<ShapeTable>,
     muffler: MufflerCoefs,
     lossless: bool,
+    /// Whether the heads wrap themselves around tips.
+    wraps: bool,
     pitch: Glide,
     muffling: Glide,
     /// Force of the strainer, N.
@@ -149,6 +152,7 @@ impl Drum {
             modes,
             muffler,
             lossless: options.lossless,
+            wraps: options.wraps,
             pitch: Glide::new(pitch, low, high),
             muffling: Glide::new(0.0, 0.0, 1.0),
             preload: Glide::new(PRELOAD.1, PRELOAD.0, PRELOAD.2),
@@ -288,7 +292,8 @@ impl Drum {
         }));
         surface.set_transfers(near, far.map(|transfer| transfer.map(|h| h * *far_distance)));
         let far = self.blueprint.resonant.as_ref().map(|head| head.film(&place));
-        self.surface.set_films(self.blueprint.batter.film(&place), far);
+        let near = Film { wraps: self.wraps, ..self.blueprint.batter.film(&place) };
+        self.surface.set_films(near, far);
         if let Some(far) = &self.far_shapes {
             self.surface.lay_wires(far);
         }

@@ -26,8 +26,10 @@ use crate::math::bessel::{self, JTable};
 pub struct MembraneSpec {
     /// Radius of the vibrating part, m.
     pub radius: f64,
-    /// Thickness of the film, m.
+    /// Thickness of the film, m, of all plies together.
     pub thickness: f64,
+    /// Films that lie on one another: 1 or 2.
+    pub plies: u32,
     /// What the film is made of.
     pub material: Material,
     /// Losses in the film.
@@ -85,6 +87,10 @@ pub struct Membrane {
     modes: Vec<MembraneMode>,
 }
 
+/// Flexural rigidity of two plies that slide on one another over that of one film as thick, dimensionless: 1/4 if nothing held them
+/// together. *Measured*: of 0.4 to 0.8 the middle, with which toms brighten with the stroke nearest to recorded ones.
+const BOND: f64 = 0.6;
+
 impl MembraneSpec {
     /// Checks every number.
     ///
@@ -93,6 +99,7 @@ impl MembraneSpec {
     pub fn validated(self) -> Result<MembraneSpec, SpecError> {
         SpecError::check("head radius (m)", self.radius, 0.05, 1.0)?;
         SpecError::check("head thickness (m)", self.thickness, 1e-5, 2e-3)?;
+        SpecError::check("plies", f64::from(self.plies), 1.0, 2.0)?;
         SpecError::check("film density (kg/m3)", self.material.density, 100.0, 20_000.0)?;
         Ok(self)
     }
@@ -111,6 +118,12 @@ impl MembraneSpec {
     pub fn flexural_rigidity(&self) -> f64 {
         let Material { youngs_modulus, poisson_ratio, .. } = self.material;
         youngs_modulus * self.thickness.powi(3) / (12.0 * (1.0 - poisson_ratio * poisson_ratio))
+    }
+
+    /// The same where a tip bends it sharply, N m: two plies slide on one another there, which waves of some micrometres hardly
+    /// make them do.
+    pub fn dented_rigidity(&self) -> f64 {
+        if self.plies > 1 { BOND * self.flexural_rigidity() } else { self.flexural_rigidity() }
     }
 }
 
@@ -274,7 +287,13 @@ mod tests {
     use super::*;
 
     fn timpani() -> MembraneSpec {
-        MembraneSpec { radius: 0.3302, thickness: 0.19e-3, material: Material::FILM, loss: LossLaw::NONE }
+        MembraneSpec {
+            radius: 0.3302,
+            thickness: 0.19e-3,
+            plies: 1,
+            material: Material::FILM,
+            loss: LossLaw::NONE,
+        }
     }
 
     fn range(tension: f64) -> ModeRange {

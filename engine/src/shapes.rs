@@ -5,7 +5,7 @@
 
 use crate::math::cubic::Stencil;
 use crate::piece::Member;
-use crate::surface::patch::pressed_share;
+use crate::surface::patch::{Discs, pressed_share};
 
 /// Intervals of the table. *Measured*: the finest shape of a cymbal at 22 kHz (wavelength a tenth
 /// of the radius) is met within 1e-4.
@@ -45,8 +45,8 @@ pub struct ShapeTable {
     grouped: Vec<Mixed>,
     /// `[radial]`: wavenumber of the radial function times the radius; empty if there is no single one.
     waves: Vec<f32>,
-    /// Discs (shares of the radius) that have been prepared, and the share of every radial function that each feels.
-    felt: Vec<(f64, Vec<f64>)>,
+    /// The share of every radial function that discs (shares of the radius) feel; none of bodies whose waves are not known.
+    felt: Discs,
 }
 
 /// Modes that mix the same rows.
@@ -109,21 +109,17 @@ impl ShapeTable {
         }
         let (groups, grouped) = group(&index, &starts);
         let weights = vec![1.0; total];
-        let (waves, felt) = (Vec::new(), Vec::new());
+        let (waves, felt) = (Vec::new(), Discs::default());
         ShapeTable { radial, functions, index, starts, weights, orders, groups, grouped, waves, felt }
     }
 
-    /// Tells the wavenumber of every radial function, times the radius, `[radial]`: those of a membrane, of
-    /// which a disc feels a known share.
-    pub fn with_waves(mut self, waves: impl Iterator<Item = f64>) -> ShapeTable {
+    /// Tells the wavenumber of every radial function, times the radius (m), `[radial]`: those of a membrane, of
+    /// which a disc feels a known share, worked out beforehand so that a stroke need not. Allocates.
+    pub fn with_waves(mut self, radius: f64, waves: impl Iterator<Item = f64>) -> ShapeTable {
         self.waves = waves.map(|wave| wave as f32).collect();
-        self
-    }
-
-    /// Works out beforehand what discs of those radii (shares of the body's) feel, so that a stroke need not. Allocates.
-    pub fn prepared(mut self, discs: impl Iterator<Item = f64>) -> ShapeTable {
-        let felt = |disc: f64| self.waves.iter().map(|&wave| pressed_share(f64::from(wave) * disc)).collect();
-        self.felt = discs.map(|disc| (disc, felt(disc))).collect();
+        let share =
+            |disc: f64| self.waves.iter().map(|&wave| pressed_share(f64::from(wave) * disc)).collect();
+        self.felt = Discs::new(radius, share);
         self
     }
 
@@ -150,7 +146,7 @@ impl ShapeTable {
     /// known, the middle is all.
     ///
     /// # Real-time
-    /// As [`fill`](Self::fill), and for a disc that was not [prepared](Self::prepared) a Bessel function for each row mixed.
+    /// As [`fill`](Self::fill), and for a disc beyond [those known](Discs) a Bessel function for each row mixed.
     pub fn fill_pressed(&self, radius: f64, angle: f64, disc: f64, out: &mut [f32]) {
         // cos and sin of every multiple of the angle, by one rotation each.
         let mut around = [[1.0_f64, 0.0]; MAX_ORDERS];
@@ -160,7 +156,7 @@ impl ShapeTable {
             around[m] = [c * cos - s * sin, s * cos + c * sin];
         }
         let stencil = Stencil::at(radius * INTERVALS as f64, INTERVALS + 1);
-        let known = self.felt.iter().find(|(of, _)| *of == disc).map(|(_, felt)| felt);
+        let known = self.felt.of(disc);
         // What a row is here is the same for all that mix it.
         let mut here = [0.0_f64; MAX_ROWS];
         let mut modes = self.grouped.iter();
@@ -169,8 +165,8 @@ impl ShapeTable {
             let near: [&[f32]; 4] =
                 std::array::from_fn(|i| &self.radial[(stencil.first + i) * self.functions..][rows.clone()]);
             for (i, (here, row)) in here[..group.rows].iter_mut().zip(rows).enumerate() {
-                let felt = match (known, self.waves.get(row)) {
-                    (Some(felt), _) => felt[row],
+                let felt = match (&known, self.waves.get(row)) {
+                    (Some(felt), _) => felt.get(row),
                     (None, Some(&wave)) if disc > 0.0 => pressed_share(f64::from(wave) * disc),
                     _ => 1.0,
                 };

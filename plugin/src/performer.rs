@@ -81,12 +81,20 @@ impl Performer {
         performer
     }
 
-    /// Builds and installs every piece of the kit, on this thread. Takes seconds.
+    /// Builds and installs every piece of the kit as a host plays it, on this thread. Takes seconds.
     ///
     /// # Errors
-    /// [`SpecError`] if the sample rate is out of range.
+    /// [`SpecError`] if the sample rate (Hz) is out of range.
     pub fn install_kit(&mut self, sample_rate: f64) -> Result<(), SpecError> {
-        let plan = BuildPlan::of(|index| self.values[index], Pace::RealTime);
+        self.install_kit_for(sample_rate, Pace::RealTime)
+    }
+
+    /// The same for a host that plays or bounces.
+    ///
+    /// # Errors
+    /// As [`install_kit`](Self::install_kit).
+    pub fn install_kit_for(&mut self, sample_rate: f64, pace: Pace) -> Result<(), SpecError> {
+        let plan = BuildPlan::of(|index| self.values[index], pace);
         for id in PieceId::KIT {
             self.install(Box::new(Piece::new(id, &plan.options(id, sample_rate))?));
         }

@@ -117,6 +117,7 @@ fn bad_input_is_one_line_with_the_value_exit_code_2_and_no_output() {
         (&["modes", "ride", "--open"], &["--open", "ride"]),
         (&["hear", "snare", "--bell"], &["--bell", "snare"]),
         (&["modes", "kick", "--bell"], &["--bell", "kick"]),
+        (&["hear", "ride", "--wrap"], &["--wrap", "ride"]),
         (&["hear", "snare", "--striker", "spoon"], &["spoon", "felt-beater"]),
         (&["hear", "snare", "--speed", "0"], &["'0'", "25 m/s"]),
         (&["hear", "snare", "--speed", "26"], &["26", "25 m/s"]),

@@ -212,5 +212,5 @@ fn build(rate: f64) -> Result<([f64; 2], Vec<Piece>)> {
 
 /// How a piece or a kit is built for a scene.
 fn options(quality: Quality, rate: f64) -> BuildOptions {
-    BuildOptions { quality, shaped: true, ..BuildOptions::new(rate) }
+    BuildOptions { quality, shaped: true, wraps: true, ..BuildOptions::new(rate) }
 }

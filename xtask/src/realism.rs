@@ -1,6 +1,6 @@
 //! `realism`: every piece in the kit, struck softly to hard in several places, beside recordings of real ones.
 //!
-//! The kit is the plugin's at its defaults, played by the plugin's performer. Each stroke is heard twice: by the piece's close
+//! The kit is the plugin's at its defaults, as it is bounced or as it is played, by the plugin's performer. Each stroke is heard twice: by the piece's close
 //! microphone alone, and in the full mix, both as the mean of left and right. The [`features`] are measured and set beside
 //! the [`mod@reference`]; what is compared is the median over the places.
 
@@ -17,6 +17,7 @@ use std::sync::{Mutex, PoisonError};
 use std::thread;
 
 use anyhow::Result;
+use overhear::building::Pace;
 use overhear_engine::strike::Strike;
 
 use crate::output::Folder;
@@ -49,6 +50,8 @@ pub struct Request {
     pub speeds: Vec<f64>,
     /// Parameters that are not at their default.
     pub settings: Vec<Setting>,
+    /// Whether the kit is bounced or played, which is what its cymbals' quality goes by.
+    pub pace: Pace,
     /// A folder to keep the sounds in.
     pub wav: Option<PathBuf>,
 }
@@ -99,7 +102,7 @@ pub fn run_and_show(request: &Request, show: &Show) -> Result<Report> {
     let done: Mutex<Vec<Option<[Stroke; 2]>>> = Mutex::new(vec![None; jobs.len()]);
     let progress = Mutex::new(Progress::new("realism", jobs.len() as u64));
     let work = || -> Result<()> {
-        let mut stand = Stand::new(RATE, &request.settings)?;
+        let mut stand = Stand::new(RATE, &request.settings, request.pace)?;
         loop {
             let index = next.fetch_add(1, Ordering::Relaxed);
             let Some(job) = jobs.get(index) else { return Ok(()) };
@@ -156,6 +159,7 @@ mod tests {
             subjects: subjects(&["rack-tom".to_owned()]).unwrap(),
             speeds: vec![2.0, 4.0],
             settings: Vec::new(),
+            pace: Pace::RealTime,
             wav: None,
         });
         let report = report.unwrap();

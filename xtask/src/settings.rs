@@ -74,6 +74,7 @@ pub fn check_options(id: PieceId, options: &BuildOptions) -> Result<()> {
         ("--uneven", options.unevenness.is_some()),
         ("--muffler", options.muffler.is_some()),
         ("--no-high-band", !options.high_band),
+        ("--wrap", options.wraps),
     ];
     if options.shaped && id.is_drum() {
         return Err(bad_input!("--bell is of cymbals, the {} is a drum", id.name()));

@@ -17,7 +17,6 @@ use crate::membrane::{self, Membrane, MembraneMode, ModeRange, Surroundings};
 use crate::piece::BuildOptions;
 use crate::shapes::{ShapeIndex, ShapeTable};
 use crate::split::Splitting;
-use crate::strike::Striker;
 use crate::surface::patch::Film;
 use crate::surface::{STRIKER_PLACES, wires};
 
@@ -109,7 +108,14 @@ impl TunedHead {
         // Waves that fine move the air within their own length only: rho / k on either face.
         let bare = spec.area_density();
         let air = 2.0 * DENSITY * (now / bare).sqrt() / reached;
-        Film { radius: spec.radius, tension: now, density: bare + air, reached }
+        Film {
+            radius: spec.radius,
+            tension: now,
+            density: bare + air,
+            rigidity: spec.dented_rigidity(),
+            reached,
+            wraps: false,
+        }
     }
 
     fn stretched(&self, pitch: usize) -> Stretched<'_> {
@@ -273,9 +279,8 @@ impl Blueprint {
             index.extend(members.map(|(member, _)| ShapeIndex { radial, rows, m: mode.m, member, axis }));
         }
         let waves = head.membrane.modes().iter().map(|mode| mode.zero);
-        let discs = Striker::patches().map(|patch| patch / head.membrane.spec().radius);
         let radial = head.membrane.radial_shapes(&ShapeTable::radii());
-        ShapeTable::new(&radial, index).with_waves(waves).prepared(discs)
+        ShapeTable::new(&radial, index).with_waves(head.membrane.spec().radius, waves)
     }
 
     /// What the batter does above its modes.

@@ -57,7 +57,7 @@ use crate::membrane::MembraneSpec;
 use crate::modal::simd::MAX_RUN;
 use crate::modal::{EARS, MAX_DRIVES, ModalBody, Mode, Pickup, Port};
 use crate::split::hash;
-use crate::strike::Striker;
+use crate::surface::patch::Discs;
 
 /// Slices in an octave.
 const SLICES: f64 = 40.0;
@@ -179,8 +179,8 @@ pub struct HighBand {
     pickup: Pickup,
     slices: Vec<Slice>,
     places: Vec<Place>,
-    /// Radii (m) of the patches that strikers press, and what every slice's wave takes from each.
-    pressed: Vec<(f64, Vec<f64>)>,
+    /// What every slice's wave takes from patches (m).
+    pressed: Discs,
     /// How far the slow part of a force follows it in a sample.
     follow: f32,
     /// What is heard far away, as at a metre, over what is heard at the point.
@@ -207,7 +207,7 @@ impl HighBand {
         let takes = |patch: f64| slices.iter().map(|slice| taken(spec, slice, patch)).collect();
         let corner = SQRT_2 * SPEED_OF_SOUND / spec.head.radius;
         let mut band = HighBand {
-            pressed: Striker::patches().map(|patch| (patch, takes(patch))).collect(),
+            pressed: Discs::new(1.0, takes),
             away: away(spec, &slices),
             spec: *spec,
             body: ModalBody::new(modes, spec.sample_rate),
@@ -256,9 +256,9 @@ impl HighBand {
         let HighBand { spec, body, pickup, slices, places, pressed, .. } = self;
         let Place { port, direct, sheet, .. } = &mut places[i];
         *sheet = endless_sheet(spec, slices, radius, angle) as f32;
-        let known = pressed.iter().find(|(of, _)| *of == patch).map(|(_, taken)| taken);
+        let known = pressed.of(patch);
         for (k, (shape, slice)) in port.shape_mut().iter_mut().zip(&*slices).enumerate() {
-            let taken = known.map_or_else(|| taken(spec, slice, patch), |taken| taken[k]);
+            let taken = known.map_or_else(|| taken(spec, slice, patch), |known| known.get(k));
             *shape = (slice.at(radius, angle) * taken) as f32;
         }
         body.connect(port);

@@ -62,10 +62,10 @@ pub struct DrumSpec {
 
 const INCH: f64 = 0.0254;
 
-/// Two-ply film of tom and kick heads, m.
-const TWO_PLY: f64 = 0.36e-3;
-/// Single-ply film, m.
-const SINGLE_PLY: f64 = 0.19e-3;
+/// Thickness of all plies, m, and how many they are: of tom and kick heads.
+const TWO_PLY: (f64, u32) = (0.36e-3, 2);
+/// Of single films.
+const SINGLE_PLY: (f64, u32) = (0.19e-3, 1);
 
 /// Modes of a struck head reach this far; above, single modes can no longer be told apart. Hz.
 const BATTER_LIMIT: f64 = 3000.0;
@@ -76,9 +76,10 @@ const BATTER_LIMIT: f64 = 3000.0;
 /// pillow of a third of the shell's width. *Derived*.
 const PILLOW_FLOW: f64 = 0.35 * 850.0 / (2.0 * crate::air::DENSITY);
 
-/// A head of that radius (m), thickness (m) and loss.
-fn head(radius: f64, thickness: f64, loss: LossLaw, limit_hz: f64) -> HeadSpec {
-    HeadSpec { membrane: MembraneSpec { radius, thickness, material: Material::FILM, loss }, limit_hz }
+/// A head of that radius (m), thickness (m) of so many plies, and loss.
+fn head(radius: f64, (thickness, plies): (f64, u32), loss: LossLaw, limit_hz: f64) -> HeadSpec {
+    let material = Material::FILM;
+    HeadSpec { membrane: MembraneSpec { radius, thickness, plies, material, loss }, limit_hz }
 }
 
 /// Losses of films. *Measured*: drums are recorded with 0.32 to 0.36 s at 8 kHz whatever their heads, of which the
@@ -104,7 +105,7 @@ impl DrumSpec {
     fn two_headed(
         diameter_in: f64,
         depth_in: f64,
-        batter: (f64, LossLaw),
+        batter: ((f64, u32), LossLaw),
         resonant: ResonantSpec,
     ) -> DrumSpec {
         let (radius, depth) = (0.5 * diameter_in * INCH, depth_in * INCH);
@@ -143,8 +144,8 @@ impl DrumSpec {
 
     /// 14 x 5.5 in snare drum.
     pub fn snare() -> DrumSpec {
-        let batter = (0.25e-3, SNARE_LOSS);
-        let head = head(7.0 * INCH, 0.076e-3, SNARE_SIDE_LOSS, BATTER_LIMIT);
+        let batter = ((0.25e-3, 1), SNARE_LOSS);
+        let head = head(7.0 * INCH, (0.076e-3, 1), SNARE_SIDE_LOSS, BATTER_LIMIT);
         let side = ResonantSpec { head, pitch_ratio: 1.50 };
         DrumSpec {
             pitch_hz: (140.0, 220.0, 360.0),

@@ -69,6 +69,10 @@ pub struct BuildOptions {
     /// Cymbals with the bell and the taper they have in the kit; else caps as thick everywhere, whose modes
     /// are known in closed form.
     pub shaped: bool,
+    /// Heads wrap themselves around a solid tip, the farther the harder the stroke, and spread its force by their
+    /// stiffness; else every stroke presses on the same disc, as published contacts and glides have it. See
+    /// [`patch`](crate::surface::patch).
+    pub wraps: bool,
     /// Ratio of the pitches of a drum's other head and the struck one, if not its own.
     pub resonant_ratio: Option<f64>,
     /// Mean relative difference of the two members of a drum's pairs, if not its own: how uneven its tension is.
@@ -92,6 +96,7 @@ impl BuildOptions {
             high_band: true,
             open: false,
             shaped: false,
+            wraps: false,
             resonant_ratio: None,
             unevenness: None,
             muffler: None,
@@ -99,8 +104,10 @@ impl BuildOptions {
         }
     }
 
-    /// The piece as it stands in the kit, at a sample rate in Hz: heard by its close microphone, cymbals with their bells.
+    /// The piece as it stands in the kit, at a sample rate in Hz: heard by its close microphone, cymbals with their bells,
+    /// heads that wrap themselves around tips.
     pub fn in_kit(id: PieceId, sample_rate: f64) -> Self {
-        BuildOptions { close: microphones::over_rim(id), shaped: true, ..BuildOptions::new(sample_rate) }
+        let close = microphones::over_rim(id);
+        BuildOptions { close, shaped: true, wraps: true, ..BuildOptions::new(sample_rate) }
     }
 }

@@ -61,11 +61,12 @@ impl Surface {
         let tip = points_of(i).start;
         let point = &mut self.points[tip];
         point.arrive(Side::Surface, law, weights);
-        let disc = self.film.map_or(0.0, |film| spec.patch / film.radius);
+        let patch = self.film.map_or(spec.patch, |film| film.patch(&spec, speed));
+        let disc = self.film.map_or(0.0, |film| patch / film.radius);
         self.shapes.fill_pressed(radius, strike.angle, disc, point.port.shape_mut());
-        self.high.iter_mut().for_each(|high| high.put(tip, radius, strike.angle, spec.patch));
+        self.high.iter_mut().for_each(|high| high.put(tip, radius, strike.angle, patch));
         if let Some(film) = self.film {
-            (point.bands, point.band_count) = film.bands(radius, spec.patch, !self.lossless, self.dt);
+            (point.bands, point.band_count) = film.bands(radius, patch, !self.lossless, self.dt);
         }
         point.origin = -self.body.displacement_at(&point.port);
         if let Some(pair) = &mut self.pair {

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use clap::{Args, Subcommand, ValueEnum};
+use overhear::building::Pace;
 use overhear_engine::damping::Muffler;
 use overhear_engine::drum::spec::PILLOW;
 use overhear_engine::modal::simd::level::InstructionSet;
@@ -299,6 +300,9 @@ pub struct HearArguments {
     /// Give a cymbal the bell and the taper it has in the kit
     #[arg(long)]
     bell: bool,
+    /// Let a drum's head wrap itself around a stick's tip, as it does in the kit
+    #[arg(long)]
+    wrap: bool,
     /// Tune a drum's other head to so many times the struck one's pitch
     #[arg(long, value_name = "RATIO", value_parser = ratio)]
     resonant_ratio: Option<f64>,
@@ -341,6 +345,7 @@ impl HearArguments {
         options.high_band = !self.no_high_band;
         options.open = self.open;
         options.shaped = self.bell;
+        options.wraps = self.wrap;
         options.resonant_ratio = self.resonant_ratio;
         options.unevenness = self.uneven;
         options.muffler = self.muffler;
@@ -394,9 +399,12 @@ pub struct RealismArguments {
     #[arg(long, value_name = "M/S,M/S,...", value_delimiter = ',', value_parser = speed,
           default_values_t = realism::SPEEDS)]
     speeds: Vec<f64>,
-    /// Move a parameter from its default, as in snare_tune=180 or quality=offline; repeatable
+    /// Move a parameter from its default, as in snare_tune=180 or offline_quality=high; repeatable
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
+    /// The kit as a host plays it, cymbals at the quality for that; else as it is bounced
+    #[arg(long)]
+    live: bool,
     /// Print one JSON object (see docs/commands.md)
     #[arg(long)]
     pub json: bool,
@@ -416,7 +424,8 @@ impl RealismArguments {
         speeds.dedup();
         let subjects = realism::subjects(&self.pieces)?;
         let settings = settings::parse(&self.set)?;
-        Ok(realism::Request { subjects, speeds, settings, wav: self.wav })
+        let pace = if self.live { Pace::RealTime } else { Pace::Offline };
+        Ok(realism::Request { subjects, speeds, settings, pace, wav: self.wav })
     }
 }
 

@@ -1,6 +1,7 @@
 //! The kit as the plugin plays it, and the two ways in which a stroke on it is heard.
 
 use anyhow::{Context, Result};
+use overhear::building::Pace;
 use overhear::parameters::{Drives, PARAMETERS};
 use overhear::performer::Performer;
 use overhear_engine::kit::{Control, OUTPUTS, Stereo};
@@ -52,15 +53,15 @@ pub struct Stand {
 const SETTLING: f64 = 0.5;
 
 impl Stand {
-    /// Builds the kit as the plugin has it while a host plays, with some parameters moved.
+    /// Builds the kit as the plugin has it while a host plays or bounces, with some parameters moved.
     ///
     /// # Errors
     /// [`BadInput`](crate::error::BadInput) if it cannot be built at the sample rate (Hz).
-    pub fn new(rate: u32, settings: &[Setting]) -> Result<Stand> {
+    pub fn new(rate: u32, settings: &[Setting], pace: Pace) -> Result<Stand> {
         let rate = f64::from(rate);
         let mut performer = Performer::new(rate);
         settings.iter().for_each(|&(index, value)| performer.set_parameter(index, value));
-        performer.install_kit(rate).map_err(|error| bad_input!("{error}"))?;
+        performer.install_kit_for(rate, pace).map_err(|error| bad_input!("{error}"))?;
         Ok(Stand { performer, rate })
     }
 

@@ -164,6 +164,12 @@ impl PieceReport {
             firm,
         }
     }
+
+    /// When the band above 3 kHz peaks, ms, `[speed]`, if strokes of every speed have it.
+    pub fn bloom(&self) -> Option<Vec<f64>> {
+        let row = self.features.iter().find(|row| row.feature == Feature::Bloom.key())?;
+        row.values.iter().copied().collect()
+    }
 }
 
 impl Report {

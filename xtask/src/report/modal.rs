@@ -258,8 +258,13 @@ pub fn worst_deflection(id: PieceId) -> f64 {
 
 /// A head in vacuum without losses, `(0,1)` at 100 Hz, and so thin that its bending is nothing.
 fn ideal_head() -> Surface {
-    let spec =
-        MembraneSpec { radius: 0.3, thickness: 0.02e-3, material: Material::FILM, loss: LossLaw::NONE };
+    let spec = MembraneSpec {
+        radius: 0.3,
+        thickness: 0.02e-3,
+        plies: 1,
+        material: Material::FILM,
+        loss: LossLaw::NONE,
+    };
     let tension = vacuum_tension(&spec, ZEROS[0], 100.0);
     let range = ModeRange { reference_tension: tension, limit_hz: 1500.0 };
     let membrane = Membrane::new(spec, Surroundings::Vacuum, &range).expect("a head that can be");

@@ -1,0 +1,41 @@
+//! The kit beside recordings: how its pieces change with the stroke. Shares of figures are claims of the report.
+
+use overhear::building::Pace;
+use xtask::realism::{self, Ear, PieceReport, SPEEDS};
+
+/// Pieces struck softly to hard, bounced, as each ear hears them.
+fn bounced(names: &[&str]) -> Vec<PieceReport> {
+    let names: Vec<String> = names.iter().map(|&name| name.to_owned()).collect();
+    let subjects = realism::subjects(&names).unwrap();
+    let (speeds, settings) = (SPEEDS.to_vec(), Vec::new());
+    let request = realism::Request { subjects, speeds, settings, pace: Pace::Offline, wav: None };
+    realism::run(&request).unwrap().pieces
+}
+
+#[test]
+fn drums_brighten_with_the_stroke_as_recorded_ones_do() {
+    let pieces = bounced(&["kick", "snare", "rack-tom", "floor-tom"]);
+    assert_eq!(pieces.len(), 4 * Ear::ALL.len());
+    for piece in &pieces {
+        let slope = piece.slope.as_ref().expect("known of every drum");
+        println!("{} {}: {:?} octaves per 20 dB", piece.piece, piece.heard.name(), slope.value);
+        assert!(
+            slope.inside,
+            "{} {}: {:?} for {}",
+            piece.piece,
+            piece.heard.name(),
+            slope.value,
+            slope.median
+        );
+    }
+}
+
+#[test]
+fn a_crash_blooms_later_and_brighter_the_harder_it_is_struck() {
+    for crash in bounced(&["crash"]) {
+        let bloom = crash.bloom().expect("every stroke has a band above 3 kHz");
+        println!("{}: {bloom:?} ms", crash.heard.name());
+        assert!(bloom.is_sorted_by(|soft, hard| soft < hard), "{}: {bloom:?} ms", crash.heard.name());
+        assert!(crash.slope.as_ref().is_some_and(|slope| slope.inside), "{:?}", crash.slope);
+    }
+}
