@@ -26,7 +26,7 @@
 //!
 //! (the two give way alike: `ln(r / b) + 1/4` against `ln(r / 2 l) + gamma` with `l^2 = D / T`, both times `F / (2 pi T)`). A head
 //! without stiffness lies against a sphere of radius `R` where it presses with `2 T / R`, as far as `sqrt(F R / (2 pi T))`.
-//! Together, the force being the largest of a mass `m` that runs at `v` into the head's static stiffness,
+//! Together (as squares, right within a tenth), the force being the largest of a mass `m` that runs at `v` into the head's static stiffness,
 //!
 //! ```text
 //! b^2 = b_bend^2 + F R / (2 pi T)      F = v sqrt(2 pi T m / (ln(a / b) + 1/4))
@@ -67,7 +67,7 @@ pub struct Film {
 }
 
 /// `2 exp(1/4 - gamma)`, dimensionless: a point on a stiff head gives way like a disc of so many `sqrt(D / T)`.
-const SPREAD: f64 = 1.441_759;
+const SPREAD: f64 = 1.441_856;
 
 /// Share of a wave of wavenumber `k` that a tip of radius `b` feels, `x = k b`: `2 J_1(x) / x`.
 pub fn pressed_share(x: f64) -> f64 {
@@ -83,7 +83,7 @@ pub struct Discs {
 }
 
 /// Radii of discs that are worked out beforehand, m: from the smallest to the largest that heads wrap themselves into, the
-/// share between two known to 0.3 %.
+/// share between two known to 0.01 of waves that are felt much.
 fn ladder() -> impl Iterator<Item = f64> {
     (0..LADDER).map(|i| 0.5e-3 * (f64::from(i) / 6.0).exp2())
 }
@@ -153,7 +153,7 @@ impl Film {
 
     /// Largest force (N) of a mass (kg) that runs at a speed (m/s) into the middle of the head's static stiffness under
     /// a disc (m).
-    fn largest_force(&self, mass: f64, speed: f64, patch: f64) -> f64 {
+    pub(super) fn largest_force(&self, mass: f64, speed: f64, patch: f64) -> f64 {
         let stiffness = 2.0 * PI * self.tension / ((self.radius / patch).ln().max(0.0) + 0.25);
         speed * (mass * stiffness).sqrt()
     }
@@ -244,11 +244,13 @@ mod tests {
         let waves = [1.0, 1e6];
         let [point, disc] = [gives(0.0, length, waves), gives(SPREAD * length, 0.0, waves)];
         assert!((point / disc - 1.0).abs() < 1e-4, "{point} {disc}");
-        // Spread and wrapped about alike, the sum of squares stands for both.
-        for wrapped in [0.25, 0.5, 1.0, 2.0, 4.0] {
+        // Where both count, the sum of squares stands for them within a tenth.
+        for (wrapped, within) in [(0.25, 0.05), (0.5, 0.08), (1.0, 0.1), (2.0, 0.06), (4.0, 0.03)] {
             let both = gives(wrapped * SPREAD * length, length, waves);
-            let one = gives(SPREAD * length * f64::hypot(1.0, wrapped), 0.0, waves);
-            println!("{wrapped} {}", (2.0 * PI * (one - both)).exp() * f64::hypot(1.0, wrapped));
+            let one = gives(SPREAD * length, 0.0, waves);
+            let exact = (2.0 * PI * (one - both)).exp();
+            let ratio = exact / f64::hypot(1.0, wrapped);
+            assert!((ratio - 1.0).abs() < within, "{wrapped}: {ratio}");
         }
     }
 
@@ -278,9 +280,8 @@ mod tests {
             let disc = 0.5e-3 * 1.02_f64.powi(i);
             let known = discs.of(disc).unwrap();
             for (k, exact) in share(disc).iter().enumerate() {
-                if (known.get(k) - exact).abs() > 3e-3 {
-                    println!("{disc} {k}: {} {exact}", known.get(k));
-                }
+                let within = if waves[k] * disc < 4.0 { 0.01 } else { 0.03 };
+                assert!((known.get(k) - exact).abs() < within, "{disc} {k}: {} {exact}", known.get(k));
             }
         }
         assert!(discs.of(0.0).is_none() && discs.of(1.0).is_none());

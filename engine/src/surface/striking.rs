@@ -179,3 +179,34 @@ fn report(last: &mut StrikeSnapshot, toucher: &Toucher, points: &[TouchPoint], d
     }
     last.leaving_speed = toucher.leaving_speed() as f32;
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::drum::{Drum, DrumSpec};
+    use crate::piece::{BuildOptions, PieceId};
+    use crate::strike::Striker;
+
+    #[test]
+    fn the_force_a_head_is_thought_to_wrap_itself_by_is_the_strokes() {
+        let drums = [
+            (PieceId::Snare, DrumSpec::snare()),
+            (PieceId::RackTom, DrumSpec::rack_tom()),
+            (PieceId::FloorTom, DrumSpec::floor_tom()),
+        ];
+        let stick = Striker::Stick.spec();
+        for (id, spec) in drums {
+            let mut drum = Drum::new(&spec, &BuildOptions::in_kit(id, 48e3)).unwrap();
+            for speed in [1.5, 3.0, 5.0] {
+                drum.strike(&Strike { speed, radius: 0.3, angle: 0.0, striker: Striker::Stick });
+                (0..32).for_each(|_| drum.surface_mut().render(&mut [0.0; 32]));
+                let film = drum.surface().film.unwrap();
+                let thought = film.largest_force(stick.mass, speed, film.patch(&stick, speed));
+                let measured = f64::from(drum.surface().last_strike().peak_force);
+                println!("{id:?} at {speed} m/s: {thought:.1} N, {measured:.1} N");
+                assert!((thought / measured - 1.0).abs() < 0.2, "{id:?} {speed}: {thought} N, {measured} N");
+                drum.surface_mut().reset();
+            }
+        }
+    }
+}
