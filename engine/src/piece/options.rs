@@ -69,7 +69,7 @@ pub struct BuildOptions {
     /// Cymbals with the bell and the taper they have in the kit; else caps as thick everywhere, whose modes
     /// are known in closed form.
     pub shaped: bool,
-    /// Heads wrap themselves around a solid tip, the farther the harder the stroke, and spread its force by their
+    /// Heads wrap themselves around a stick's tip, the farther the harder the stroke, and spread its force by their
     /// stiffness; else every stroke presses on the same disc, as published contacts and glides have it. See
     /// [`patch`](crate::surface::patch).
     pub wraps: bool,

@@ -32,7 +32,8 @@
 //! b^2 = b_bend^2 + F R / (2 pi T)      F = v sqrt(2 pi T m / (ln(a / b) + 1/4))
 //! ```
 //!
-//! The disc is as large as that from the first touch on. A hard stroke so meets a stiffer head than a soft one and is shorter and brighter.
+//! The disc is as large as that from the first touch on, which is why beaters keep their own: around a ball of some centimetres a
+//! head wraps itself only in the course of its long contact. A hard stroke so meets a stiffer head than a soft one and is shorter and brighter.
 //!
 //! Neglected: that film about a hard stroke's dent stretches more than the whole head does, which would stiffen it more.
 //!
@@ -62,7 +63,7 @@ pub struct Film {
     pub rigidity: f64,
     /// Angular frequency the modes of the body reach, rad/s.
     pub reached: f64,
-    /// Whether it wraps itself around a solid tip; else every tip presses on [its own disc](StrikerSpec::patch).
+    /// Whether it wraps itself around a stick's tip; else every tip presses on [its own disc](StrikerSpec::patch).
     pub wraps: bool,
 }
 
@@ -140,10 +141,9 @@ impl Film {
     /// # Real-time
     /// No allocation; some logarithms.
     pub fn patch(&self, striker: &StrikerSpec, speed: f64) -> f64 {
-        let Tip::Solid { radius, .. } = striker.tip else { return striker.patch };
-        if !self.wraps {
+        let (true, Some(_), Tip::Solid { radius, .. }) = (self.wraps, &striker.stick, striker.tip) else {
             return striker.patch;
-        }
+        };
         let spread = SPREAD * SPREAD * self.rigidity / self.tension;
         let wrapped = radius / (2.0 * PI * self.tension);
         (0..ROUNDS).fold(striker.patch, |patch, _| {
@@ -255,8 +255,9 @@ mod tests {
     }
 
     #[test]
-    fn a_solid_tip_presses_what_its_force_wraps_and_felt_its_own_disc() {
+    fn a_sticks_tip_presses_what_its_force_wraps_and_a_beater_its_own_disc() {
         let [stick, felt] = [Striker::Stick, Striker::FeltBeater].map(Striker::spec);
+        let ball = Striker::PlasticBeater.spec();
         let spread = SPREAD * (HEAD.rigidity / HEAD.tension).sqrt();
         assert!((HEAD.patch(&stick, 1e-9) / spread - 1.0).abs() < 1e-3);
         for speed in [1.0, 5.0, 25.0] {
@@ -267,6 +268,7 @@ mod tests {
             let force = HEAD.largest_force(stick.mass, speed, patch);
             assert!((pressed / force - 1.0).abs() < 1e-3, "{speed}: {pressed} {force}");
             assert_eq!(HEAD.patch(&felt, speed), felt.patch);
+            assert_eq!(HEAD.patch(&ball, speed), ball.patch);
             assert_eq!(Film { wraps: false, ..HEAD }.patch(&stick, speed), stick.patch);
         }
     }
