@@ -128,6 +128,7 @@ impl Editor for OverhearEditor {
         gui_context: GuiContext,
         host: Option<HostMethods>,
     ) -> Result<SpawnedEditor<window::Handle>, Box<dyn Error>> {
+        window::keep_driver();
         let (farewell, ended) = Farewell::new();
         let editor = self.egui_editor(self.window(), farewell).ok_or("no editor")?;
         editor
