@@ -123,7 +123,7 @@ pub struct Shares<'a> {
 }
 
 impl Shares<'_> {
-    /// Of the `k`th wave.
+    /// That of the `k`th wave, dimensionless.
     pub fn get(&self, k: usize) -> f64 {
         self.lower[k] + self.toward * (self.upper[k] - self.lower[k])
     }
