@@ -89,7 +89,7 @@ impl Performer {
         self.install_kit_for(sample_rate, Pace::RealTime)
     }
 
-    /// The same for a host that plays or bounces.
+    /// The same for a host that plays or bounces, at a sample rate in Hz.
     ///
     /// # Errors
     /// As [`install_kit`](Self::install_kit).
