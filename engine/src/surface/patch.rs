@@ -35,7 +35,9 @@
 //! The disc is as large as that from the first touch on, which is why beaters keep their own: around a ball of some centimetres a
 //! head wraps itself only in the course of its long contact. A hard stroke so meets a stiffer head than a soft one and is shorter and brighter.
 //!
-//! Neglected: that film about a hard stroke's dent stretches more than the whole head does, which would stiffen it more.
+//! Neglected: that film about a hard stroke's dent stretches more than the whole head does, which would stiffen it more. At rest, by
+//! Foeppl's equations about a point on an endless film, a dent under `F` is as stiff as a disc of `0.45 F sqrt(E h / 2) / (2 pi T^1.5)`: 13 mm on
+//! a rack tom under a stroke of 3 m/s, where this law has 4.3.
 //!
 //! Source: static deflections of membrane and stiff membrane under a point as in Timoshenko & Woinowsky-Krieger, Theory of
 //! Plates and Shells; the radii are derived here.
