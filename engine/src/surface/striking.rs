@@ -203,7 +203,6 @@ mod tests {
                 let film = drum.surface().film.unwrap();
                 let thought = film.largest_force(stick.mass, speed, film.patch(&stick, speed));
                 let measured = f64::from(drum.surface().last_strike().peak_force);
-                println!("{id:?} at {speed} m/s: {thought:.1} N, {measured:.1} N");
                 assert!((thought / measured - 1.0).abs() < 0.2, "{id:?} {speed}: {thought} N, {measured} N");
                 drum.surface_mut().reset();
             }
