@@ -87,8 +87,9 @@ pub struct Membrane {
     modes: Vec<MembraneMode>,
 }
 
-/// Flexural rigidity of two plies that slide on one another over that of one film as thick, dimensionless: 1/4 if nothing held them
-/// together. *Measured*: of 0.4 to 0.8 the middle, with which toms brighten with the stroke nearest to recorded ones.
+/// Flexural rigidity of two plies that slide on one another over that of one film as thick, dimensionless: 1/4 if nothing
+/// held them together. *Measured*: of 0.4 to 0.8 the middle, with which toms brighten with the stroke nearest to recorded
+/// ones.
 const BOND: f64 = 0.6;
 
 impl MembraneSpec {
@@ -120,8 +121,8 @@ impl MembraneSpec {
         youngs_modulus * self.thickness.powi(3) / (12.0 * (1.0 - poisson_ratio * poisson_ratio))
     }
 
-    /// The same where a tip bends it sharply, N m: two plies slide on one another there, which waves of some micrometres hardly
-    /// make them do.
+    /// The same where a tip bends it sharply, N m: two plies slide on one another there, which waves of some micrometres
+    /// hardly make them do.
     pub fn dented_rigidity(&self) -> f64 {
         if self.plies > 1 { BOND * self.flexural_rigidity() } else { self.flexural_rigidity() }
     }

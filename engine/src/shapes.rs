@@ -113,8 +113,8 @@ impl ShapeTable {
         ShapeTable { radial, functions, index, starts, weights, orders, groups, grouped, waves, felt }
     }
 
-    /// Tells the wavenumber of every radial function, times the radius (m), `[radial]`: those of a membrane, of
-    /// which a disc feels a known share, worked out beforehand so that a stroke need not. Allocates.
+    /// Tells the body's radius (m) and, times that, the wavenumber of every radial function, `[radial]`: those of a
+    /// membrane, of which a disc feels a known share, worked out beforehand so that a stroke need not. Allocates.
     pub fn with_waves(mut self, radius: f64, waves: impl Iterator<Item = f64>) -> ShapeTable {
         self.waves = waves.map(|wave| wave as f32).collect();
         let share =

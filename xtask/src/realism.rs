@@ -1,8 +1,8 @@
 //! `realism`: every piece in the kit, struck softly to hard in several places, beside recordings of real ones.
 //!
-//! The kit is the plugin's at its defaults, as it is bounced or as it is played, by the plugin's performer. Each stroke is heard twice: by the piece's close
-//! microphone alone, and in the full mix, both as the mean of left and right. The [`features`] are measured and set beside
-//! the [`mod@reference`]; what is compared is the median over the places.
+//! The kit is the plugin's at its defaults, as it is bounced or as it is played, by the plugin's performer. Each stroke is
+//! heard twice: by the piece's close microphone alone, and in the full mix, both as the mean of left and right. The
+//! [`features`] are measured and set beside the [`mod@reference`]; what is compared is the median over the places.
 
 mod ears;
 pub mod features;

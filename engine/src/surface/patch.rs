@@ -24,20 +24,23 @@
 //! b_bend = 2 exp(1/4 - gamma) sqrt(D / T),   gamma = 0.5772
 //! ```
 //!
-//! (the two give way alike: `ln(r / b) + 1/4` against `ln(r / 2 l) + gamma` with `l^2 = D / T`, both times `F / (2 pi T)`). A head
-//! without stiffness lies against a sphere of radius `R` where it presses with `2 T / R`, as far as `sqrt(F R / (2 pi T))`.
-//! Together (as squares, right within a tenth), the force being the largest of a mass `m` that runs at `v` into the head's static stiffness,
+//! (the two give way alike: `ln(r / b) + 1/4` against `ln(r / 2 l) + gamma` with `l^2 = D / T`, both times
+//! `F / (2 pi T)`). A head without stiffness lies against a sphere of radius `R` where it presses with `2 T / R`, as far as
+//! `sqrt(F R / (2 pi T))`. Together (as squares, right within a tenth), the force being the largest of a mass `m` that runs
+//! at `v` into the head's static stiffness,
 //!
 //! ```text
 //! b^2 = b_bend^2 + F R / (2 pi T)      F = v sqrt(2 pi T m / (ln(a / b) + 1/4))
 //! ```
 //!
-//! The disc is as large as that from the first touch on, which is why beaters keep their own: around a ball of some centimetres a
-//! head wraps itself only in the course of its long contact. A hard stroke so meets a stiffer head than a soft one and is shorter and brighter.
+//! The disc is as large as that from the first touch on, which is why beaters keep their own: around a ball of some
+//! centimetres a head wraps itself only in the course of its long contact. A hard stroke so meets a stiffer head than a
+//! soft one and is shorter and brighter.
 //!
-//! Neglected: that film about a hard stroke's dent stretches more than the whole head does, which would stiffen it more. At rest, by
-//! Foeppl's equations about a point on an endless film, a dent under `F` is as stiff as a disc of `0.45 F sqrt(E h / 2) / (2 pi T^1.5)`: 13 mm on
-//! a rack tom under a stroke of 3 m/s, where this law has 4.3.
+//! Neglected: that film about a hard stroke's dent stretches more than the whole head does, which would stiffen it more. At
+//! rest, by Foeppl's equations about a point on an endless film, a dent under `F` is as stiff as a disc of
+//! `0.45 F sqrt(E h / 2) / (2 pi T^1.5)`: 13 mm on a rack tom under a stroke of 3 m/s, where this law has 4.3. And that the
+//! tip of a stick laid across a rim does not come as fast as its shaft.
 //!
 //! Source: static deflections of membrane and stiff membrane under a point as in Timoshenko & Woinowsky-Krieger, Theory of
 //! Plates and Shells; the radii are derived here.
@@ -77,8 +80,8 @@ pub fn pressed_share(x: f64) -> f64 {
     if x < 1e-3 { 1.0 - x * x / 8.0 } else { 2.0 * libm::j1(x) / x }
 }
 
-/// What discs feel of each of many waves, worked out beforehand for some of them and blended between: a stroke has no time for
-/// Bessel functions.
+/// What discs feel of each of many waves, worked out beforehand for some of them and blended between: a stroke has no
+/// time for Bessel functions.
 #[derive(Debug, Clone, Default)]
 pub struct Discs {
     /// Radii, ascending, and the share of every wave that a disc of that size feels.

@@ -17,8 +17,8 @@ use nice_plug_egui::{EguiEditorHandle, baseview};
 /// Longest wait for the thread of a closed window. *By ear*, of patience: a host that closes a window should not hang.
 const LONGEST_FAREWELL: Duration = Duration::from_secs(2);
 
-/// Holds on to the graphics driver for as long as the process lasts. baseview opens it for every window and lets it go after, and
-/// whenever Mesa is loaded anew it writes down its functions' names once more, some kilobytes that stay.
+/// Holds on to the graphics driver for as long as the process lasts. baseview opens it for every window and lets it go
+/// after, and whenever Mesa is loaded anew it writes down its functions' names once more, some kilobytes that stay.
 #[cfg(target_os = "linux")]
 #[allow(unsafe_code)]
 pub fn keep_driver() {
