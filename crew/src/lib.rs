@@ -28,7 +28,7 @@ use std::time::{Duration, Instant};
 
 use crossbeam::queue::ArrayQueue;
 use overhear_engine::kit::{Crew, Post};
-use overhear_engine::piece::PieceId;
+use overhear_engine::slot::SLOTS;
 
 /// Most workers.
 pub const MOST: usize = 3;
@@ -91,8 +91,8 @@ impl Workers {
     /// If the system starts no more threads.
     pub fn new(count: usize, patience: Patience, render: fn(&mut Post)) -> std::io::Result<Workers> {
         let hall = Arc::new(Hall {
-            waiting: ArrayQueue::new(PieceId::KIT.len()),
-            done: ArrayQueue::new(PieceId::KIT.len()),
+            waiting: ArrayQueue::new(SLOTS),
+            done: ArrayQueue::new(SLOTS),
             closing: AtomicBool::new(false),
             render,
         });

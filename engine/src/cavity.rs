@@ -25,6 +25,7 @@
 use std::f64::consts::{PI, TAU};
 
 use crate::air::{DENSITY, SPEED_OF_SOUND};
+use crate::fitted;
 use crate::math::bessel;
 
 /// The enclosed air.
@@ -93,7 +94,7 @@ const HALF_WAVES: u32 = 400;
 impl CavitySpec {
     /// A cylinder of a radius and a depth, m.
     pub fn cylinder(radius: f64, depth: f64) -> CavitySpec {
-        CavitySpec { radius, volume: PI * radius * radius * depth, depth, q: 60.0, open: false }
+        CavitySpec { radius, volume: PI * radius * radius * depth, depth, q: fitted::AIR_Q, open: false }
     }
 
     /// Stiffness of the uniform mode against a piston of the head's area, N/m.

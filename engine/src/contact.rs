@@ -28,6 +28,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::numbers::{Numbers, Visitor};
+
 /// Slowest approach that still sets the loss, m/s. Below it a touch is as lossy as at it; keeps
 /// `lambda` finite. *Derived*: far below any audible landing.
 const SLOWEST_APPROACH: f64 = 1e-3;
@@ -37,13 +39,24 @@ const MAX_ITERATIONS: usize = 60;
 
 /// Elastic constants of a solid.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Material {
-    /// Young's modulus, Pa.
+    /// Young's modulus, Pa, 1e6 to 1e12.
+    #[serde(rename = "youngs_modulus_pa")]
     pub youngs_modulus: f64,
-    /// Poisson's ratio.
+    /// Poisson's ratio, 0 to 0.495.
     pub poisson_ratio: f64,
-    /// Density, kg/m3.
+    /// Density, kg/m3, 100 to 25,000.
+    #[serde(rename = "density_kg_m3")]
     pub density: f64,
+}
+
+impl Numbers for Material {
+    fn visit(&mut self, visitor: &mut dyn Visitor) {
+        visitor.number("youngs_modulus_pa", &mut self.youngs_modulus, 1e6..=1e12);
+        visitor.number("poisson_ratio", &mut self.poisson_ratio, 0.0..=0.495);
+        visitor.number("density_kg_m3", &mut self.density, 100.0..=25_000.0);
+    }
 }
 
 impl Material {

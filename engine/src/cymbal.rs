@@ -14,12 +14,13 @@ use crate::MARK;
 use crate::air;
 use crate::damping::{LossLaw, Muffler, SIGMA_T60, Thermoelastic};
 use crate::error::SpecError;
+use crate::fitted;
 use crate::glide::Glide;
 use crate::listening::Radiator;
 use crate::modal::Mode;
-use crate::piece::{BuildOptions, Member, ModeInfo, ModeKind};
+use crate::piece::{BuildContext, Member, ModeInfo, ModeKind, Receivers};
 use crate::plate::free_disc::{FreeDisc, Radiated};
-use crate::plate::{PlateModes, PlateTables};
+use crate::plate::{PlateModes, PlateSpec, PlateTables};
 use crate::shapes::{ShapeIndex, ShapeTable};
 use crate::split::Splitting;
 use crate::surface::{Surface, SurfaceParts};
@@ -27,7 +28,6 @@ use crate::von_karman::{CoupledPair, VonKarman};
 
 mod spec;
 
-pub(crate) use spec::shape;
 pub use spec::{CymbalSpec, Stand};
 
 /// A hand that grips the edge on the player's side, thumb above and fingers below.
@@ -36,7 +36,7 @@ pub(crate) struct Hand;
 impl Hand {
     /// Decay rate of a mode of unit mean square in the palm, 1/s. *By ear*: a choked crash is gone in
     /// a fifth of a second.
-    const SIGMA: f64 = 70.0;
+    const SIGMA: f64 = fitted::HAND_SIGMA;
     /// Where the palm lies: shares of the radius, rad.
     const RADII: [f64; 3] = [0.8, 0.9, 0.98];
     const ANGLES: [f64; 5] = [-0.24, -0.12, 0.0, 0.12, 0.24];
@@ -51,7 +51,7 @@ impl Hand {
 }
 
 /// Rate at which the stretching is evaluated, Hz, over the highest coupled mode, and at most, as long as it is
-/// five times that. *Measured*: at seven times, third octaves of a hard stroke are within 0.4 dB in the mean of
+/// five times that. *Converged*: at seven times, third octaves of a hard stroke are within 0.4 dB in the mean of
 /// those with every sample; a stroke a millimetre beside changes them by more.
 const COUPLING_RATE_PER_HZ: f64 = 7.0;
 const MOST_COUPLING_RATE: f64 = 20_000.0;
@@ -112,26 +112,30 @@ impl Cymbal {
     ///
     /// # Errors
     /// [`SpecError`] if a number is out of range.
-    pub fn new(spec: &CymbalSpec, options: &BuildOptions) -> Result<Cymbal, SpecError> {
+    pub fn new(spec: &CymbalSpec, context: &BuildContext) -> Result<Cymbal, SpecError> {
+        spec.check()?;
+        let stand = spec.stand.ok_or_else(|| SpecError::refused("stand", "is missing, accepted: a stand"))?;
+        let BuildContext { options, receivers, ideal } = context;
         let limit_hz = LIMIT_HZ.min(LIMIT_OF_RATE * options.sample_rate);
-        let known = SoundingPlate::of(spec, limit_hz)?;
-        let SoundingPlate { plate, radiated } = &*known;
+        let known = SoundingPlate::of(spec, receivers, limit_hz)?;
+        let known = &*known;
+        let plate = &known.plate;
         let (orders, extent) = plate.table_extent(limit_hz);
         let tables = PlateTables::new(orders, extent);
-        let splitting = if options.unsplit { Splitting::ROUND } else { spec.splitting };
-        let (modes, index) = lay_out(spec, plate, radiated, splitting);
-        let bare = |mode: &BuiltMode| Mode { omega: mode.omega, sigma: 0.0, mass: spec.plate.mass };
-        let coupled = couple(plate, &tables, &index, options);
+        let splitting = if ideal.round { Splitting::ROUND } else { spec.evenness };
+        let (modes, index) = lay_out(spec, &stand, known, splitting);
+        let bare = |mode: &BuiltMode| Mode { omega: mode.omega, sigma: 0.0, mass: spec.mass };
+        let coupled = couple(plate, &tables, &index, context);
         let mut surface = Surface::new(SurfaceParts {
             modes: modes.iter().map(bare).collect(),
             shapes: ShapeTable::new(&radial_rows(plate, &tables, &ShapeTable::radii()), index),
             transfer: vec![[0.0; 2]; modes.len()],
-            material: spec.material,
-            lossless: options.lossless,
+            material: spec.alloy,
+            lossless: ideal.lossless,
             sample_rate: options.sample_rate,
         });
-        let ears = [0, 1].map(|ear| transfer(spec, plate, radiated, ear).into_iter());
-        let ([near, far], away) = (ears, spec.far_point.distance);
+        let ears = [0, 1].map(|ear| transfer(spec, receivers, known, ear).into_iter());
+        let ([near, far], away) = (ears, receivers.far.distance);
         surface.set_transfers(near, far.map(|transfer| transfer.map(|h| h * away)));
         if let Some(Coupled { potential, modes, highest_hz }) = coupled {
             let stride = coupling_stride(highest_hz, options.sample_rate);
@@ -142,10 +146,10 @@ impl Cymbal {
             surface,
             modes,
             loss: spec.loss,
-            heat: Thermoelastic::bronze(&spec.plate),
-            stand: spec.stand,
-            mass: spec.plate.mass,
-            lossless: options.lossless,
+            heat: Thermoelastic::bronze(&spec.plate()),
+            stand,
+            mass: spec.mass,
+            lossless: ideal.lossless,
             tuning: Glide::new(tuning, low, high),
             muffling: Glide::new(0.0, 0.0, 1.0),
             hand: Glide::new(0.0, 0.0, 1.0),
@@ -281,9 +285,10 @@ fn couple(
     plate: &PlateModes,
     tables: &PlateTables,
     index: &[ShapeIndex],
-    options: &BuildOptions,
+    context: &BuildContext,
 ) -> Option<Coupled> {
-    if options.linear {
+    let BuildContext { options, ideal, .. } = context;
+    if ideal.linear {
         return None;
     }
     let highest_hz = options.quality.coupled_hz().min(COUPLED_SHARE_OF_RATE * options.sample_rate);
@@ -309,12 +314,12 @@ type RigidMotion = (u32, fn(f64) -> f64);
 /// The modes of the body: the rigid ones, then the shell's by frequency; and how each goes around.
 fn lay_out(
     spec: &CymbalSpec,
-    plate: &PlateModes,
-    radiated: &[Radiated],
+    stand: &Stand,
+    SoundingPlate { plate, radiated }: &SoundingPlate,
     splitting: Splitting,
 ) -> (Vec<BuiltMode>, Vec<ShapeIndex>) {
     let (mut modes, mut index) = (Vec::new(), Vec::new());
-    let rigid = [spec.stand.bounce_hz, spec.stand.rock_hz].map(|hz| TAU * hz);
+    let rigid = [stand.bounce_hz, stand.rock_hz].map(|hz| TAU * hz);
     for (radial, ((m, _), omega)) in RIGID.into_iter().zip(rigid).enumerate() {
         let built = BuiltMode {
             m,
@@ -333,16 +338,17 @@ fn lay_out(
     }
     for ((row, shell), &Radiated { resistance, .. }) in plate.shells.iter().enumerate().zip(radiated) {
         // Both faces are in the resistance, one in the area.
-        let unit = air::DENSITY * shell.omega * spec.plate.radius().powi(3);
-        let monopole_area = air::monopole_area(spec.plate.radius(), 0.5 * resistance / unit, shell.omega);
-        let axis = spec.splitting.axis(shell.m, shell.n);
+        let radius = spec.plate().radius();
+        let unit = air::DENSITY * shell.omega * radius.powi(3);
+        let monopole_area = air::monopole_area(radius, 0.5 * resistance / unit, shell.omega);
+        let axis = spec.evenness.axis(shell.m, shell.n);
         for (member, detuning) in splitting.members(shell.m, shell.n) {
             modes.push(BuiltMode {
                 m: shell.m,
                 n: shell.n,
                 kind: ModeKind::Complete,
                 omega: shell.omega * detuning,
-                radiated: resistance / (2.0 * spec.plate.mass),
+                radiated: resistance / (2.0 * spec.mass),
                 muffling: 0.0,
                 choking: 0.0,
                 monopole_area,
@@ -378,24 +384,33 @@ impl SoundingPlate {
     ///
     /// # Errors
     /// [`SpecError`] if the plate or the limit is out of range.
-    pub(crate) fn of(spec: &CymbalSpec, limit_hz: f64) -> Result<Shared<SoundingPlate>, SpecError> {
-        let key = format!("{:?} {:?} {:?} {limit_hz:?}", spec.plate, spec.listening_point, spec.far_point);
-        PLATES.get(&key, || {
-            let plate = PlateModes::new(&spec.plate, limit_hz)?;
+    pub(crate) fn of(
+        spec: &CymbalSpec,
+        receivers: &Receivers,
+        limit_hz: f64,
+    ) -> Result<Shared<SoundingPlate>, SpecError> {
+        let plate_spec = spec.plate();
+        PLATES.get(&(plate_spec, receivers, limit_hz), || {
+            let plate = PlateModes::new(&plate_spec, limit_hz)?;
             let (orders, extent) = plate.table_extent(limit_hz);
-            let radiated = radiate(spec, &plate, &PlateTables::new(orders, extent));
+            let radiated = radiate(&plate_spec, receivers, &plate, &PlateTables::new(orders, extent));
             Ok(SoundingPlate { plate, radiated })
         })
     }
 }
 
 /// What each of the plate's shell modes does to the air around, `[shell]`.
-fn radiate(spec: &CymbalSpec, plate: &PlateModes, tables: &PlateTables) -> Vec<Radiated> {
+fn radiate(
+    spec: &PlateSpec,
+    receivers: &Receivers,
+    plate: &PlateModes,
+    tables: &PlateTables,
+) -> Vec<Radiated> {
     let highest = plate.shells.last().map_or(0.0, |shell| shell.omega);
     let finest = plate.flat.iter().flatten().map(|flat| flat.root).fold(0.0, f64::max);
-    let trace = highest * spec.plate.radius() / air::SPEED_OF_SOUND;
+    let trace = highest * spec.radius() / air::SPEED_OF_SOUND;
     let nodes = 12 + (0.7 * (finest + trace)) as usize;
-    let disc = FreeDisc::new(spec.plate.radius(), [spec.listening_point, spec.far_point], nodes);
+    let disc = FreeDisc::new(spec.radius(), [receivers.near, receivers.far], nodes);
     let shapes = plate.radial_shapes(tables, disc.radii());
     let shells = plate.shells.iter().zip(shapes.chunks_exact(nodes));
     shells
@@ -407,13 +422,14 @@ fn radiate(spec: &CymbalSpec, plate: &PlateModes, tables: &PlateTables) -> Vec<R
 }
 
 /// How each mode is heard by an ear, `[mode]`: 0 at the listening point, 1 far away.
-fn transfer(spec: &CymbalSpec, plate: &PlateModes, radiated: &[Radiated], ear: usize) -> Vec<[f64; 2]> {
-    let point = [spec.listening_point, spec.far_point][ear];
+fn transfer(spec: &CymbalSpec, receivers: &Receivers, known: &SoundingPlate, ear: usize) -> Vec<[f64; 2]> {
+    let SoundingPlate { plate, radiated } = known;
+    let point = [receivers.near, receivers.far][ear];
     // Bounce and the two members of the rock.
     let mut out = vec![[0.0, 0.0]; 3];
     for (shell, radiated) in plate.shells.iter().zip(radiated) {
         let [re, im] = radiated.transfers[ear];
-        let axis = spec.splitting.axis(shell.m, shell.n);
+        let axis = spec.evenness.axis(shell.m, shell.n);
         for (member, _) in Splitting::ROUND.members(shell.m, shell.n) {
             let share = point.toward(shell.m, member, axis);
             out.push([share * re, share * im]);

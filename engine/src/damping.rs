@@ -8,26 +8,41 @@
 //!
 //! Sources: Zener, Phys. Rev. 53, 1938; Norris & Photiadis, Q. J. Mech. Appl. Math. 58, 2005 (plates).
 
+use std::f64::consts::TAU;
+
 use serde::{Deserialize, Serialize};
 
+use crate::fitted;
+use crate::numbers::{Numbers, Visitor};
 use crate::plate::PlateSpec;
 
 /// Losses inside a material, `sigma = constant + per_khz * f / 1 kHz`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct LossLaw {
-    /// Decay rate at low frequency, 1/s.
+    /// Decay rate at low frequency, 1/s, 0 to 1000.
+    #[serde(rename = "constant_1_s")]
     pub constant: f64,
-    /// Growth of the decay rate with frequency, 1/s per kHz.
+    /// Growth of the decay rate with frequency, 1/s per kHz, 0 to 200.
+    #[serde(rename = "per_khz_1_s")]
     pub per_khz: f64,
 }
 
+impl Numbers for LossLaw {
+    fn visit(&mut self, visitor: &mut dyn Visitor) {
+        visitor.number("constant_1_s", &mut self.constant, 0.0..=1000.0);
+        visitor.number("per_khz_1_s", &mut self.per_khz, 0.0..=200.0);
+    }
+}
+
 impl LossLaw {
-    /// Single-ply 0.19 mm polyester film. *Measured* (literature value for drum heads).
+    /// Single-ply 0.19 mm polyester film. *Literature*.
     pub const SINGLE_PLY: LossLaw = LossLaw { constant: 1.2, per_khz: 2.0 };
-    /// Cast bronze, without the heat that flows through it. *Measured*: recorded crashes, rides and splashes
+    /// Cast bronze, without the heat that flows through it. *Fitted*: recorded crashes, rides and splashes
     /// lose 60 dB in 5.0, 8.4, 4.0 s at 500 Hz and in 3.2, 2.8, 1.9 s at 8 kHz; this with the heat and the
     /// radiation, both computed, comes nearest.
-    pub const BRONZE: LossLaw = LossLaw { constant: 0.55, per_khz: 0.13 };
+    pub const BRONZE: LossLaw =
+        LossLaw { constant: fitted::BRONZE_LOSS, per_khz: fitted::BRONZE_LOSS_PER_KHZ };
     /// Nothing is lost.
     pub const NONE: LossLaw = LossLaw { constant: 0.0, per_khz: 0.0 };
 
@@ -80,38 +95,65 @@ impl Thermoelastic {
 /// All act live, by their amount. A dashpot at a place damps a mode in proportion to its shape squared there; a pillow that
 /// touches both heads damps all modes alike, and those more whose air has to get past it: when both heads
 /// move the same way, what is between them goes to and fro through the pillow.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Muffler {
     /// A pillow against both heads.
     Pillow {
-        /// Decay rate added to every mode at full amount, 1/s.
+        /// Decay rate added to every mode at full amount, 1/s, 0 to 1000.
+        #[serde(rename = "sigma_1_s")]
         sigma: f64,
-        /// Decay rate added at full amount to a motion of nothing but the air along the drum, 1/s.
+        /// Decay rate added at full amount to a motion of nothing but the air along the drum, 1/s, 0 to 10,000.
+        #[serde(rename = "flow_1_s")]
         flow: f64,
     },
     /// A piece of gel or tape at a place.
     Gel {
-        /// Decay rate added to a mode of unit squared shape there at full amount, 1/s.
+        /// Decay rate added to a mode of unit squared shape there at full amount, 1/s, 0 to 1000.
+        #[serde(rename = "sigma_1_s")]
         sigma: f64,
-        /// Distance from the centre, share of the radius.
+        /// Distance from the centre, share of the radius, 0 to 0.99.
+        #[serde(rename = "at")]
         radius: f64,
-        /// Direction, rad.
+        /// Direction, rad, -2 pi to 2 pi.
+        #[serde(rename = "angle_rad")]
         angle: f64,
     },
     /// A ring of film or foam along the rim.
     Ring {
-        /// Decay rate added to a mode of unit mean square under it at full amount, 1/s.
+        /// Decay rate added to a mode of unit mean square under it at full amount, 1/s, 0 to 1000.
+        #[serde(rename = "sigma_1_s")]
         sigma: f64,
-        /// Where it begins, share of the radius; it ends at the rim.
+        /// Where it begins, share of the radius, 0 to 0.99; it ends at the rim.
         inner: f64,
     },
 }
 
+impl Numbers for Muffler {
+    fn visit(&mut self, visitor: &mut dyn Visitor) {
+        match self {
+            Muffler::Pillow { sigma, flow } => {
+                visitor.number("sigma_1_s", sigma, 0.0..=1000.0);
+                visitor.number("flow_1_s", flow, 0.0..=10_000.0);
+            }
+            Muffler::Gel { sigma, radius, angle } => {
+                visitor.number("sigma_1_s", sigma, 0.0..=1000.0);
+                visitor.number("at", radius, 0.0..=0.99);
+                visitor.number("angle_rad", angle, -TAU..=TAU);
+            }
+            Muffler::Ring { sigma, inner } => {
+                visitor.number("sigma_1_s", sigma, 0.0..=1000.0);
+                visitor.number("inner", inner, 0.0..=0.99);
+            }
+        }
+    }
+}
+
 impl Muffler {
     /// A gel pad as drummers place it, near the rim. *By ear*.
-    pub const GEL: Muffler = Muffler::Gel { sigma: 30.0, radius: 0.8, angle: 2.3 };
+    pub const GEL: Muffler = Muffler::Gel { sigma: fitted::GEL_SIGMA, radius: 0.8, angle: 2.3 };
     /// A ring as they are sold, an inch and a half wide on a 14 in head. *By ear*.
-    pub const RING: Muffler = Muffler::Ring { sigma: 60.0, inner: 0.79 };
+    pub const RING: Muffler = Muffler::Ring { sigma: fitted::RING_SIGMA, inner: 0.79 };
 }
 
 /// Amplitude decay rate of a given time to fall by 60 dB, and the reverse: `sigma * t60 = ln 1000`.
@@ -120,21 +162,22 @@ pub const SIGMA_T60: f64 = 6.907_755_278_982_137;
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::reference;
 
     #[test]
     fn heat_takes_more_from_a_thin_cymbal_than_from_a_thick_one() {
-        let at_1_khz = |spec: PlateSpec| Thermoelastic::bronze(&spec).sigma(1000.0 * std::f64::consts::TAU);
-        let (crash, ride, splash) =
-            (at_1_khz(PlateSpec::CRASH), at_1_khz(PlateSpec::RIDE), at_1_khz(PlateSpec::SPLASH));
+        let plate = |name| reference::cymbal(name).plate();
+        let at_1_khz = |name| Thermoelastic::bronze(&plate(name)).sigma(1000.0 * std::f64::consts::TAU);
+        let [crash, ride, splash] = ["crash", "ride", "splash"].map(at_1_khz);
         assert!((crash - 0.48).abs() < 0.05 && (ride - 0.23).abs() < 0.03, "{crash} {ride}");
         // As one over the thickness squared.
-        let ratio = (PlateSpec::CRASH.thickness() / PlateSpec::SPLASH.thickness()).powi(2);
+        let ratio = (plate("crash").thickness() / plate("splash").thickness()).powi(2);
         assert!((splash / crash / ratio - 1.0).abs() < 0.01, "{splash}");
     }
 
     #[test]
     fn heat_takes_most_where_it_has_half_a_period_to_flow() {
-        let heat = Thermoelastic::bronze(&PlateSpec::CRASH);
+        let heat = Thermoelastic::bronze(&reference::cymbal("crash").plate());
         let share = |omega: f64| heat.sigma(omega) / omega;
         let most = share(1.0 / heat.tau);
         assert!((most - 0.25 * heat.delta).abs() < 1e-12);

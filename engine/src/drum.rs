@@ -16,6 +16,7 @@ pub mod stretch;
 pub mod tuned;
 
 use overhear_kept::{Kept, Shared};
+use serde::Serialize;
 
 use crate::MARK;
 use crate::air::SPEED_OF_SOUND;
@@ -23,7 +24,7 @@ use crate::damping::{Muffler, SIGMA_T60};
 use crate::error::SpecError;
 use crate::glide::Glide;
 use crate::modal::Mode;
-use crate::piece::{BuildOptions, Member, ModeInfo, ModeKind};
+use crate::piece::{BuildContext, Member, ModeInfo, ModeKind};
 use crate::rim::Rim;
 use crate::shapes::ShapeTable;
 use crate::split::Splitting;
@@ -35,7 +36,7 @@ use crate::surface::{Surface, SurfaceParts};
 use build::Blueprint;
 use hearing::Hearing;
 use high_band::{HighBand, HighMuffling};
-pub use spec::DrumSpec;
+pub use spec::{DrumSpec, HeadContact, HeadSpec, PitchOf, ResonantSpec, ShellSpec};
 use stretch::Stretch;
 use tuned::{Place, Rung};
 
@@ -82,6 +83,12 @@ enum MufflerCoefs {
     },
 }
 
+/// What a drum's modes and their shapes follow from: the key of the cache.
+fn blueprint_key(spec: &DrumSpec) -> impl Serialize {
+    let DrumSpec { diameter, pitch_of, batter, resonant, shell, .. } = *spec;
+    (diameter, spec.pitches(), pitch_of, batter, resonant, shell)
+}
+
 /// What has been worked out of late.
 static BLUEPRINTS: Kept<Blueprint> = Kept::new("drum", MARK, 24);
 static HEARINGS: Kept<[Hearing; 2]> = Kept::new("hearing", MARK, 24);
@@ -117,65 +124,65 @@ impl Drum {
     ///
     /// # Errors
     /// [`SpecError`] if a number is out of range.
-    pub fn new(spec: &DrumSpec, options: &BuildOptions) -> Result<Drum, SpecError> {
-        let spec = spec.validated()?;
-        let (low, pitch, high) = spec.pitch_hz;
-        let blueprint = BLUEPRINTS.get(&spec.body(), || Blueprint::new(&spec))?;
+    pub fn new(spec: &DrumSpec, context: &BuildContext) -> Result<Drum, SpecError> {
+        spec.check()?;
+        let BuildContext { options, receivers, ideal } = context;
+        let [low, pitch, high] = spec.pitches();
+        let blueprint = BLUEPRINTS.get(&blueprint_key(spec), || Blueprint::new(spec))?;
         let place = blueprint.scale.place(pitch);
         let rungs: Vec<Rung> = blueprint.modes.iter().map(|mode| mode.at(&place)).collect();
-        let modes = lay_out(&spec, &blueprint, options);
-        let muffler = MufflerCoefs::new(&spec, &blueprint);
-        let points = [spec.listening_point, spec.far_point];
-        let heard = format!("{} {points:?} {:?}", spec.body(), spec.splitting);
+        let modes = lay_out(spec, &blueprint, ideal.round);
+        let muffler = MufflerCoefs::new(spec, &blueprint);
+        let points = [receivers.near, receivers.far];
+        let heard = (blueprint_key(spec), points, spec.evenness);
         let hearing = HEARINGS.get(&heard, || {
-            let near = Hearing::new(&blueprint, &spec, spec.listening_point);
-            let far = near.from(&blueprint, &spec, spec.far_point);
+            let near = Hearing::new(&blueprint, spec, receivers.near);
+            let far = near.from(&blueprint, spec, receivers.far);
             Ok::<_, SpecError>([near, far])
         })?;
         let bare =
             |mode: &BodyMode| Mode { omega: rungs[mode.pair].omega, sigma: 0.0, mass: rungs[mode.pair].mass };
         let mut surface = Surface::new(SurfaceParts {
             modes: modes.iter().map(bare).collect(),
-            shapes: blueprint.batter_shapes(spec.splitting),
+            shapes: blueprint.batter_shapes(spec.evenness),
             transfer: vec![[0.0; 2]; modes.len()],
-            material: spec.batter.membrane.material,
-            lossless: options.lossless,
+            material: spec.batter.material,
+            lossless: ideal.lossless,
             sample_rate: options.sample_rate,
         });
         surface.set_listener();
         let mut drum = Drum {
             surface,
-            far_shapes: if spec.wires { blueprint.resonant_shapes(spec.splitting) } else { None },
+            far_shapes: spec.wires.and_then(|_| blueprint.resonant_shapes(spec.evenness)),
             blueprint,
             hearing,
-            far_distance: spec.far_point.distance,
+            far_distance: receivers.far.distance,
             modes,
             muffler,
-            lossless: options.lossless,
-            wraps: options.wraps,
+            lossless: ideal.lossless,
+            wraps: spec.contact == HeadContact::Wraps,
             pitch: Glide::new(pitch, low, high),
             muffling: Glide::new(0.0, 0.0, 1.0),
-            preload: Glide::new(PRELOAD.1, PRELOAD.0, PRELOAD.2),
+            preload: Glide::new(*PRELOAD.start(), *PRELOAD.start(), *PRELOAD.end()),
             stale: true,
             shapes_stale: true,
             rungs,
         };
-        if options.high_band {
-            let near = HighBand::new(&drum.blueprint.high_band(&spec, options));
-            let far = drum.blueprint.far_high_band(&spec, options).filter(|_| spec.wires);
+        if spec.high_band {
+            let near = HighBand::new(&drum.blueprint.high_band(spec, context));
+            let far = drum.blueprint.far_high_band(spec, context).filter(|_| spec.wires.is_some());
             drum.surface.set_high_bands(near, far.as_ref().map(HighBand::new));
         }
         drum.follow_controls();
-        if let (Some(resonant), true) = (spec.resonant, spec.wires) {
-            drum.surface.set_wires(&resonant.head.membrane.material);
+        if let (Some(resonant), Some(wires)) = (spec.resonant, spec.wires) {
+            drum.surface.set_wires(&wires, &resonant.material);
         }
-        if spec.rim {
-            let radius = spec.batter.membrane.radius;
-            drum.surface.set_rim(Rim::new(radius, points, options.lossless));
+        if let Some(hoop) = spec.hoop {
+            drum.surface.set_rim(Rim::new(spec.radius(), &hoop, points, ideal.lossless));
         }
         drum.follow_shapes();
-        if !options.linear {
-            let (stretch, modes) = Stretch::new(&spec.batter.membrane, &drum.blueprint, pitch);
+        if !ideal.linear {
+            let (stretch, modes) = Stretch::new(&spec.membrane(&spec.batter), &drum.blueprint, pitch);
             drum.surface.set_potential(Box::new(stretch), modes, stretch::stride(options.sample_rate));
         }
         Ok(drum)
@@ -366,7 +373,7 @@ fn all_around(blueprint: &Blueprint, mode: &tuned::TunedMode, place: &Place) -> 
 /// disc's own directions differ by 6 dB.
 const LONG_WAVE: [f64; 2] = [2.0, 3.0];
 
-/// A slice of the high band as a mode/// A slice of the high band as a mode of the batter; it has no nodes of its own.
+/// A slice of the high band as a mode of the batter; it has no nodes of its own.
 fn sampled(slice: high_band::SliceInfo) -> ModeInfo {
     ModeInfo {
         body: "batter",
@@ -395,15 +402,15 @@ fn describe(blueprint: &Blueprint, mode: &tuned::TunedMode) -> (&'static str, u3
 }
 
 /// Lays the pairs out as modes of a body.
-fn lay_out(spec: &DrumSpec, blueprint: &Blueprint, options: &BuildOptions) -> Vec<BodyMode> {
-    let splitting = if options.unsplit { Splitting::ROUND } else { spec.splitting };
+fn lay_out(spec: &DrumSpec, blueprint: &Blueprint, round: bool) -> Vec<BodyMode> {
+    let splitting = if round { Splitting::ROUND } else { spec.evenness };
     let angle = match spec.muffler {
         Muffler::Gel { angle, .. } => angle,
         Muffler::Pillow { .. } | Muffler::Ring { .. } => 0.0,
     };
     let mut modes = Vec::new();
     for (pair, mode) in blueprint.modes.iter().enumerate() {
-        let turn = f64::from(mode.m) * (angle - spec.splitting.axis(mode.m, 0));
+        let turn = f64::from(mode.m) * (angle - spec.evenness.axis(mode.m, 0));
         let (body, n, _) = describe(blueprint, mode);
         // A pair is split by what it is, not by where it stands, so that a rebuild splits it alike.
         let which = n + 1000 * body.len() as u32;
@@ -420,15 +427,16 @@ fn lay_out(spec: &DrumSpec, blueprint: &Blueprint, options: &BuildOptions) -> Ve
 
 impl MufflerCoefs {
     fn new(spec: &DrumSpec, blueprint: &Blueprint) -> MufflerCoefs {
+        let membrane = spec.membrane(&spec.batter);
         match spec.muffler {
             Muffler::Pillow { sigma, flow } => MufflerCoefs::Pillow(sigma, flow),
             Muffler::Gel { sigma, radius, .. } => {
-                let film = spec.batter.membrane.area_density() * spec.batter.membrane.area();
+                let film = membrane.area_density() * membrane.area();
                 let radial = blueprint.batter.membrane.radial_shapes(&[radius]);
                 MufflerCoefs::Gel { sigma, radius, dashpot: 2.0 * film * sigma, radial }
             }
             Muffler::Ring { sigma, inner } => {
-                let film = spec.batter.membrane.area_density() * spec.batter.membrane.area();
+                let film = membrane.area_density() * membrane.area();
                 let part = |i: usize| (i as f64 + 0.5) / RING_PLACES as f64;
                 let places: Vec<f64> = (0..RING_PLACES)
                     .map(|i| (inner * inner + part(i) * (1.0 - inner * inner)).sqrt())

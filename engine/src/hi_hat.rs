@@ -26,27 +26,28 @@ pub mod half;
 pub mod pair;
 pub mod rigid;
 pub mod rims;
+mod spec;
 mod step;
 
 use std::f64::consts::TAU;
 
-use crate::contact::{ContactLaw, Material, Tip};
+use crate::contact::{ContactLaw, Tip};
 use crate::cymbal::{self, CymbalSpec};
-use crate::damping::{LossLaw, Muffler, SIGMA_T60};
+use crate::damping::SIGMA_T60;
 use crate::error::SpecError;
+use crate::fitted;
 use crate::glide::Glide;
-use crate::listening::ListeningPoint;
 use crate::math::roots;
 use crate::modal::Mode;
-use crate::piece::{BuildOptions, ModeInfo, ModeKind};
-use crate::plate::PlateSpec;
-use crate::split::Splitting;
+use crate::piece::{BuildContext, ModeInfo, ModeKind};
 use crate::surface::{Surface, SurfaceParts};
+
+pub use spec::HiHatSpec;
 
 use foot::SPEED;
 use half::{Damping, Half, Struck};
 use pair::{Pair, PairParts};
-use rigid::{Mount, Rigid};
+use rigid::Rigid;
 
 /// Places around the rims where they may touch.
 pub const POINTS: usize = 16;
@@ -56,88 +57,10 @@ pub const GAP: f64 = 0.030;
 
 /// Where on the pedal's way (a share of it) rims that are not tilted would touch. *By ear*: most of what a foot does happens
 /// about there.
-pub const TOUCHING: f64 = 0.6;
+pub const TOUCHING: f64 = fitted::HAT_TOUCHING;
 
 /// Force at the pedal's end, N. *Derived*: a seventh of a drummer's weight.
 pub const CLAMPING: f64 = 100.0;
-
-/// Bronze as it gives where two hammered rims lie on each other. A place stands for a sixteenth of the rim: seven
-/// centimetres that touch at their highest spots first, and are not flat. It gives by 10 um under its share of a foot's
-/// force, smooth edges (110 GPa) by 2. *Measured*: a closed one, struck with the shoulder, has 82 % of its figures as
-/// recordings have them, 79 % with 5 GPa and 62 % with smooth edges, whose clatter lies too high.
-const WAVY_RIM: Material = Material { youngs_modulus: 4e9, ..Material::BRONZE };
-
-/// A hi-hat's description.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct HiHatSpec {
-    /// The upper cymbal; what it is held by is the clutch.
-    pub top: CymbalSpec,
-    /// The lower cymbal; what it is held by is the seat.
-    pub bottom: CymbalSpec,
-    /// What holds the upper cymbal on the rod.
-    pub clutch: Mount,
-    /// What holds the lower cymbal.
-    pub seat: Mount,
-    /// How far the lower cymbal leans, rad.
-    pub tilt: f64,
-    /// Toward where, rad.
-    pub toward: f64,
-    /// Radius of the rims where they meet, m.
-    pub edge: f64,
-    /// What the upper rim is made of, as the lower one feels it.
-    pub rim: Material,
-    /// Restitution of a landing, a ratio of speeds.
-    pub restitution: f64,
-    /// Decay rate that rims which are clamped together add to every mode of both.
-    pub rubbing: LossLaw,
-    /// Clamping force at which they rub half as much, N.
-    pub half_rubbing: f64,
-    /// Speed of a landing that a touch that lasts is as lossy as, m/s.
-    pub lasting: f64,
-}
-
-impl Default for HiHatSpec {
-    fn default() -> HiHatSpec {
-        let half = |plate, seed| CymbalSpec {
-            plate,
-            shape: cymbal::shape(0.010, (0.045, 0.015)),
-            // *Measured*: with it open ones decay within a quarter as recordings of them do, 3.3 to 2.5 s.
-            loss: LossLaw { constant: 1.2, per_khz: 0.06 },
-            muffler: Muffler::Gel { sigma: 40.0, radius: 0.85, angle: 2.3 },
-            splitting: Splitting { seed, ..Splitting::CYMBAL },
-            ..CymbalSpec::ride()
-        };
-        HiHatSpec {
-            top: half(PlateSpec::HI_HAT_TOP, 5),
-            bottom: half(PlateSpec::HI_HAT_BOTTOM, 6),
-            clutch: Mount { bounce_hz: 60.0, rock_hz: 6.0, q: 2.0, damping: 0.5, reach: 0.08 },
-            seat: Mount { bounce_hz: 50.0, rock_hz: 12.0, q: 2.0, damping: 0.5, reach: 0.12 },
-            tilt: 0.009,
-            toward: 2.0,
-            edge: 1e-3,
-            rim: WAVY_RIM,
-            restitution: 0.2,
-            // *Measured*: with it closed ones decay within a third as recordings of them do, 0.43 to 0.27 s.
-            rubbing: LossLaw { constant: 21.0, per_khz: 0.6 },
-            half_rubbing: 25.0,
-            lasting: 0.02,
-        }
-    }
-}
-
-impl HiHatSpec {
-    /// The same as it stands in the kit, with bells and tapers.
-    #[must_use]
-    pub const fn shaped(self) -> HiHatSpec {
-        HiHatSpec { top: self.top.shaped(), bottom: self.bottom.shaped(), ..self }
-    }
-
-    /// The same heard from two points: near, and in which direction from far.
-    pub fn heard_at(self, listening_point: ListeningPoint, far_point: ListeningPoint) -> HiHatSpec {
-        let heard = |cymbal: CymbalSpec| CymbalSpec { listening_point, far_point, ..cymbal };
-        HiHatSpec { top: heard(self.top), bottom: heard(self.bottom), ..self }
-    }
-}
 
 /// A hi-hat that can be struck and stepped on.
 pub struct HiHat {
@@ -161,19 +84,19 @@ impl HiHat {
     ///
     /// # Errors
     /// [`SpecError`] if a number is out of range.
-    pub fn new(spec: &HiHatSpec, options: &BuildOptions) -> Result<HiHat, SpecError> {
-        SpecError::check("hi-hat tilt (rad)", spec.tilt, 0.0, 0.05)?;
-        SpecError::check("rim's radius (m)", spec.edge, 1e-4, 1e-2)?;
+    pub fn new(spec: &HiHatSpec, context: &BuildContext) -> Result<HiHat, SpecError> {
+        spec.check()?;
+        let BuildContext { options, ideal, .. } = context;
         let highest = options.quality.coupled_hz().min(cymbal::COUPLED_SHARE_OF_RATE * options.sample_rate);
-        let coupled_hz = (!options.linear).then_some(highest);
-        let (top, struck) = Half::new(&spec.top, (&spec.clutch, spec.rubbing), coupled_hz, options)?;
-        let (bottom, _) = Half::new(&spec.bottom, (&spec.seat, spec.rubbing), None, options)?;
-        let (surface, halves) = assemble(spec, options, [top, bottom], struck);
+        let coupled_hz = (!ideal.linear).then_some(highest);
+        let (top, struck) = Half::new(&spec.top, (&spec.clutch, spec.rubbing), coupled_hz, context)?;
+        let (bottom, _) = Half::new(&spec.bottom, (&spec.seat, spec.rubbing), None, context)?;
+        let (surface, halves) = assemble(spec, context, [top, bottom], struck);
         let (low, tuning, high) = CymbalSpec::TUNING;
         let mut hat = HiHat {
             surface,
             halves,
-            lossless: options.lossless,
+            lossless: ideal.lossless,
             tuning: Glide::new(tuning, low, high),
             muffling: Glide::new(0.0, 0.0, 1.0),
             hand: Glide::new(0.0, 0.0, 1.0),
@@ -365,23 +288,24 @@ pub const SPLASHING: f64 = 0.2;
 const RUBBING_STEP: f64 = 0.01;
 
 /// How far apart a foot that is down lifts the rims before it stamps, m. *By ear*: enough to be heard to close.
-const LIFT: f64 = 3e-3;
+const LIFT: f64 = fitted::HAT_LIFT;
 
 /// The upper cymbal as what is struck, with all else hung on it.
 fn assemble(
     spec: &HiHatSpec,
-    options: &BuildOptions,
+    context: &BuildContext,
     [mut top, mut bottom]: [Half; 2],
     struck: Struck,
 ) -> (Surface, [Half; 2]) {
-    let lossless = options.lossless;
+    let BuildContext { options, ideal, .. } = context;
+    let lossless = ideal.lossless;
     let undamped = Damping { muffling: 0.0, hand: 0.0, rubbing: 0.0, lossless: true };
     let bare = |half: &Half| (0..half.modes.len()).map(|k| half.mode(k, 1.0, &undamped)).collect();
     let mut surface = Surface::new(SurfaceParts {
         modes: bare(&top),
         shapes: struck.shapes,
         transfer: vec![[0.0; 2]; top.modes.len()],
-        material: spec.top.material,
+        material: spec.top.alloy,
         lossless,
         sample_rate: options.sample_rate,
     });
@@ -395,8 +319,8 @@ fn assemble(
         );
     }
     let tip = Tip::Solid { material: spec.rim, radius: spec.edge };
-    let law = ContactLaw::new(&tip, &spec.bottom.material, if lossless { 1.0 } else { spec.restitution });
-    let leaning = spec.top.plate.radius() * spec.tilt;
+    let law = ContactLaw::new(&tip, &spec.bottom.alloy, if lossless { 1.0 } else { spec.restitution });
+    let leaning = spec.top.plate().radius() * spec.tilt;
     let dt = 1.0 / options.sample_rate;
     let rigid = [(&top, &spec.clutch), (&bottom, &spec.seat)]
         .map(|(half, mount)| Rigid::new(half.mass, mount, lossless, dt));

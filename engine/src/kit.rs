@@ -12,22 +12,26 @@
 //! reaches another piece within a run ([`Kit::min_delay`]), so that pieces are rendered apart from each other.
 
 mod air;
+mod arrangement;
 mod control;
 mod gain;
 mod leaving;
 mod line;
 mod mix;
 mod post;
-mod room;
+pub mod room;
 
+pub use arrangement::Arrangement;
 pub use control::{Control, Microphone};
 pub use gain::{LOUDEST_DB, SILENT_DB};
 pub use post::{Crew, Post};
 
 use crate::hi_hat::SPLASHING;
 use crate::hi_hat::foot::SPEED;
+use crate::kit_spec::{KitSpec, Kind, PieceSpec};
 use crate::layout::{Layout, Pair};
-use crate::piece::{Piece, PieceId};
+use crate::piece::Piece;
+use crate::slot::{SLOTS, Slot};
 use crate::snapshot::KitSnapshot;
 use crate::strike::Strike;
 use crate::surface::wires::PRELOAD;
@@ -42,16 +46,17 @@ pub const BLOCK: usize = 32;
 /// Sound pressure of full scale before the levels, Pa.
 pub const FULL_SCALE: f32 = 20.0;
 
-/// Outputs beside the main one: each piece's close microphone, in the order of [`PieceId::KIT`], the overheads, the room.
-pub const OUTPUTS: usize = PieceId::KIT.len() + PAIRS;
+/// Outputs beside the main one: the close microphone of each slot, the overheads, the room.
+pub const OUTPUTS: usize = SLOTS + PAIRS;
 
 /// The silence of the room is looked for once in so many blocks.
 const SETTLE_BLOCKS: u64 = 128;
 
 /// A gain for every piece over a run.
-type GainRuns = [GainRun; PieceId::KIT.len()];
+type GainRuns = [GainRun; SLOTS];
 
 /// What a piece is to take over when it is installed.
+#[derive(Debug, Clone, Copy)]
 struct Seat {
     tuning: f64,
     muffling: f64,
@@ -63,11 +68,26 @@ struct Seat {
 /// Two outputs of one length: left, right; full scale is 1.
 pub type Stereo<'a> = [&'a mut [f32]; 2];
 
+impl Seat {
+    /// As a piece of that description stands before anybody moves its controls.
+    fn of(piece: Option<&PieceSpec>) -> Seat {
+        Seat {
+            tuning: piece.map_or(1.0, |piece| piece.instrument.tunings()[1]),
+            muffling: piece.map_or(0.0, |piece| piece.defaults.muffle),
+            preload: piece.and_then(|piece| piece.defaults.preload).unwrap_or(*PRELOAD.start()),
+            wires: true,
+            pedal: 0.0,
+        }
+    }
+}
+
 /// The drum kit. Owns its pieces; renders them; the only way sound leaves the engine.
 pub struct Kit {
-    /// Pieces with their runs; one is missing only while a [`Crew`] has not brought it back.
-    posts: [Option<Box<Post>>; PieceId::KIT.len()],
-    seats: [Seat; PieceId::KIT.len()],
+    /// `[slot]`: pieces with their runs; one is missing only while a [`Crew`] has not brought it back.
+    posts: [Option<Box<Post>>; SLOTS],
+    seats: [Seat; SLOTS],
+    /// Slots that are to hold a piece.
+    wanted: [bool; SLOTS],
     crew: Option<Box<dyn Crew>>,
     air: Air,
     desk: Desk,
@@ -82,25 +102,16 @@ pub struct Kit {
 }
 
 impl Kit {
-    /// An empty kit at a sample rate (Hz). Pieces arrive through [`install`](Self::install).
-    pub fn new(sample_rate: f64) -> Kit {
-        Kit::with_layout(sample_rate, &Layout::default())
-    }
-
-    /// An empty kit that stands so, at a sample rate in Hz.
-    pub fn with_layout(sample_rate: f64, layout: &Layout) -> Kit {
+    /// A kit of that description at a sample rate (Hz), without its pieces: they arrive through
+    /// [`install`](Self::install). Its controls are where the description has them. Allocates.
+    pub fn new(sample_rate: f64, spec: &KitSpec) -> Kit {
         Kit {
             posts: std::array::from_fn(|_| Some(Box::new(Post::new(sample_rate)))),
-            seats: PieceId::KIT.map(|id| Seat {
-                tuning: Piece::tuning_range(id).1,
-                muffling: 0.0,
-                preload: PRELOAD.1,
-                wires: true,
-                pedal: 0.0,
-            }),
+            seats: Slot::ALL.map(|slot| Seat::of(spec.piece(slot))),
+            wanted: Slot::ALL.map(|slot| spec.piece(slot).is_some()),
             crew: None,
-            air: Air::new(sample_rate, layout),
-            desk: Desk::new(sample_rate, layout),
+            air: Air::new(sample_rate, &spec.layout(), &spec.room),
+            desk: Desk::new(sample_rate, spec),
             hearing: true,
             sympathy: 1.0,
             ears: Gain::new(sample_rate),
@@ -137,7 +148,7 @@ impl Kit {
 
     /// Puts the overheads or the room pair somewhere, m, not farther than [`FARTHEST`](crate::layout::FARTHEST) from any piece;
     /// what is heard fades over in some hundredths of a second. A close microphone is where its piece was built to
-    /// be heard: see [`BuildOptions::close`](crate::piece::BuildOptions::close).
+    /// be heard.
     ///
     /// # Real-time
     /// No allocation, no lock.
@@ -151,24 +162,22 @@ impl Kit {
         }
     }
 
-    fn mut_piece(&mut self, id: PieceId) -> Option<&mut Box<Piece>> {
-        self.posts[id.slot()?].as_mut()?.piece.as_mut()
+    fn mut_piece(&mut self, slot: Slot) -> Option<&mut Box<Piece>> {
+        self.posts[slot.index()].as_mut()?.piece.as_mut()
     }
 
-    /// Puts a piece in its place and returns what stood there, to be dropped elsewhere.
+    /// Puts a piece in its slot and returns what stood there, to be dropped elsewhere.
     ///
-    /// The piece takes over the present tuning and muffling. What stood there and still sounds fades out
-    /// first; it is handed back by [`retire`](Self::retire) once it has. A piece that does not belong to the
-    /// kit is handed back.
+    /// The piece takes over the slot's present tuning and muffling. What stood there and still sounds fades out
+    /// first; it is handed back by [`retire`](Self::retire) once it has. A piece of a slot that is away with the crew is
+    /// handed back.
     ///
     /// # Real-time
     /// No allocation; nothing is dropped here.
     pub fn install(&mut self, mut piece: Box<Piece>) -> Option<Box<Piece>> {
-        let Some((slot, post)) = piece.id().slot().and_then(|slot| Some((slot, self.posts[slot].as_mut()?)))
-        else {
-            return Some(piece);
-        };
-        let seat = &self.seats[slot];
+        let slot = piece.slot();
+        let Some(post) = self.posts[slot.index()].as_mut() else { return Some(piece) };
+        let seat = &self.seats[slot.index()];
         piece.set_tuning(seat.tuning);
         piece.set_muffling(seat.muffling);
         piece.set_preload(seat.preload);
@@ -176,9 +185,27 @@ impl Kit {
         piece.press_pedal(seat.pedal, SPEED.1);
         piece.finish_controls();
         piece.align((self.clock % BLOCK as u64) as usize);
-        self.air.place_close(slot, piece.close());
+        self.wanted[slot.index()] = true;
+        self.air.place_slot(slot, &piece);
         let former = post.piece.replace(piece)?;
         post.leaving.see_off(former)
+    }
+
+    /// Takes over who is to be in which slot, where the microphones usually stand, and the room. Pieces of slots that are to
+    /// be empty fade out; all others play on until others are [installed](Self::install) in their place. What is not
+    /// needed any more is in the arrangement that comes back, to be dropped elsewhere.
+    ///
+    /// # Real-time
+    /// No allocation; nothing is dropped here.
+    pub fn arrange(&mut self, mut arrangement: Box<Arrangement>) -> Box<Arrangement> {
+        self.wanted = arrangement.layout.pieces.map(|place| place.is_some());
+        self.air.arrange(&mut arrangement);
+        for ((post, wanted), removed) in self.posts.iter_mut().zip(self.wanted).zip(&mut arrangement.removed) {
+            if let Some(post) = post.as_mut().filter(|_| !wanted) {
+                *removed = post.piece.take().and_then(|piece| post.leaving.see_off(piece));
+            }
+        }
+        arrangement
     }
 
     /// Hands back a replaced piece that has faded out, to be dropped elsewhere; one a call.
@@ -189,22 +216,27 @@ impl Kit {
         self.posts.iter_mut().flatten().find_map(|post| post.leaving.gone())
     }
 
-    /// Whether every piece has been installed.
+    /// Whether every piece of the description has been installed.
     pub fn is_complete(&self) -> bool {
-        PieceId::KIT.iter().all(|&id| self.piece(id).is_some())
+        Slot::ALL.into_iter().all(|slot| !self.wanted[slot.index()] || self.piece(slot).is_some())
     }
 
-    /// The piece of that name, once installed.
-    pub fn piece(&self, id: PieceId) -> Option<&Piece> {
-        self.posts[id.slot()?].as_ref()?.piece.as_deref()
+    /// The piece of a slot, once installed.
+    pub fn piece(&self, slot: Slot) -> Option<&Piece> {
+        self.posts[slot.index()].as_ref()?.piece.as_deref()
+    }
+
+    /// The piece of a slot, to be looked at closely by tests and tools.
+    pub fn piece_mut(&mut self, slot: Slot) -> Option<&mut Piece> {
+        self.posts[slot.index()].as_mut()?.piece.as_deref_mut()
     }
 
     /// Strikes a piece at the next sample. A stroke on a piece not yet built is dropped and counted.
     ///
     /// # Real-time
     /// No allocation, no lock.
-    pub fn strike(&mut self, id: PieceId, strike: &Strike) {
-        match self.mut_piece(id) {
+    pub fn strike(&mut self, slot: Slot, strike: &Strike) {
+        match self.mut_piece(slot) {
             Some(piece) => piece.strike(strike),
             None => self.dropped_strikes = self.dropped_strikes.saturating_add(1),
         }
@@ -214,14 +246,14 @@ impl Kit {
     ///
     /// # Real-time
     /// No allocation, no lock.
-    pub fn choke(&mut self, id: PieceId, strength: f64) {
-        if let Some(piece) = self.mut_piece(id).filter(|_| !strength.is_nan()) {
+    pub fn choke(&mut self, slot: Slot, strength: f64) {
+        if let Some(piece) = self.mut_piece(slot).filter(|_| !strength.is_nan()) {
             piece.choke(strength);
         }
     }
 
     /// Moves a control from the next sample on, to the nearest end of its range if beyond it. A NaN
-    /// is ignored, and so is a piece that does not belong to the kit.
+    /// is ignored, and so is a control that the slot's piece does not have.
     ///
     /// # Real-time
     /// No allocation, no lock.
@@ -232,8 +264,8 @@ impl Kit {
         let on = value >= 0.5;
         match control {
             Control::Master => self.desk.set_master(value),
-            Control::Level(id) => self.desk.set_level(id, value),
-            Control::Pan(id) => self.desk.set_balance(Microphone::Close(id), value),
+            Control::Level(slot) => self.desk.set_level(slot, value),
+            Control::Pan(slot) => self.desk.set_balance(Microphone::Close(slot), value),
             Control::Balance(microphone) => self.desk.set_balance(microphone, value),
             Control::MicrophoneLevel(microphone) => self.desk.set_strip_level(microphone, value),
             Control::CloseLevel => self.desk.set_close(value),
@@ -242,24 +274,24 @@ impl Kit {
             Control::SafetyClip => self.desk.set_clip(on),
             Control::Hearing => self.listen(on, self.sympathy),
             Control::Sympathy => self.listen(self.hearing, value.clamp(0.0, 1.0) as f32),
-            Control::Pedal => self.press_pedal(value, SPEED.1),
-            Control::SnarePreload => self.adjust(PieceId::Snare, control, value),
-            Control::SnareWires => self.adjust(PieceId::Snare, control, value),
-            Control::Tuning(id) | Control::Muffling(id) => self.adjust(id, control, value),
+            Control::Pedal(slot) => self.press_pedal(slot, value, SPEED.1),
+            Control::Preload(slot)
+            | Control::Wires(slot)
+            | Control::Tuning(slot)
+            | Control::Muffling(slot) => self.adjust(slot, control, value),
         }
     }
 
     /// Moves a control of a piece, and of whatever takes its place.
-    fn adjust(&mut self, id: PieceId, control: Control, value: f64) {
-        let Some(slot) = id.slot() else { return };
-        let seat = &mut self.seats[slot];
-        let piece = self.posts[slot].as_mut().and_then(|post| post.piece.as_mut());
+    fn adjust(&mut self, slot: Slot, control: Control, value: f64) {
+        let seat = &mut self.seats[slot.index()];
+        let piece = self.posts[slot.index()].as_mut().and_then(|post| post.piece.as_mut());
         match control {
-            Control::SnarePreload => {
+            Control::Preload(_) => {
                 seat.preload = value;
                 piece.into_iter().for_each(|piece| piece.set_preload(value));
             }
-            Control::SnareWires => {
+            Control::Wires(_) => {
                 seat.wires = value >= 0.5;
                 piece.into_iter().for_each(|piece| piece.throw_wires(value >= 0.5));
             }
@@ -279,41 +311,41 @@ impl Kit {
         self.ears.set(if hearing { sympathy } else { 0.0 });
     }
 
-    /// Lets somebody step on the hi-hat's pedal, which is then left at a place, 0 to 1, given where it was; on a
+    /// Lets somebody step on a slot's pedal, which is then left at a place, 0 to 1, given where it was; on a
     /// piece that comes later it is there at once.
-    fn step_on(&mut self, left: impl FnOnce(f64) -> f64, step: impl FnOnce(&mut Piece)) {
-        let Some(slot) = PieceId::HiHat.slot() else { return };
-        self.seats[slot].pedal = left(self.seats[slot].pedal);
-        if let Some(piece) = self.mut_piece(PieceId::HiHat) {
+    fn step_on(&mut self, slot: Slot, left: impl FnOnce(f64) -> f64, step: impl FnOnce(&mut Piece)) {
+        let seat = &mut self.seats[slot.index()];
+        seat.pedal = left(seat.pedal);
+        if let Some(piece) = self.mut_piece(slot) {
             step(piece);
         }
     }
 
-    /// Brings the hi-hat's pedal to a place, 0 (up) to 1 (down), at up to a speed (m/s); see
+    /// Brings a hi-hat's pedal to a place, 0 (up) to 1 (down), at up to a speed (m/s); see
     /// [`Piece::press_pedal`]. A NaN is ignored.
     ///
     /// # Real-time
     /// No allocation, no lock.
-    pub fn press_pedal(&mut self, pedal: f64, speed: f64) {
+    pub fn press_pedal(&mut self, slot: Slot, pedal: f64, speed: f64) {
         if !pedal.is_nan() {
-            self.step_on(|_| pedal, |hat| hat.press_pedal(pedal, speed));
+            self.step_on(slot, |_| pedal, |hat| hat.press_pedal(pedal, speed));
         }
     }
 
-    /// Stamps on the hi-hat's pedal, at up to a speed (m/s); see [`Piece::stamp_pedal`].
+    /// Stamps on a hi-hat's pedal, at up to a speed (m/s); see [`Piece::stamp_pedal`].
     ///
     /// # Real-time
     /// No allocation, no lock.
-    pub fn stamp_pedal(&mut self, speed: f64) {
-        self.step_on(|_| 1.0, |hat| hat.stamp_pedal(speed));
+    pub fn stamp_pedal(&mut self, slot: Slot, speed: f64) {
+        self.step_on(slot, |_| 1.0, |hat| hat.stamp_pedal(speed));
     }
 
-    /// Splashes with the hi-hat's pedal, at up to a speed (m/s); see [`Piece::splash_pedal`].
+    /// Splashes with a hi-hat's pedal, at up to a speed (m/s); see [`Piece::splash_pedal`].
     ///
     /// # Real-time
     /// No allocation, no lock.
-    pub fn splash_pedal(&mut self, speed: f64) {
-        self.step_on(|pedal| pedal.min(SPLASHING), |hat| hat.splash_pedal(speed));
+    pub fn splash_pedal(&mut self, slot: Slot, speed: f64) {
+        self.step_on(slot, |pedal| pedal.min(SPLASHING), |hat| hat.splash_pedal(speed));
     }
 
     /// Lets every control arrive at once: for setting the kit up before it sounds.
@@ -342,7 +374,7 @@ impl Kit {
 
     /// [`render`](Self::render), and in the same pass each piece by itself.
     ///
-    /// `outputs` are the close microphones in the order of [`PieceId::KIT`], then the overheads, then the room, before the
+    /// `outputs` are the close microphones of all [`SLOTS`], then the overheads, then the room, before the
     /// master: they add up to what the master gets. Pairs that are left out at the end, or shorter than the main
     /// one, are not written: an output that nobody listens to is a pair of empty slices. What is written to
     /// `main` does not depend on them.
@@ -387,6 +419,12 @@ impl Kit {
             .map(|output| output.each_mut().map(|side| side.get_mut(at..at + samples).unwrap_or_default()));
         let mut sent = [0.0; BLOCK];
         for (slot, post) in posts.iter().enumerate() {
+            if post.as_ref().is_some_and(|post| post.is_empty()) && air.is_slot_silent(slot) {
+                for side in outputs.next().into_iter().flatten() {
+                    side.fill(0.0);
+                }
+                continue;
+            }
             // One that has come back late has the sound of an earlier run.
             match post.as_ref().filter(|post| post.due == *clock) {
                 Some(post) => {
@@ -411,7 +449,7 @@ impl Kit {
                 air.tail(&sent[..samples], &mut heard);
             }
             let [left, right] = heard.each_ref().map(|side| &side[..samples]);
-            desk.add(PieceId::KIT.len() + pair, [left, right], &mut main, outputs.next());
+            desk.add(SLOTS + pair, [left, right], &mut main, outputs.next());
         }
         desk.finish(&mut main);
     }
@@ -420,10 +458,11 @@ impl Kit {
     fn render_posts(&mut self, samples: usize) {
         let deaf = self.ears.is_shut();
         let amount = self.ears.run(samples);
-        for (slot, (id, post)) in PieceId::KIT.iter().zip(&mut self.posts).enumerate() {
+        for (slot, post) in self.posts.iter_mut().enumerate() {
             let Some(post) = post else { continue };
             post.prepare(self.resets, self.clock, samples);
-            if id.is_drum() && !deaf {
+            let listens = post.piece.as_ref().is_some_and(|piece| piece.kind() == Kind::Drum);
+            if listens && !deaf {
                 self.air.arrive(slot, self.clock, &amount, post);
             }
         }

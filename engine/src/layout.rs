@@ -4,7 +4,7 @@
 //! floor under the middle of the kit.
 
 use crate::listening::ListeningPoint;
-use crate::piece::PieceId;
+use crate::slot::{SLOTS, Slot};
 
 /// A place, m.
 pub type Point = [f64; 3];
@@ -46,22 +46,10 @@ pub struct Placement {
 }
 
 impl Placement {
-    /// Where the piece stands by default.
-    pub fn of(id: PieceId) -> Placement {
-        let (centre, normal, depth, radius) = match id {
-            PieceId::Kick => ([0.0, 0.30, -0.23], [0.0, 0.0, -1.0], 0.457, 0.279),
-            PieceId::Snare => ([-0.40, 0.66, -0.40], [0.0, 0.97, -0.24], 0.140, 0.178),
-            PieceId::RackTom => ([-0.14, 0.88, -0.12], [0.15, 0.85, -0.5], 0.229, 0.152),
-            PieceId::FloorTom => ([0.47, 0.62, -0.34], [0.0, 1.0, 0.0], 0.406, 0.203),
-            PieceId::Crash => ([-0.64, 1.20, 0.0], [0.22, 0.95, -0.25], 0.0, 0.0),
-            PieceId::Ride => ([0.68, 1.06, -0.04], [-0.16, 0.96, -0.22], 0.0, 0.0),
-            PieceId::Splash => ([0.16, 1.22, 0.08], [0.0, 0.97, -0.25], 0.0, 0.0),
-            PieceId::HiHat => ([-0.72, 0.86, -0.30], [0.0, 1.0, 0.0], 0.0, 0.0),
-            // Beyond the floor tom, a turn of the stool away. A kettle is closed.
-            PieceId::Timpani => ([0.86, 0.78, -0.86], [-0.1, 0.99, -0.05], 0.0, 0.330),
-        };
-        let length = length(&normal);
-        Placement { centre, normal: normal.map(|x| x / length), depth, radius }
+    /// A piece whose struck surface has that centre (m) and faces that way, with a body of that depth and radius, m.
+    pub fn new(centre: Point, facing: Point, depth: f64, radius: f64) -> Placement {
+        let length = length(&facing);
+        Placement { centre, normal: facing.map(|x| x / length), depth, radius }
     }
 
     /// A place on the axis, so far behind the struck surface, m.
@@ -112,49 +100,30 @@ pub type Pair = [Point; 2];
 /// Where everything stands.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Layout {
-    /// In the order of [`PieceId::KIT`].
-    pub pieces: [Placement; PieceId::KIT.len()],
+    /// `[slot]`.
+    pub pieces: [Option<Placement>; SLOTS],
     /// The pair above the kit.
     pub overheads: Pair,
     /// The pair in the room.
     pub room: Pair,
 }
 
-impl Default for Layout {
-    fn default() -> Layout {
-        Layout {
-            pieces: PieceId::KIT.map(Placement::of),
-            // A spaced pair, both 1.33 m from the snare, so it stands in the middle.
-            overheads: [[-0.85, 1.90, -0.20], [0.45, 1.68, -0.50]],
-            room: [[-1.2, 1.6, 2.8], [1.2, 1.6, 2.8]],
-        }
-    }
-}
-
 impl Layout {
-    /// The direction in which a piece of the default layout is heard from far: that of the overheads' middle.
-    pub fn far_point(id: PieceId) -> ListeningPoint {
-        let [left, right] = Layout::default().overheads;
-        let middle = std::array::from_fn(|i| 0.5 * (left[i] + right[i]));
-        let seen = Placement::of(id).sees(&middle);
-        ListeningPoint::far(seen.inclination, seen.azimuth)
-    }
-
-    /// The way of sound between two pieces, m, by place in [`PieceId::KIT`]: from the middle of one to the struck head
+    /// The way of sound between the pieces of two slots, m: from the middle of one to the struck head
     /// of the other, the shorter of the two. The same both ways: if it were not, the air between them would do
     /// work. Nor is it less than the radii of both: what each sends out and feels as a point, with no account of how its own
-    /// modes move the air for each other, would do work in the other's place.
-    pub fn way(&self, a: usize, b: usize) -> f64 {
-        let [a, b] = [a, b].map(|piece| &self.pieces[piece]);
+    /// modes move the air for each other, would do work in the other's place. None if a slot is empty.
+    pub fn way(&self, a: Slot, b: Slot) -> Option<f64> {
+        let (a, b) = (self.pieces[a.index()]?, self.pieces[b.index()]?);
         let ways = [distance(&a.source(), &b.centre), distance(&b.source(), &a.centre)];
-        ways[0].min(ways[1]).clamp(NEAREST.max(a.radius + b.radius), FARTHEST)
+        Some(ways[0].min(ways[1]).clamp(NEAREST.max(a.radius + b.radius), FARTHEST))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drum::DrumSpec;
+    use crate::kit_spec::KitSpec;
     use std::f64::consts::FRAC_PI_2;
 
     #[test]
@@ -169,43 +138,31 @@ mod tests {
     }
 
     #[test]
-    fn shells_are_as_wide_as_their_heads() {
-        let drums = [
-            (PieceId::Kick, DrumSpec::kick()),
-            (PieceId::Snare, DrumSpec::snare()),
-            (PieceId::RackTom, DrumSpec::rack_tom()),
-            (PieceId::FloorTom, DrumSpec::floor_tom()),
-            (PieceId::Timpani, DrumSpec::timpani()),
-        ];
-        for (id, drum) in drums {
-            let head = drum.batter.membrane.radius;
-            assert!((Placement::of(id).radius - head).abs() < 1e-3, "{id:?}: {head}");
-        }
-    }
-
-    #[test]
     fn drums_keep_as_far_apart_as_their_shells_do_and_stand_so_by_default() {
-        let layout = Layout::default();
-        let drums = || PieceId::KIT.into_iter().filter(|id| id.is_drum()).filter_map(PieceId::slot);
+        let kit = KitSpec::standard();
+        let layout = kit.layout();
         let mut crowded = layout;
-        crowded.pieces.iter_mut().for_each(|piece| piece.centre = [0.0, 0.7, 0.0]);
-        for (a, b) in drums().flat_map(|a| drums().filter(move |&b| b != a).map(move |b| (a, b))) {
-            let shells = layout.pieces[a].radius + layout.pieces[b].radius;
-            assert!(shells > NEAREST && crowded.way(a, b) >= shells, "{a} {b}");
+        crowded.pieces.iter_mut().flatten().for_each(|piece| piece.centre = [0.0, 0.7, 0.0]);
+        let drums: Vec<Slot> = kit.drums().map(|(slot, _)| slot).collect();
+        for (&a, &b) in drums.iter().flat_map(|a| drums.iter().filter(move |b| *b != a).map(move |b| (a, b))) {
+            let [from, to] = [a, b].map(|slot| layout.pieces[slot.index()].unwrap());
+            let shells = from.radius + to.radius;
+            assert!(shells > NEAREST && crowded.way(a, b).unwrap() >= shells, "{a:?} {b:?}");
             // By default it is the places that decide.
-            let [from, to] = [a, b].map(|piece| &layout.pieces[piece]);
             let placed = distance(&from.source(), &to.centre).min(distance(&to.source(), &from.centre));
-            assert_eq!(layout.way(a, b), placed, "{a} {b}");
+            assert_eq!(layout.way(a, b), Some(placed), "{a:?} {b:?}");
         }
+        assert_eq!(layout.way(drums[0], Slot::ALL[SLOTS - 1]), None);
     }
 
     #[test]
     fn the_overheads_stand_as_far_from_the_snare_and_above_every_piece() {
-        let layout = Layout::default();
-        let snare = layout.pieces[1].centre;
+        let kit = KitSpec::standard();
+        let layout = kit.layout();
+        let snare = kit.find("snare").unwrap().1.place.centre;
         let [left, right] = layout.overheads.map(|place| distance(&place, &snare));
         assert!((left - right).abs() < 0.02, "{left} {right}");
-        for piece in layout.pieces {
+        for piece in layout.pieces.iter().flatten() {
             assert!(layout.overheads.iter().all(|place| place[1] > piece.centre[1] + 0.3));
         }
     }

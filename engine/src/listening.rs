@@ -21,21 +21,35 @@ pub(crate) mod rings;
 use std::f64::consts::{PI, TAU};
 
 use overhear_kept::Shared;
+use serde::{Deserialize, Serialize};
 
 use crate::air::{DENSITY, SPEED_OF_SOUND};
 use crate::math::quadrature::{self, GaussLegendre};
+use crate::numbers::{Numbers, Visitor};
 use crate::piece::Member;
 use rings::Rings;
 
 /// A listening point beside a disc.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct ListeningPoint {
-    /// Distance from the disc's centre, m.
+    /// Distance from the disc's centre, m, 0.02 to 20.
+    #[serde(rename = "distance_m")]
     pub distance: f64,
-    /// Angle from the disc's axis, rad, 0 to below pi/2.
+    /// Angle from the disc's axis, rad, 0 to 1.5.
+    #[serde(rename = "inclination_rad")]
     pub inclination: f64,
-    /// Direction of the point seen from the centre, in the disc's own angle, rad.
+    /// Direction of the point seen from the centre, in the disc's own angle, rad, -2 pi to 2 pi.
+    #[serde(rename = "azimuth_rad")]
     pub azimuth: f64,
+}
+
+impl Numbers for ListeningPoint {
+    fn visit(&mut self, visitor: &mut dyn Visitor) {
+        visitor.number("distance_m", &mut self.distance, 0.02..=20.0);
+        visitor.number("inclination_rad", &mut self.inclination, 0.0..=1.5);
+        visitor.number("azimuth_rad", &mut self.azimuth, -TAU..=TAU);
+    }
 }
 
 /// Distance from which everything is far, m: a head's finest wave in air reaches its far field within half of it.

@@ -19,6 +19,7 @@ use crate::air::{self, MassCurve, MassCurves, MembraneAir};
 use crate::contact::Material;
 use crate::damping::LossLaw;
 use crate::error::SpecError;
+use crate::fitted;
 use crate::math::bessel::{self, JTable};
 
 /// A drum head.
@@ -88,9 +89,8 @@ pub struct Membrane {
 }
 
 /// Flexural rigidity of two plies that slide on one another over that of one film as thick, dimensionless: 1/4 if nothing
-/// held them together. *Measured*: of 0.4 to 0.8 the middle, with which toms brighten with the stroke nearest to recorded
-/// ones.
-const BOND: f64 = 0.6;
+/// held them together. *Fitted*.
+const BOND: f64 = fitted::PLY_BOND;
 
 impl MembraneSpec {
     /// Checks every number.
@@ -101,7 +101,7 @@ impl MembraneSpec {
         SpecError::check("head radius (m)", self.radius, 0.05, 1.0)?;
         SpecError::check("head thickness (m)", self.thickness, 1e-5, 2e-3)?;
         SpecError::check("plies", f64::from(self.plies), 1.0, 2.0)?;
-        SpecError::check("film density (kg/m3)", self.material.density, 100.0, 20_000.0)?;
+        SpecError::check("film density (kg/m3)", self.material.density, 100.0, 25_000.0)?;
         Ok(self)
     }
 

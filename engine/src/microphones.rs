@@ -1,26 +1,119 @@
-//! Where the close microphones stand unless somebody moves them, and how far they are turned up.
+//! Where the close microphones stand, and how far they are turned up.
 //!
 //! A drum's hangs over its rim, on the side away from the player, where clips hold them. So near a head every mode is
-//! heard, also those that radiate next to nothing; [`listening`](crate::listening) has the near field. *Measured*:
+//! heard, also those that radiate next to nothing; [`listening`](crate::listening) has the near field. *Fitted*:
 //! of nine places from 5 to 50 cm this one brings 49 of 60 features of kick, snare and toms into the range of
 //! recordings (`cargo xtask realism` measures them), one fewer than 15 cm over .8 of the radius and as close to their
 //! middles as any; over the middle of a head its lowest modes drown all else.
 //! Cymbals and the timpani are heard from half a metre.
 
-use crate::drum::DrumSpec;
+use serde::{Deserialize, Serialize};
+
+use crate::fitted;
 use crate::layout::CLOSE;
 use crate::listening::ListeningPoint;
-use crate::piece::PieceId;
+use crate::numbers::{Numbers, Visitor};
 
-/// Height over the rim, m.
-const HEIGHT: f64 = 0.08;
+/// A close microphone's description.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum CloseSpec {
+    /// Over the rim of a drum.
+    OverRim {
+        /// Height over the rim, m, 0.02 to 0.5.
+        #[serde(rename = "height_m")]
+        height: f64,
+        /// Direction from the drum's middle, rad; 0 is toward the player; -2 pi to 2 pi.
+        #[serde(rename = "azimuth_rad")]
+        azimuth: f64,
+        /// Gain of its preamplifier, a factor, 0.001 to 10.
+        gain: f64,
+    },
+    /// Beside the struck surface.
+    Beside {
+        /// Distance from its centre, m, 0.05 to 3.
+        #[serde(rename = "distance_m")]
+        distance: f64,
+        /// Angle from its axis, rad, 0 to 1.4.
+        #[serde(rename = "inclination_rad")]
+        inclination: f64,
+        /// Direction from its centre, rad; 0 is toward the player; -2 pi to 2 pi.
+        #[serde(rename = "azimuth_rad")]
+        azimuth: f64,
+        /// Distance at which sound is time zero of the mix, m, 0.05 to 3.
+        #[serde(rename = "time_zero_m")]
+        time_zero: f64,
+        /// Gain of its preamplifier, a factor, 0.001 to 10.
+        gain: f64,
+    },
+}
 
-/// Direction from the drum's middle, rad; 0 is toward the player. Out of the way of sticks.
-const DIRECTION: f64 = 2.5;
+impl Numbers for CloseSpec {
+    fn visit(&mut self, visitor: &mut dyn Visitor) {
+        const AROUND: std::ops::RangeInclusive<f64> = -std::f64::consts::TAU..=std::f64::consts::TAU;
+        match self {
+            CloseSpec::OverRim { height, azimuth, gain } => {
+                visitor.number("height_m", height, 0.02..=0.5);
+                visitor.number("azimuth_rad", azimuth, AROUND);
+                visitor.number("gain", gain, 1e-3..=10.0);
+            }
+            CloseSpec::Beside { distance, inclination, azimuth, time_zero, gain } => {
+                visitor.number("distance_m", distance, 0.05..=3.0);
+                visitor.number("inclination_rad", inclination, 0.0..=1.4);
+                visitor.number("azimuth_rad", azimuth, AROUND);
+                visitor.number("time_zero_m", time_zero, 0.05..=3.0);
+                visitor.number("gain", gain, 1e-3..=10.0);
+            }
+        }
+    }
+}
 
-/// Gain of a microphone over a rim. *Measured*: a stroke at 6 m/s is as loud as from half a metre, within 1.5 dB, on
-/// every drum; so a preamplifier would be set.
-const PAD: f32 = 0.28;
+impl CloseSpec {
+    /// Over a rim as it is clipped there, out of the way of sticks. Its gain is *fitted*: a stroke at 6 m/s is as loud as
+    /// from half a metre, within 1.5 dB, on every drum of the standard kit; so a preamplifier would be set.
+    pub const OVER_RIM: CloseSpec = CloseSpec::OverRim {
+        height: fitted::OVER_RIM_HEIGHT,
+        azimuth: fitted::OVER_RIM_AZIMUTH,
+        gain: fitted::OVER_RIM_GAIN,
+    };
+
+    /// At a point, with a gain of 1.
+    pub const fn beside(point: ListeningPoint) -> CloseSpec {
+        let ListeningPoint { distance, inclination, azimuth } = point;
+        CloseSpec::Beside { distance, inclination, azimuth, time_zero: CLOSE, gain: 1.0 }
+    }
+
+    /// The same microphone at a point: its gain and its time zero stay.
+    #[must_use]
+    pub fn moved_to(&self, point: ListeningPoint, radius: f64) -> CloseSpec {
+        let ListeningPoint { distance, inclination, azimuth } = point;
+        let CloseMicrophone { time_zero, gain, .. } = self.of(radius);
+        CloseSpec::Beside { distance, inclination, azimuth, time_zero, gain: f64::from(gain) }
+    }
+
+    /// Where it stands at a piece of that radius (m), seen from the middle of the struck surface.
+    pub fn point(&self, radius: f64) -> ListeningPoint {
+        match *self {
+            CloseSpec::OverRim { height, azimuth, .. } => ListeningPoint::over(height, radius, azimuth),
+            CloseSpec::Beside { distance, inclination, azimuth, .. } => {
+                ListeningPoint { distance, inclination, azimuth }
+            }
+        }
+    }
+
+    /// The microphone at a piece of that radius, m.
+    pub fn of(&self, radius: f64) -> CloseMicrophone {
+        let point = self.point(radius);
+        match *self {
+            CloseSpec::OverRim { gain, .. } => {
+                CloseMicrophone { point, time_zero: point.distance, gain: gain as f32 }
+            }
+            CloseSpec::Beside { time_zero, gain, .. } => {
+                CloseMicrophone { point, time_zero, gain: gain as f32 }
+            }
+        }
+    }
+}
 
 /// A close microphone as it is set up.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,26 +124,4 @@ pub struct CloseMicrophone {
     pub time_zero: f64,
     /// Gain of its preamplifier, a factor: the same wherever it is moved.
     pub gain: f32,
-}
-
-impl CloseMicrophone {
-    /// The one of a piece that was asked for at a place, or, with none, at its own (`own`).
-    pub fn new(id: PieceId, asked: Option<ListeningPoint>, own: ListeningPoint) -> CloseMicrophone {
-        match (asked, over_rim(id)) {
-            (Some(point), Some(rim)) => CloseMicrophone { point, time_zero: rim.distance, gain: PAD },
-            (asked, _) => CloseMicrophone { point: asked.unwrap_or(own), time_zero: CLOSE, gain: 1.0 },
-        }
-    }
-}
-
-/// Place over the rim of a drum, for those whose microphone hangs there.
-pub fn over_rim(id: PieceId) -> Option<ListeningPoint> {
-    let drum = match id {
-        PieceId::Kick => DrumSpec::kick(),
-        PieceId::Snare => DrumSpec::snare(),
-        PieceId::RackTom => DrumSpec::rack_tom(),
-        PieceId::FloorTom => DrumSpec::floor_tom(),
-        _ => return None,
-    };
-    Some(ListeningPoint::over(HEIGHT, drum.batter.membrane.radius, DIRECTION))
 }

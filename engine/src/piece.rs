@@ -1,22 +1,22 @@
 //! One piece of the kit: a drum or a cymbal, and what can be asked of it.
 
 mod controls;
-mod id;
 mod modes;
 mod options;
 
-pub use id::PieceId;
 pub use modes::{Member, ModeInfo, ModeKind};
-pub use options::{BuildOptions, Quality};
+pub use options::{BuildContext, BuildOptions, Idealization, Quality, Receivers};
 
-use crate::cymbal::{Cymbal, CymbalSpec};
-use crate::drum::{Drum, DrumSpec};
+use crate::cymbal::Cymbal;
+use crate::drum::Drum;
 use crate::error::SpecError;
-use crate::hi_hat::{HiHat, HiHatSpec};
+use crate::hi_hat::HiHat;
 use crate::kit::BLOCK;
-use crate::layout::Layout;
+use crate::kit_spec::{InstrumentSpec, Kind, PieceBuild};
+use crate::layout::Placement;
 use crate::microphones::CloseMicrophone;
 use crate::modal::EARS;
+use crate::slot::Slot;
 use crate::snapshot::{FIELD_MODES, FieldShapes, ModeSnapshot, PieceSnapshot, StrikeSnapshot};
 use crate::strike::Strike;
 use crate::surface::Surface;
@@ -32,7 +32,8 @@ const DOZE: f64 = 0.05;
 
 /// A built piece that can be struck and heard.
 pub struct Piece {
-    id: PieceId,
+    slot: Slot,
+    kind: Kind,
     voice: Voice,
     sample_rate: f64,
     /// Samples into the present block.
@@ -42,7 +43,10 @@ pub struct Piece {
     /// Nothing moves and nothing is about: there is nothing to render.
     asleep: bool,
     quarantines: u32,
+    placement: Placement,
     close: CloseMicrophone,
+    /// Lowest, own and highest tuning.
+    tunings: [f64; 3],
     /// Largest sound since the block began, Pa, and samples for which it has been next to nothing.
     loudest: f32,
     quiet: usize,
@@ -73,58 +77,53 @@ impl Voice {
 }
 
 impl Piece {
-    /// Builds the default piece of that name. Allocates and takes up to a second.
+    /// Builds the piece of a slot. Allocates and takes up to a second.
     ///
     /// # Errors
-    /// [`SpecError`] if the options are out of range.
-    pub fn new(id: PieceId, options: &BuildOptions) -> Result<Piece, SpecError> {
+    /// [`SpecError`] if the options or a number of the description are out of range.
+    pub fn new(slot: Slot, build: &PieceBuild, options: &BuildOptions) -> Result<Piece, SpecError> {
         SpecError::check("sample rate (Hz)", options.sample_rate, 22_050.0, 768_000.0)?;
-        let far_point = Layout::far_point(id);
-        let drum = |spec: DrumSpec| {
-            let listening_point = options.close.unwrap_or(spec.listening_point);
-            let spec = DrumSpec { listening_point, far_point, ..spec.with(options) };
-            Drum::new(&spec, options).map(|drum| (listening_point, Voice::Drum(Box::new(drum))))
-        };
-        let cymbal = |spec: CymbalSpec| {
-            let listening_point = options.close.unwrap_or(spec.listening_point);
-            let spec = CymbalSpec { listening_point, far_point, ..spec };
-            let spec = if options.shaped { spec.shaped() } else { spec };
-            Cymbal::new(&spec, options).map(|cymbal| (listening_point, Voice::Cymbal(Box::new(cymbal))))
-        };
-        let (close, voice) = match id {
-            PieceId::Kick => drum(DrumSpec::kick())?,
-            PieceId::Snare => drum(DrumSpec::snare())?,
-            PieceId::RackTom => drum(DrumSpec::rack_tom())?,
-            PieceId::FloorTom => drum(DrumSpec::floor_tom())?,
-            PieceId::Timpani => drum(DrumSpec::timpani())?,
-            PieceId::Crash => cymbal(CymbalSpec::crash())?,
-            PieceId::Ride => cymbal(CymbalSpec::ride())?,
-            PieceId::Splash => cymbal(CymbalSpec::splash())?,
-            PieceId::HiHat => {
-                let spec = HiHatSpec::default();
-                let listening_point = options.close.unwrap_or(spec.top.listening_point);
-                let spec = spec.heard_at(listening_point, far_point);
-                let spec = if options.shaped { spec.shaped() } else { spec };
-                (listening_point, Voice::HiHat(Box::new(HiHat::new(&spec, options)?)))
-            }
+        let context = build.context(*options);
+        let voice = match &build.spec.instrument {
+            InstrumentSpec::Drum(drum) => Voice::Drum(Box::new(Drum::new(drum, &context)?)),
+            InstrumentSpec::Cymbal(cymbal) => Voice::Cymbal(Box::new(Cymbal::new(cymbal, &context)?)),
+            InstrumentSpec::HiHat(hat) => Voice::HiHat(Box::new(HiHat::new(hat, &context)?)),
         };
         Ok(Piece {
-            id,
+            slot,
+            kind: build.spec.instrument.kind(),
             voice,
             sample_rate: options.sample_rate,
             phase: 0,
             unglided: 0,
             asleep: true,
             quarantines: 0,
-            close: CloseMicrophone::new(id, options.close, close),
+            placement: build.spec.placement(),
+            close: build.spec.close.of(build.spec.instrument.radius()),
+            tunings: build.spec.instrument.tunings(),
             loudest: 0.0,
             quiet: 0,
         })
     }
 
-    /// Which piece this is.
-    pub fn id(&self) -> PieceId {
-        self.id
+    /// The slot it was built for.
+    pub fn slot(&self) -> Slot {
+        self.slot
+    }
+
+    /// Which kind of instrument it is.
+    pub fn kind(&self) -> Kind {
+        self.kind
+    }
+
+    /// Where it stands.
+    pub fn placement(&self) -> &Placement {
+        &self.placement
+    }
+
+    /// Lowest, own and highest of [`set_tuning`](Self::set_tuning): Hz of a drum, ratio of a cymbal.
+    pub fn tunings(&self) -> [f64; 3] {
+        self.tunings
     }
 
     /// Strikes at the next sample. Speed and radius are clamped; a stroke with a number that is not
@@ -259,6 +258,11 @@ impl Piece {
     /// Whether nothing moves and nothing is about: there is nothing to hear until the next stroke.
     pub fn is_asleep(&self) -> bool {
         self.asleep
+    }
+
+    /// Samples to the end of the piece's block: the most that [`render_in_air`](Self::render_in_air) takes at once.
+    pub fn run_left(&self) -> usize {
+        BLOCK - self.phase
     }
 
     /// Puts the piece's block grid at `phase` samples into a block, as its kit's is.

@@ -32,10 +32,10 @@ use dome::Shell;
 use radial::RadialMode;
 use uneven::Section;
 
-pub use spec::{Bell, PlateSpec, Shape};
+pub use spec::{Bell, PlateSpec};
 
 /// Wave numbers by which the flat modes of an eigenproblem reach past the frequency asked for: four
-/// more modes an order. *Measured*: any more move no frequency by 0.01 %.
+/// more modes an order. *Converged*: any more move no frequency by 0.01 %.
 const FLAT_MARGIN: f64 = 2.0 * TAU;
 
 /// A mode of the domed plate; for `m > 0` it has two members, cosine and sine.

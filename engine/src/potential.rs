@@ -72,14 +72,14 @@ pub trait Potential: Send {
     fn evaluate(&mut self, displacement: &[f32], gradient: &mut [f32]) -> Evaluation;
 }
 
-/// Share of what `psi` is off that is made up at each evaluation. *Measured*: fast enough that a
+/// Share of what `psi` is off that is made up at each evaluation. *Converged*: fast enough that a
 /// roll of hard strokes leaves no drift, slow enough that single errors are not passed on as noise.
 const PULL: f64 = 1.0 / 16.0;
 
 /// Largest share of the kinetic energy exchanged at once: where the modes turn they have none to give.
 const LARGEST_EXCHANGE: f64 = 0.01;
 
-/// `C` over the largest depth met. *Measured*: under 8, a heavy beater on a cymbal's centre at 13 m/s takes
+/// `C` over the largest depth met. *Converged*: under 8, a heavy beater on a cymbal's centre at 13 m/s takes
 /// `psi` to zero, and the plate then throws it back faster than it came; ordinary strokes sound alike from 1.5 up.
 const HEADROOM: f64 = 12.0;
 
@@ -96,19 +96,19 @@ const WINDOW: f64 = 0.05;
 /// stretching and far over the sway of its mean. *Derived*.
 const SLOW_TIME: f64 = 1.6e-3;
 
-/// Share of the energy under which a potential rests. *Measured* on the crash: 3e-4 moves no third
+/// Share of the energy under which a potential rests. *Converged* on the crash: 3e-4 moves no third
 /// octave of a soft stroke by 0.06 dB, 1e-3 some by 0.2 dB.
 const NEGLIGIBLE: f64 = 3e-4;
 
-/// Share of the energy under which a potential is weak. *Measured* on the crash: no third octave moves by
+/// Share of the energy under which a potential is weak. *Converged* on the crash: no third octave moves by
 /// 0.09 dB.
 const WEAK: f64 = 0.05;
 
-/// Share of that under which it is faint. *Measured* on the crash: no third octave moves by 0.04 dB.
+/// Share of that under which it is faint. *Converged* on the crash: no third octave moves by 0.04 dB.
 const FAINT: f64 = 0.2;
 
 /// Error of the energy held, over the kinetic energy, from which it is evaluated three times as often, and the
-/// time in which one is forgotten, s. *Measured*: a crash at 6 m/s stays below, evaluated seven times a period; a
+/// time in which one is forgotten, s. *Converged*: a crash at 6 m/s stays below, evaluated seven times a period; a
 /// stick at 25 m/s on a splash goes from three times this to a runaway within half a millisecond.
 const ASTRAY: f64 = 0.01;
 const CALM_TIME: f64 = 0.005;
@@ -127,7 +127,7 @@ const YIELD: f64 = 560.0;
 const YIELDING: f32 = 0.98;
 
 /// Share of the depth it yields at that a body turned inside out holds at least, and what share of what it holds
-/// changes at most once it lies there. *Measured*: a splash, turned, holds nearly all of that depth, and a fourth
+/// changes at most once it lies there. *Converged*: a splash, turned, holds nearly all of that depth, and a fourth
 /// at its lowest tuning; yielding and exchanges, which take a plate held bent for one that moves, keep 3 % trembling.
 const INSIDE_OUT: f64 = 0.05;
 const LYING: f64 = 0.05;

@@ -16,24 +16,55 @@
 
 use std::f64::consts::{PI, TAU};
 
+use serde::{Deserialize, Serialize};
+
 use crate::air::{DENSITY, SPEED_OF_SOUND};
 use crate::contact::Material;
 use crate::listening::ListeningPoint;
 use crate::modal::Mode;
+use crate::numbers::{Numbers, Visitor};
 use crate::piece::{Member, ModeKind};
 
-/// A triple-flanged steel hoop, 2.3 mm thick and 40 mm high. *Literature* (dimensions of the trade).
-const WALL: f64 = 2.3e-3;
-const HEIGHT: f64 = 0.040;
-const FLANGE: f64 = 0.010;
+/// A hoop's description, and of the stand its drum is on.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct HoopSpec {
+    /// What it is made of.
+    pub material: Material,
+    /// Thickness of its wall, m, 0.0005 to 0.03.
+    #[serde(rename = "wall_m")]
+    pub wall: f64,
+    /// Height, m, 0.01 to 0.1.
+    #[serde(rename = "height_m")]
+    pub height: f64,
+    /// What flanges add to the height that is bent, m, 0 to 0.05.
+    #[serde(rename = "flange_m")]
+    pub flange: f64,
+    /// Quality factor of its modes: gaskets, rods and the head take much, 2 to 1000.
+    pub q: f64,
+    /// The drum on its stand: mass, kg, 0.3 to 50.
+    #[serde(rename = "drum_mass_kg")]
+    pub drum_mass: f64,
+    /// Frequency at which the drum bounces on its stand, Hz, 1 to 100.
+    pub stand_hz: f64,
+    /// Quality factor of the bounce, 0.6 to 100.
+    pub stand_q: f64,
+}
 
-/// Quality factor of its modes: gaskets, rods and the head take much. *By ear*.
-const QUALITY: f64 = 50.0;
+impl Numbers for HoopSpec {
+    fn visit(&mut self, visitor: &mut dyn Visitor) {
+        self.material.visit_part("material", visitor);
+        visitor.number("wall_m", &mut self.wall, 5e-4..=0.03);
+        visitor.number("height_m", &mut self.height, 0.01..=0.1);
+        visitor.number("flange_m", &mut self.flange, 0.0..=0.05);
+        visitor.number("q", &mut self.q, 2.0..=1000.0);
+        visitor.number("drum_mass_kg", &mut self.drum_mass, 0.3..=50.0);
+        visitor.number("stand_hz", &mut self.stand_hz, 1.0..=100.0);
+        visitor.number("stand_q", &mut self.stand_q, 0.6..=100.0);
+    }
+}
 
-/// The drum on its stand: mass, kg, frequency, Hz, quality factor. *By ear*.
-const STAND: (f64, f64, f64) = (3.5, 15.0, 2.0);
-
-/// Radius of the edge that a shaft meets, m, is the stick's; the steel is taken as flat. Width of the
+/// Radius of the edge that a shaft meets, m, is the stick's; the hoop is taken as flat. Width of the
 /// hoop's top as it is heard, m.
 const WIDTH: f64 = 0.012;
 
@@ -68,16 +99,16 @@ pub struct RimMode {
 
 impl Rim {
     /// The rim of a drum of that radius (m), heard from a point near and one far; without losses if asked to.
-    pub fn new(radius: f64, [point, far]: [ListeningPoint; 2], lossless: bool) -> Rim {
-        let steel = Material::STEEL;
-        let shear = steel.youngs_modulus / (2.0 * (1.0 + steel.poisson_ratio));
-        let area = WALL * (HEIGHT + FLANGE);
-        let bending = steel.youngs_modulus * (WALL * HEIGHT.powi(3) / 12.0);
-        let torsion = shear * (HEIGHT + FLANGE) * WALL.powi(3) / 3.0;
-        let line = steel.density * area;
+    pub fn new(radius: f64, hoop: &HoopSpec, [point, far]: [ListeningPoint; 2], lossless: bool) -> Rim {
+        let HoopSpec { material, wall, height, flange, .. } = *hoop;
+        let shear = material.youngs_modulus / (2.0 * (1.0 + material.poisson_ratio));
+        let area = wall * (height + flange);
+        let bending = material.youngs_modulus * (wall * height.powi(3) / 12.0);
+        let torsion = shear * (height + flange) * wall.powi(3) / 3.0;
+        let line = material.density * area;
         let unit = bending / (line * radius.powi(4));
         let loss = |omega: f64, q: f64| if lossless { 0.0 } else { omega / (2.0 * q) };
-        let (mass, hz, q) = STAND;
+        let (mass, hz, q) = (hoop.drum_mass, hoop.stand_hz, hoop.stand_q);
         let bounce = Mode { omega: TAU * hz, sigma: loss(TAU * hz, q), mass };
         let mut modes = vec![RimMode {
             n: 0,
@@ -92,7 +123,7 @@ impl Rim {
             if omega > TAU * LIMIT_HZ {
                 break;
             }
-            let mode = Mode { omega, sigma: loss(omega, QUALITY), mass: line * TAU * radius };
+            let mode = Mode { omega, sigma: loss(omega, hoop.q), mass: line * TAU * radius };
             let heard = transfer(radius, point, n, omega);
             let heard_far = transfer(radius, far, n, omega).map(|h| h * far.distance);
             for member in [Member::Cosine, Member::Sine] {
@@ -101,7 +132,7 @@ impl Rim {
                 modes.push(RimMode { n, member, mode, transfer, far_transfer });
             }
         }
-        Rim { radius, material: steel, modes }
+        Rim { radius, material, modes }
     }
 
     /// Shapes at an angle (rad), of unit mean square, `[mode]`.
@@ -145,12 +176,18 @@ fn transfer(radius: f64, point: ListeningPoint, n: u32, omega: f64) -> [f64; 2] 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kit_spec::KitSpec;
+
+    /// The hoop of the standard kit's drums.
+    fn hoop() -> HoopSpec {
+        KitSpec::standard().drums().find_map(|(_, drum)| drum.hoop).unwrap()
+    }
 
     const POINT: ListeningPoint = ListeningPoint { distance: 0.5, inclination: 0.6, azimuth: 0.4 };
 
     #[test]
     fn a_snare_hoop_rings_where_hoops_ring() {
-        let rim = Rim::new(0.178, [POINT; 2], false);
+        let rim = Rim::new(0.178, &hoop(), [POINT; 2], false);
         let hz = |n: u32| rim.modes.iter().find(|mode| mode.n == n).unwrap().mode.omega / TAU;
         assert!((80.0..250.0).contains(&hz(2)), "{}", hz(2));
         assert!((300.0..800.0).contains(&hz(3)), "{}", hz(3));
@@ -160,7 +197,7 @@ mod tests {
 
     #[test]
     fn shapes_are_of_unit_mean_square() {
-        let rim = Rim::new(0.15, [POINT; 2], false);
+        let rim = Rim::new(0.15, &hoop(), [POINT; 2], false);
         let mut sum = vec![0.0_f64; rim.modes.len()];
         let mut out = vec![0.0_f32; rim.modes.len()];
         for i in 0..720 {

@@ -1,6 +1,6 @@
 //! Fixed-size plain data for whoever draws: what the editor may know of the engine.
 
-use crate::piece::PieceId;
+use crate::slot::SLOTS;
 
 /// Lowest modes of a piece whose displacement is published.
 pub const FIELD_MODES: usize = 32;
@@ -184,8 +184,8 @@ impl Default for PieceSnapshot {
 pub struct KitSnapshot {
     /// Samples rendered since construction or reset.
     pub clock: u64,
-    /// Pieces in the order of [`PieceId::KIT`].
-    pub pieces: [PieceSnapshot; PieceId::KIT.len()],
+    /// `[slot]`.
+    pub pieces: [PieceSnapshot; SLOTS],
     /// Peak of the two outputs since the last snapshot, full scale 1.
     pub peak: [f32; 2],
     /// Strokes that came before their piece was built.

@@ -4,15 +4,25 @@
 //! numbers (the same for every build). A perfect circle would ring without the slow beating that
 //! real heads and cymbals have.
 
+use serde::{Deserialize, Serialize};
+
+use crate::numbers::{Numbers, Visitor};
 use crate::piece::Member;
 
 /// How much the members of pairs are apart.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Splitting {
-    /// Mean relative difference of the two frequencies.
+    /// Mean relative difference of the two frequencies, 0 to 0.05.
     pub detuning: f64,
     /// Tells the unevenness of one body from another's.
     pub seed: u32,
+}
+
+impl Numbers for Splitting {
+    fn visit(&mut self, visitor: &mut dyn Visitor) {
+        visitor.number("detuning", &mut self.detuning, 0.0..=0.05);
+    }
 }
 
 impl Splitting {

@@ -15,6 +15,7 @@
 //! Source: Fletcher & Rossing, The Physics of Musical Instruments, sec. 2.14.
 
 use crate::contact::Material;
+use crate::fitted;
 
 /// Bending modes carried.
 pub const BENDING: usize = 2;
@@ -62,7 +63,7 @@ impl Stick {
 
     /// A hickory stick of the usual size (5A to 5B) that touches at `place`, a share of the length from the tip.
     pub const fn at(place: f64) -> Stick {
-        Stick { length: 0.406, radius: 0.00735, material: Material::HICKORY, q: 20.0, place }
+        Stick { length: 0.406, radius: 0.00735, material: Material::HICKORY, q: fitted::STICK_Q, place }
     }
 
     /// Mass, kg.

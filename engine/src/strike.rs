@@ -4,6 +4,7 @@
 //! is what damps it, and what keeps a stick that has come off from falling back.
 
 use crate::contact::{Material, Tip};
+use crate::fitted;
 use crate::stick::Stick;
 
 /// One stroke on one piece.
@@ -126,8 +127,8 @@ impl Striker {
                 StrikerSpec::solid(16.0, Material::NYLON, 4.0, 0.7, 2.3).on(Stick::at(Stick::BEAD))
             }
             // Hardens as dense felt does. *Literature*: exponents of hammers and mallets, 2.2 to 3.5; its other numbers are
-            // *measured*: the force and the contact that are published, and how recorded kicks brighten with the stroke.
-            Striker::FeltBeater => StrikerSpec::felt(110.0, 1e10, 3.0, 0.5, 4.5),
+            // *fitted*.
+            Striker::FeltBeater => StrikerSpec::felt(110.0, fitted::FELT_STIFFNESS, fitted::FELT_EXPONENT, 0.5, 4.5),
             Striker::PlasticBeater => StrikerSpec::solid(110.0, Material::PLASTIC, 25.0, 0.5, 8.0),
             Striker::TimpaniMallet => StrikerSpec::felt(25.0, 3e8, 2.5, 0.6, 7.0),
             Striker::HardMallet => StrikerSpec::felt(25.0, 1e10, 2.5, 0.6, 4.5),

@@ -4,9 +4,9 @@
 //! in a process and shared: every instance and every rebuild that asks for the same gets the same, to the last bit. Where
 //! the program provides a [`Shelf`], results also outlive the process.
 //!
-//! The key is the whole description as text, in which every number stands exactly. On the shelf a result is preceded
-//! by its key and stands under a [name](name_of) that also holds a mark, a digest of the engine's sources: an
-//! engine with other equations finds nothing there.
+//! The key is the whole description in binary form, in which every number stands exactly. On the shelf a result is preceded
+//! by its key and stands under a [name](name_of) that also holds a mark: the number of the equations' version and a digest
+//! of the libraries that calculate.
 //!
 //! Nothing here runs on the audio thread.
 
@@ -49,7 +49,7 @@ pub struct Kept<T> {
     mark: &'static str,
     most: usize,
     /// Age and key of each, latest last.
-    held: Mutex<Vec<(u64, String, Arc<T>)>>,
+    held: Mutex<Vec<(u64, Vec<u8>, Arc<T>)>>,
 }
 
 impl<T: Serialize + DeserializeOwned> Kept<T> {
@@ -62,18 +62,24 @@ impl<T: Serialize + DeserializeOwned> Kept<T> {
     ///
     /// # Errors
     /// What `make` says.
-    pub fn get<E>(&self, key: &str, make: impl FnOnce() -> Result<T, E>) -> Result<Shared<T>, E> {
-        if let Some(held) = self.held(key) {
+    pub fn get<E>(
+        &self,
+        key: &impl Serialize,
+        make: impl FnOnce() -> Result<T, E>,
+    ) -> Result<Shared<T>, E> {
+        // A description that cannot be packed is not kept.
+        let Ok(key) = postcard::to_stdvec(key) else { return Ok(Arc::new(make()?)) };
+        if let Some(held) = self.held(&key) {
             return Ok(held);
         }
-        let name = name_of(self.kind, self.mark, key);
+        let name = name_of(self.kind, self.mark, &key);
         let shelf = SHELF.get();
-        let shelved = shelf.and_then(|shelf| shelf.take(&name)).and_then(|bytes| unpack(key, &bytes));
+        let shelved = shelf.and_then(|shelf| shelf.take(&name)).and_then(|bytes| unpack(&key, &bytes));
         let result = match shelved {
             Some(result) => result,
             None => {
                 let made = make()?;
-                if let (Some(shelf), Ok(bytes)) = (shelf, postcard::to_stdvec(&(key, &made))) {
+                if let (Some(shelf), Ok(bytes)) = (shelf, postcard::to_stdvec(&(&key, &made))) {
                     shelf.put(&name, &bytes);
                 }
                 made
@@ -83,11 +89,11 @@ impl<T: Serialize + DeserializeOwned> Kept<T> {
         let mut held = self.lock();
         let excess = (held.len() + 1).saturating_sub(self.most);
         held.drain(..excess);
-        held.push((AGE.load(Ordering::Acquire), key.to_owned(), result.clone()));
+        held.push((AGE.load(Ordering::Acquire), key, result.clone()));
         Ok(result)
     }
 
-    fn held(&self, key: &str) -> Option<Arc<T>> {
+    fn held(&self, key: &[u8]) -> Option<Arc<T>> {
         let mut held = self.lock();
         let age = AGE.load(Ordering::Acquire);
         held.retain(|(of, ..)| *of == age);
@@ -98,7 +104,7 @@ impl<T: Serialize + DeserializeOwned> Kept<T> {
         Some(result)
     }
 
-    fn lock(&self) -> std::sync::MutexGuard<'_, Vec<(u64, String, Arc<T>)>> {
+    fn lock(&self) -> std::sync::MutexGuard<'_, Vec<(u64, Vec<u8>, Arc<T>)>> {
         // Whole after a panic elsewhere: entries are only added and taken out.
         self.held.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -130,15 +136,15 @@ impl<T> Default for Numbered<T> {
 }
 
 /// A result from the shelf, if it is that of the key.
-fn unpack<T: DeserializeOwned>(key: &str, bytes: &[u8]) -> Option<T> {
-    let (known, result): (String, T) = postcard::from_bytes(bytes).ok()?;
+fn unpack<T: DeserializeOwned>(key: &[u8], bytes: &[u8]) -> Option<T> {
+    let (known, result): (Vec<u8>, T) = postcard::from_bytes(bytes).ok()?;
     (known == key).then_some(result)
 }
 
 /// What a result is called on the shelf: its kind and a digest (FNV-1a) of mark and key.
-pub fn name_of(kind: &str, mark: &str, key: &str) -> String {
+pub fn name_of(kind: &str, mark: &str, key: &[u8]) -> String {
     let digest =
-        mark.bytes().chain([0]).chain(key.bytes()).fold(0xcbf2_9ce4_8422_2325_u64, |digest, byte| {
+        mark.bytes().chain([0]).chain(key.iter().copied()).fold(0xcbf2_9ce4_8422_2325_u64, |digest, byte| {
             (digest ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
         });
     format!("{kind}-{digest:016x}")
@@ -151,7 +157,7 @@ mod tests {
     #[test]
     fn a_result_is_made_once_and_the_oldest_is_given_up() {
         static KEPT: Kept<f64> = Kept::new("test", "mark", 2);
-        let make = |key: &str, value: f64| KEPT.get(key, || Ok::<_, ()>(value)).unwrap();
+        let make = |key: &str, value: f64| KEPT.get(&key, || Ok::<_, ()>(value)).unwrap();
         assert_eq!(*make("a", 1.0), 1.0);
         assert_eq!(*make("a", 2.0), 1.0);
         make("b", 3.0);
@@ -159,7 +165,7 @@ mod tests {
         make("c", 5.0);
         // `a` was asked for after `b`.
         assert_eq!((*make("a", 6.0), *make("b", 7.0)), (1.0, 7.0));
-        assert!(KEPT.get("d", || Err("no")).is_err());
+        assert!(KEPT.get(&"d", || Err("no")).is_err());
     }
 
     #[test]
@@ -171,10 +177,10 @@ mod tests {
     #[test]
     fn what_comes_from_a_shelf_is_what_was_put_there_to_the_last_bit() {
         let value = vec![0.1_f64, f64::NEG_INFINITY, -0.0, f64::MIN_POSITIVE, 1.0 / 3.0];
-        let bytes = postcard::to_stdvec(&("key", &value)).unwrap();
-        let back: Vec<f64> = unpack("key", &bytes).unwrap();
+        let bytes = postcard::to_stdvec(&(&b"key"[..], &value)).unwrap();
+        let back: Vec<f64> = unpack(b"key", &bytes).unwrap();
         assert!(back.iter().zip(&value).all(|(a, b)| a.to_bits() == b.to_bits()));
-        assert_eq!(unpack::<Vec<f64>>("another", &bytes), None);
-        assert_eq!(unpack::<Vec<f64>>("key", &bytes[..bytes.len() - 1]), None);
+        assert_eq!(unpack::<Vec<f64>>(b"another", &bytes), None);
+        assert_eq!(unpack::<Vec<f64>>(b"key", &bytes[..bytes.len() - 1]), None);
     }
 }

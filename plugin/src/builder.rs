@@ -9,15 +9,18 @@
 //!                                      └── returned, a bounded queue ◀── replaced ─┘
 //! ```
 //!
-//! Replaced pieces go back to be dropped here, as dropping frees memory. Every order has a
+//! When the kit changes, a [`Setup`] goes first, then the pieces that differ. Pieces and setups that were replaced go back to be
+//! dropped here, as dropping frees memory. Every order has a
 //! number; pieces of an older one are returned unplayed. The thread starts with the first order,
 //! never when an instance is merely created. While it has pieces to build, others help it, as many as there are processors
 //! up to four, and end with the job: a pool that outlived it would still run when a host unloads the plugin. All look between
 //! pieces whether they are still wanted, so that dropping the builder waits for one piece each at most; pieces
-//! arrive in the order of the kit, whoever builds them. From then on it looks a few times a second
+//! arrive in the order in which they are begun, whoever builds them. From then on it looks a few times a second
 //! whether the [plan](BuildPlan) has changed, and builds those pieces anew that it concerns: parameters
 //! are moved on threads that must not wake another. One thread per instance, because the
 //! framework's shared one does not survive instances that come and go while it works.
+
+mod delivery;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicU32, AtomicUsize, Ordering};
@@ -26,16 +29,21 @@ use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 use crossbeam::queue::ArrayQueue;
+use nice_plug::nice_error;
 use overhear_engine::error::SpecError;
-use overhear_engine::kit::Crew;
-use overhear_engine::piece::{BuildOptions, Piece, PieceId};
+use overhear_engine::kit_spec::PieceBuild;
+use overhear_engine::piece::{BuildOptions, Piece};
+use overhear_engine::slot::{SLOTS, Slot};
 use overhear_engine::snapshot::FieldShapes;
 
 use crate::building::{BuildPlan, Staff};
+use crate::kit_document::KitDocument;
+use crate::performer::Setup;
 use crate::shelf;
 
-/// Pieces of a kit.
-const PIECES: usize = PieceId::KIT.len();
+use delivery::{Hired, Passing, Queues, Sent, make_room};
+
+pub use delivery::{Arrival, Delivery};
 
 /// How often the thread looks for returned pieces and for a change of plan.
 const LOOK_INTERVAL: Duration = Duration::from_millis(100);
@@ -44,7 +52,7 @@ const LOOK_INTERVAL: Duration = Duration::from_millis(100);
 const NO_ORDER: u32 = 0;
 
 /// Computes one piece.
-type Make = fn(PieceId, &BuildOptions) -> Result<Piece, SpecError>;
+type Make = fn(Slot, &PieceBuild, &BuildOptions) -> Result<Piece, SpecError>;
 
 /// A piece with what is drawn of it, or why there is none.
 type Made = Result<(Box<Piece>, Arc<FieldShapes>), String>;
@@ -74,13 +82,6 @@ pub struct Builder {
     thread: Option<JoinHandle<()>>,
 }
 
-/// The audio thread's end: pieces in, pieces back.
-pub struct Delivery {
-    shared: Arc<Shared>,
-    /// The order whose pieces are wanted.
-    order: u32,
-}
-
 /// Shapes of the pieces' displacement fields, for the editor's end.
 #[derive(Clone)]
 pub struct Shapes {
@@ -93,12 +94,8 @@ struct Shared {
     changed: Condvar,
     /// The latest order, read between pieces.
     latest: AtomicU32,
-    built: ArrayQueue<Built>,
-    returned: ArrayQueue<Box<Piece>>,
-    /// Workers on their way to the kit, one change at a time, and those that it has dismissed.
-    hired: ArrayQueue<Hired>,
-    dismissed: ArrayQueue<Box<dyn Crew>>,
-    shapes: Mutex<[Option<Arc<FieldShapes>>; PIECES]>,
+    queues: Arc<Queues>,
+    shapes: Mutex<[Option<Arc<FieldShapes>>; SLOTS]>,
 }
 
 /// What the main thread and the builder thread tell each other.
@@ -106,8 +103,12 @@ struct Shared {
 struct Desk {
     sample_rate: f64,
     order: u32,
+    /// The kit that the performer has for which the latest order is.
+    kit: Option<Arc<KitDocument>>,
     /// The plan of what has been built or is being built for the latest order.
     plan: Option<BuildPlan>,
+    /// Jobs so far.
+    jobs: u32,
     /// The latest order that came to an end.
     ended: u32,
     failure: Option<String>,
@@ -117,30 +118,23 @@ struct Desk {
 /// One run of the builder thread.
 struct Job {
     order: u32,
+    /// Counts up from 1.
+    number: u32,
     sample_rate: f64,
     /// What the pieces in use were built for, if this order has brought any.
     former: Option<BuildPlan>,
+    /// Whether the performer is at another kit than the plan's.
+    changes_kit: bool,
     plan: BuildPlan,
-}
-
-struct Built {
-    order: u32,
-    piece: Box<Piece>,
-}
-
-/// Who is to render beside the audio thread, if anybody.
-struct Hired {
-    order: u32,
-    crew: Option<Box<dyn Crew>>,
 }
 
 impl Builder {
     /// A builder that follows a plan. Has no thread until something is ordered.
     pub fn new(wanted: Wanted) -> Builder {
         Builder::with(
-            |id, options| {
+            |slot, build, options| {
                 shelf::provide();
-                Piece::new(id, options)
+                Piece::new(slot, build, options)
             },
             wanted,
         )
@@ -151,26 +145,23 @@ impl Builder {
             desk: Mutex::default(),
             changed: Condvar::new(),
             latest: AtomicU32::new(NO_ORDER),
-            built: ArrayQueue::new(PIECES),
-            // The audio thread returns at most one piece for each it takes and those that faded out, at most one
-            // of each kind; the thread empties this queue before it adds to the other: this can never be full.
-            returned: ArrayQueue::new(4 * PIECES),
-            hired: ArrayQueue::new(1),
-            // One comes back for each that is sent, and this is emptied before another is.
-            dismissed: ArrayQueue::new(2),
+            queues: Arc::new(Queues::new()),
             shapes: Mutex::default(),
         };
         Builder { shared: Arc::new(shared), make, wanted, thread: None }
     }
 
-    /// Orders every piece of the kit for a sample rate (Hz); gives up any earlier order.
+    /// Orders every piece of the kit that is wanted for a performer at a sample rate (Hz), which is at a kit so far; gives up
+    /// any earlier order.
     ///
-    /// Returns the end through which the pieces arrive; earlier ends get none any more.
-    pub fn order(&mut self, sample_rate: f64) -> Delivery {
+    /// Returns the end through which the pieces arrive, and a setup before them if another kit is wanted; earlier ends get
+    /// none any more.
+    pub fn order(&mut self, sample_rate: f64, kit: Arc<KitDocument>) -> Delivery {
         let order = {
             let mut desk = lock(&self.shared.desk);
             desk.order = desk.order.wrapping_add(1).max(NO_ORDER + 1);
             desk.sample_rate = sample_rate;
+            desk.kit = Some(kit);
             desk.plan = None;
             desk.failure = None;
             self.shared.latest.store(desk.order, Ordering::Release);
@@ -185,7 +176,7 @@ impl Builder {
                 Err(error) => self.shared.end(order, Some(format!("no thread: {error}"))),
             }
         }
-        Delivery { shared: self.shared.clone(), order }
+        Delivery::new(self.shared.queues.clone(), order)
     }
 
     /// Waits until everything is built as it is wanted now, or for as long as given.
@@ -193,7 +184,7 @@ impl Builder {
         let deadline = Instant::now() + timeout;
         let plan = (self.wanted)();
         let mut desk = lock(&self.shared.desk);
-        if desk.plan.is_some_and(|known| known != plan) {
+        if desk.plan.as_ref().is_some_and(|known| *known != plan) {
             desk.ended = NO_ORDER;
             self.shared.changed.notify_all();
         }
@@ -228,51 +219,10 @@ impl Drop for Builder {
     }
 }
 
-impl Delivery {
-    /// Hands every piece that has arrived to `install` and sends back what that returns.
-    ///
-    /// # Real-time
-    /// No allocation, no lock, nothing dropped; at most the pieces of one kit.
-    pub fn take(&self, mut install: impl FnMut(Box<Piece>) -> Option<Box<Piece>>) {
-        for _ in 0..PIECES {
-            let Some(Built { order, piece }) = self.shared.built.pop() else { return };
-            let replaced = if order == self.order { install(piece) } else { Some(piece) };
-            if let Some(replaced) = replaced {
-                self.give_back(replaced);
-            }
-        }
-    }
-
-    /// Hands who is to render, if that has changed, to `hire` and sends back who did so far.
-    ///
-    /// # Real-time
-    /// No allocation, no lock, nothing dropped.
-    pub fn take_crew(&self, hire: impl FnOnce(Option<Box<dyn Crew>>) -> Option<Box<dyn Crew>>) {
-        let Some(Hired { order, crew }) = self.shared.hired.pop() else { return };
-        let free = if order == self.order { hire(crew) } else { crew };
-        if let Some(Err(homeless)) = free.map(|crew| self.shared.dismissed.push(crew)) {
-            // As for pieces.
-            std::mem::forget(homeless);
-        }
-    }
-
-    /// Sends a piece back to be dropped.
-    ///
-    /// # Real-time
-    /// No allocation, no lock, nothing dropped.
-    pub fn give_back(&self, piece: Box<Piece>) {
-        if let Err(homeless) = self.shared.returned.push(piece) {
-            // Cannot happen, see the queue's size; leaking is the one thing left that is
-            // allowed on the audio thread.
-            std::mem::forget(homeless);
-        }
-    }
-}
-
 impl Shapes {
-    /// The shapes of a piece of the kit, by its slot, once it has been built.
-    pub fn of(&self, slot: usize) -> Option<Arc<FieldShapes>> {
-        lock(&self.shared.shapes).get(slot)?.clone()
+    /// The shapes of the piece of a slot, once it has been built.
+    pub fn of(&self, slot: Slot) -> Option<Arc<FieldShapes>> {
+        lock(&self.shared.shapes)[slot.index()].clone()
     }
 }
 
@@ -281,6 +231,10 @@ impl Shared {
     fn work(&self, make: Make, wanted: &Wanted) {
         while let Some(job) = self.next_job(wanted) {
             let failure = self.build(&job, make).err();
+            if let Some(reason) = failure.as_ref().filter(|_| job.former.is_some()) {
+                // Nobody waits for what changes while the kit plays.
+                nice_error!("The kit plays on as it is where it cannot be built: {reason}");
+            }
             self.end(job.order, failure);
         }
     }
@@ -292,11 +246,14 @@ impl Shared {
             if desk.stop {
                 return None;
             }
-            let (former, plan) = (desk.plan, wanted());
-            let failed = desk.failure.is_some() && former == Some(plan);
-            if desk.order != NO_ORDER && former != Some(plan) && !failed {
-                desk.plan = Some(plan);
-                return Some(Job { order: desk.order, sample_rate: desk.sample_rate, former, plan });
+            let plan = wanted();
+            if desk.order != NO_ORDER && desk.plan.as_ref() != Some(&plan) {
+                let former = desk.plan.replace(plan.clone());
+                let present = desk.kit.replace(plan.kit().clone());
+                let changes_kit = present.is_none_or(|present| !plan.is_of_kit(&present));
+                desk.jobs += 1;
+                let (order, number, sample_rate) = (desk.order, desk.jobs, desk.sample_rate);
+                return Some(Job { order, number, sample_rate, former, changes_kit, plan });
             }
             // Asked to wait for a change of plan that was taken back meanwhile.
             if desk.order != desk.ended {
@@ -305,25 +262,30 @@ impl Shared {
             }
             let interval = (desk.order != NO_ORDER).then_some(LOOK_INTERVAL);
             desk = wait(&self.changed, desk, interval);
-            self.collect();
+            self.queues.collect();
         }
     }
 
     /// Builds what a job asks for until done or until its order is no longer the latest.
     fn build(&self, job: &Job, make: Make) -> Result<(), String> {
-        if job.former.map_or(Staff::NOBODY, |former| former.staff()) != job.plan.staff() {
+        if job.former.as_ref().map_or(Staff::NOBODY, BuildPlan::staff) != job.plan.staff() {
             // A kit without workers plays as well: no reason to fail.
             let crew = job.plan.staff().hire().unwrap_or_default();
-            self.deliver(&self.hired, Hired { order: job.order, crew }, job.order);
+            self.deliver(&self.queues.hired, Hired { order: job.order, crew }, job.order);
         }
-        let differs = |id: PieceId, options: &BuildOptions| {
-            job.former.is_none_or(|former| former.options(id, job.sample_rate) != *options)
-        };
-        let wanted: Vec<(usize, PieceId, BuildOptions)> = PieceId::LONGEST_FIRST
-            .into_iter()
-            .filter_map(|id| Some((id.slot()?, id, job.plan.options(id, job.sample_rate))))
-            .filter(|(_, id, options)| differs(*id, options))
-            .collect();
+        let kit = &job.plan.kit().kit;
+        for slot in Slot::ALL.into_iter().filter(|&slot| kit.piece(slot).is_none()) {
+            lock(&self.shapes)[slot.index()] = None;
+        }
+        if job.changes_kit {
+            self.send(job, Arrival::Setup(Setup::new(job.sample_rate, job.plan.kit().clone())));
+        }
+        self.build_pieces(job, &job.to_build(), make)
+    }
+
+    /// Builds pieces on several threads and sends them in their order.
+    fn build_pieces(&self, job: &Job, wanted: &[(Slot, PieceBuild)], make: Make) -> Result<(), String> {
+        let options = job.plan.options(job.sample_rate);
         let (taken, given_up) = (AtomicUsize::new(0), AtomicBool::new(false));
         let next = || {
             let dropped =
@@ -332,7 +294,7 @@ impl Shared {
             wanted
                 .get(index)
                 .filter(|_| !dropped)
-                .map(|&(_, id, ref options)| (index, made(make, id, options)))
+                .map(|(slot, build)| (index, made(make, *slot, build, &options)))
         };
         let (send, made) = mpsc::channel();
         thread::scope(|scope| {
@@ -355,7 +317,7 @@ impl Shared {
             let mut arrive = |(index, made): (usize, Made)| {
                 waiting[index] = Some(made);
                 while let Some(made) = waiting.get_mut(due).and_then(Option::take) {
-                    self.hand_over(job.order, wanted[due].0, made)?;
+                    self.hand_over(job, wanted[due].0, made)?;
                     due += 1;
                 }
                 Ok(())
@@ -375,34 +337,31 @@ impl Shared {
     }
 
     /// Passes a piece on, if it could be made and is still wanted.
-    fn hand_over(&self, order: u32, slot: usize, made: Made) -> Result<(), String> {
+    fn hand_over(&self, job: &Job, slot: Slot, made: Made) -> Result<(), String> {
         let (piece, shapes) = made?;
-        if self.latest.load(Ordering::Acquire) == order {
-            lock(&self.shapes)[slot] = Some(shapes);
-            self.deliver(&self.built, Built { order, piece }, order);
+        if self.latest.load(Ordering::Acquire) == job.order {
+            lock(&self.shapes)[slot.index()] = Some(shapes);
+            self.send(job, Arrival::Piece(piece));
         }
         Ok(())
     }
 
-    /// Puts something into its queue once there is room, unless it is no longer wanted.
-    fn deliver<T: Sent>(&self, queue: &ArrayQueue<T>, mut sent: T, order: u32) {
+    /// Puts something of a job on its way to the audio thread.
+    fn send(&self, job: &Job, what: Arrival) {
+        self.deliver(&self.queues.sent, Sent { order: job.order, job: job.number, what }, job.order);
+    }
+
+    /// Puts something into its queue, unless it is no longer wanted.
+    fn deliver<T: Passing>(&self, queue: &ArrayQueue<T>, mut sent: T, order: u32) {
         while self.latest.load(Ordering::Acquire) == order {
-            self.collect();
+            self.queues.collect();
             match queue.push(sent) {
                 Ok(()) => return,
                 Err(refused) => sent = refused,
             }
             // The audio thread has taken nothing, perhaps because it does not run, and somebody may be waiting.
-            if !make_room(queue, &sent) {
-                thread::sleep(Duration::from_millis(10));
-            }
+            make_room(queue, &sent);
         }
-    }
-
-    /// Drops what has come back.
-    fn collect(&self) {
-        while self.returned.pop().is_some() {}
-        while self.dismissed.pop().is_some() {}
     }
 
     fn end(&self, order: u32, failure: Option<String>) {
@@ -417,49 +376,32 @@ impl Shared {
     }
 }
 
+impl Job {
+    /// The pieces that differ from those in use, what takes longest first.
+    fn to_build(&self) -> Vec<(Slot, PieceBuild)> {
+        let options = self.plan.options(self.sample_rate);
+        let former = self.former.as_ref().filter(|former| former.options(self.sample_rate) == options);
+        let differs = |slot: Slot, build: &PieceBuild| {
+            former.is_none_or(|former| former.build(slot).as_ref() != Some(build))
+        };
+        let slots = self.plan.longest_first().into_iter();
+        let builds = slots.filter_map(|slot| Some((slot, self.plan.build(slot)?)));
+        builds.filter(|(slot, build)| differs(*slot, build)).collect()
+    }
+}
+
 /// Makes a piece and what is drawn of it, or says why not.
-fn made(make: Make, id: PieceId, options: &BuildOptions) -> Made {
+fn made(make: Make, slot: Slot, build: &PieceBuild, options: &BuildOptions) -> Made {
     let made = catch_unwind(AssertUnwindSafe(|| {
-        let piece = make(id, options)?;
+        let piece = make(slot, build, options)?;
         let shapes = Arc::new(piece.field_shapes());
         Ok::<_, SpecError>((Box::new(piece), shapes))
     }));
     match made {
         Ok(Ok(made)) => Ok(made),
-        Ok(Err(error)) => Err(format!("{}: {error}", id.name())),
-        Err(_) => Err(format!("{}: building it panicked", id.name())),
+        Ok(Err(error)) => Err(format!("{}: {error}", build.spec.name)),
+        Err(_) => Err(format!("{}: building it panicked", build.spec.name)),
     }
-}
-
-/// Something on its way to the audio thread.
-trait Sent {
-    /// Whether nobody wants it any more once something newer is there.
-    fn is_superseded_by(&self, newer: &Self) -> bool;
-}
-
-impl Sent for Built {
-    fn is_superseded_by(&self, newer: &Built) -> bool {
-        self.order != newer.order || self.piece.id() == newer.piece.id()
-    }
-}
-
-impl Sent for Hired {
-    fn is_superseded_by(&self, _newer: &Hired) -> bool {
-        true
-    }
-}
-
-/// Drops what is superseded and says whether there is room now. The rest goes back to where there was room
-/// for it: nobody else adds to the queue.
-fn make_room<T: Sent>(queue: &ArrayQueue<T>, newer: &T) -> bool {
-    let mut room = false;
-    for _ in 0..queue.capacity() {
-        match queue.pop() {
-            Some(sent) if !sent.is_superseded_by(newer) => room |= queue.push(sent).is_err(),
-            Some(_) | None => room = true,
-        }
-    }
-    room
 }
 
 /// Locks even after a panic elsewhere: every value behind these locks is valid at all times.

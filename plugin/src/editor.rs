@@ -21,6 +21,7 @@ use nice_plug_egui::{
     EguiEditor, EguiEditorState, EguiNiceSettings, Frame, GraphicsConfig, NiceEguiApp, RepaintNotifier,
     create_egui_editor,
 };
+use overhear_engine::slot::Slot;
 
 use crate::NAME;
 use crate::builder::Shapes;
@@ -44,9 +45,11 @@ mod physics;
 mod playing;
 mod plot;
 mod presets;
+mod settings;
 mod stage;
 mod status;
 mod theme;
+mod values;
 mod watch;
 mod window;
 
@@ -165,12 +168,12 @@ struct App {
 
 impl App {
     fn new(sources: Sources, farewell: Farewell) -> App {
-        let view = sources.parameters.view();
+        let (view, document) = (sources.parameters.view(), sources.parameters.document());
         App {
             sources,
             farewell,
             gui: None,
-            panels: Panels::new(Library::default(), view),
+            panels: Panels::new(Library::default(), view, document),
             watch: None,
             pace: Pace::default(),
             taken: None,
@@ -209,7 +212,7 @@ impl NiceEguiApp for App {
         let past = self.sources.viewer.since();
         let mut snapshot = self.sources.viewer.latest();
         snapshot.late_buffers = self.sources.parameters.deadlines().late();
-        let shapes = |slot| self.sources.shapes.of(slot);
+        let shapes = |slot: Slot| self.sources.shapes.of(slot);
         let mut set = |index: usize, gesture| {
             let Some(parameter) = self.sources.parameters.values().get(index) else { return };
             gesture_to_host(&gui.param_setter(), parameter, gesture);

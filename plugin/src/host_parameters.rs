@@ -1,17 +1,24 @@
 //! The table of parameters as the framework wants it, the host's own bypass, and what else a project stores.
+//!
+//! The kit is here too: whoever changes it puts another [document](KitDocument) in its place, which the builder notices. The
+//! audio thread never looks at it here.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 
 use crossbeam::atomic::AtomicCell;
 use nice_plug::params::persist::{deserialize_field, serialize_field};
 use nice_plug::prelude::*;
+use overhear_engine::error::SpecError;
 
 use crate::deadline::Deadlines;
+use crate::kit_document::KitDocument;
 use crate::midi::assignments::{Assignment, Assignments, NOTES};
 use crate::midi::maps::NoteMap;
-use crate::parameters::{BYPASS_GROUP, BYPASS_ID, Drives, Manner, PARAMETERS, Parameter, host_id};
+use crate::parameters::{
+    BYPASS_GROUP, BYPASS_ID, Drives, Manner, Parameter, from_text, host_id, parameters, slot_parameter, text,
+};
 use crate::presets::{Library, Program, Programs};
 use crate::state;
 use crate::view::View;
@@ -28,30 +35,38 @@ pub const SMALLEST_WINDOW: WindowSize = (800, 500);
 /// Largest window a state is believed: a broken one must not open a window nobody can close.
 const LARGEST_WINDOW: WindowSize = (7680, 4320);
 
-/// Every parameter of the table, the bypass, and the window's size.
+/// The kit of an instance, shared with whoever shows values as the kit has them.
+type SharedDocument = Arc<Mutex<Arc<KitDocument>>>;
+
+/// Every parameter of the table, the bypass, the kit, and the window's size.
 pub struct HostParameters {
-    /// `[parameter]`, in the order of [`PARAMETERS`]. Boxed, as the framework keeps pointers.
+    /// `[parameter]`, in the order of the table. Boxed, as the framework keeps pointers.
     values: Box<[FloatParam]>,
     /// Boxed for the same reason.
     bypass: Box<BoolParam>,
     window: AtomicCell<WindowSize>,
     view: AtomicCell<View>,
     assignments: Arc<Assignments>,
-    /// What program changes call; read when first needed, off the audio thread.
-    programs: OnceLock<Programs>,
+    document: SharedDocument,
+    /// What program changes call at the present kit; read when first needed, off the audio thread. Others hold this lock
+    /// for as long as it takes to put two words in their place, and the audio thread does not wait for it.
+    programs: Mutex<Option<Programs>>,
     /// No parameter, but what host, editor and audio thread share is here.
     deadlines: Deadlines,
 }
 
 impl Default for HostParameters {
     fn default() -> Self {
+        let document = SharedDocument::default();
+        let host_parameter = |(index, parameter)| host_parameter(index, parameter, &document);
         HostParameters {
-            values: PARAMETERS.iter().map(host_parameter).collect(),
+            values: parameters().iter().enumerate().map(host_parameter).collect(),
             bypass: Box::new(BoolParam::new("Bypass", false).make_bypass()),
             window: AtomicCell::new(DEFAULT_WINDOW),
             view: AtomicCell::new(View::default()),
             assignments: Arc::default(),
-            programs: OnceLock::new(),
+            document,
+            programs: Mutex::new(None),
             deadlines: Deadlines::default(),
         }
     }
@@ -75,37 +90,74 @@ pub fn take_latest() -> Option<Arc<HostParameters>> {
 }
 
 impl HostParameters {
-    /// Every note that sounds, with its name.
-    pub fn note_names(&self) -> Vec<(u8, &'static str)> {
+    /// The kit and its notes. Not for the audio thread.
+    pub fn document(&self) -> Arc<KitDocument> {
+        present(&self.document)
+    }
+
+    /// Puts a kit in the place of the present one: the builder notices and builds what differs. Parameters keep their
+    /// values. A kit that does not pass its [check](KitDocument::check) is not taken. Not for the audio thread.
+    ///
+    /// # Errors
+    /// What the check says.
+    pub fn set_document(&self, document: Arc<KitDocument>) -> Result<(), SpecError> {
+        document.check()?;
+        if *self.document() == *document {
+            return Ok(());
+        }
+        let programs = lock(&self.programs).clone();
+        let changed = programs.map(|programs| programs.at(&document.kit));
+        let former = std::mem::replace(&mut *lock(&self.document), document);
+        // Dropped once nobody waits for either lock.
+        let former = (former, changed.and_then(|programs| lock(&self.programs).replace(programs)));
+        drop(former);
+        Ok(())
+    }
+
+    /// Every note that sounds, with its name. Not for the audio thread.
+    pub fn note_names(&self) -> Vec<(u8, String)> {
+        let document = self.document();
         let map = NoteMap::ALL.get(self.manner(Manner::Map) as usize).copied().unwrap_or_default();
         let name = |note: u8| match self.assignments.of(note) {
-            Assignment::Mapped => map.name(note),
+            Assignment::Mapped => map.name(note, &document.notes),
             Assignment::Silent => None,
-            Assignment::Plays(reference) => NoteMap::GeneralMidi.name(reference),
+            Assignment::Plays(reference) => NoteMap::GeneralMidi.name(reference, &document.notes),
         };
-        (0..NOTES as u8).filter_map(|note| Some((note, name(note)?))).collect()
+        (0..NOTES as u8).filter_map(|note| Some((note, name(note)?.to_owned()))).collect()
     }
 
     /// Value of the parameter that moves this.
     fn manner(&self, manner: Manner) -> f32 {
-        let index = PARAMETERS.iter().position(|parameter| parameter.drives == Drives::Playing(manner));
+        let index = parameters().iter().position(|parameter| parameter.drives == Drives::Playing(manner));
         index.and_then(|index| self.values.get(index)).map_or(0.0, |value| value.unmodulated_plain_value())
     }
 
     /// Reads the presets that program changes call, once. Not for the audio thread.
     pub fn read_programs(&self) {
-        self.programs.get_or_init(|| Programs::of(&Library::default()));
+        if lock(&self.programs).is_none() {
+            let programs = Programs::of(&Library::default(), &self.document().kit);
+            *lock(&self.programs) = Some(programs);
+        }
     }
 
-    /// The program that a program change on a channel calls, if the parameters let it.
+    /// Does something with the program that a program change on a channel calls, if the parameters let it. In the instant in
+    /// which the kit changes no program is called.
     ///
     /// # Real-time
-    /// Look-ups; no allocation, no lock.
-    pub fn program(&self, number: u8, channel: u8) -> Option<&Program> {
+    /// Look-ups; no allocation, and nobody is waited for.
+    pub fn with_program<T>(&self, number: u8, channel: u8, act: impl FnOnce(&Program) -> T) -> Option<T> {
         let only = self.manner(Manner::Channel);
         let heard = only == 0.0 || only == f32::from(channel) + 1.0;
         let follows = self.manner(Manner::FollowsPrograms) >= 0.5;
-        self.programs.get().filter(|_| heard && follows)?.get(number)
+        if !(heard && follows) {
+            return None;
+        }
+        let programs = match self.programs.try_lock() {
+            Ok(programs) => programs,
+            Err(TryLockError::Poisoned(programs)) => programs.into_inner(),
+            Err(TryLockError::WouldBlock) => return None,
+        };
+        programs.as_ref()?.get(number).map(act)
     }
 
     /// Whether the parameters are where a program sets them.
@@ -114,21 +166,21 @@ impl HostParameters {
     /// Look-ups; no allocation, no lock.
     pub fn are_at(&self, program: &Program) -> bool {
         program.values.iter().all(|&(index, plain)| {
-            let (parameter, value) = (PARAMETERS.get(index), self.values.get(index));
+            let (parameter, value) = (parameters().get(index), self.values.get(index));
             parameter.zip(value).is_some_and(|(parameter, value)| {
                 parameter.snap(value.unmodulated_plain_value()) == parameter.snap(plain)
             })
         })
     }
 
-    /// The parameters, in the order of [`PARAMETERS`].
+    /// The parameters, in the order of the table.
     pub fn values(&self) -> &[FloatParam] {
         &self.values
     }
 
     /// Share of its range, 0 to 1, at which a parameter of the table is without modulation, by its [`host_id`].
     pub fn unmodulated(&self, id: u32) -> Option<f32> {
-        let index = PARAMETERS.iter().position(|parameter| host_id(parameter.id) == id)?;
+        let index = parameters().iter().position(|parameter| host_id(parameter.id) == id)?;
         Some(self.values.get(index)?.unmodulated_normalized_value())
     }
 
@@ -171,23 +223,42 @@ impl HostParameters {
     }
 }
 
-fn host_parameter(parameter: &'static Parameter) -> FloatParam {
-    let Parameter { group, label, min, max, .. } = *parameter;
+fn host_parameter(index: usize, parameter: &'static Parameter, document: &SharedDocument) -> FloatParam {
+    let Parameter { group, label, unit, min, max, .. } = *parameter;
     let range = FloatRange::Skewed { min, max, factor: parameter.skew() };
     // Hosts list names without their groups.
-    let value = FloatParam::new(format!("{group} {label}"), parameter.default, range)
-        .with_unit(parameter.unit)
-        .with_step_size(parameter.step)
-        .with_value_to_string(Arc::new(|value| parameter.text(value)))
-        .with_string_to_value(Arc::new(|text| parameter.from_text(text)));
+    let value =
+        FloatParam::new(format!("{group} {label}"), parameter.default, range).with_step_size(parameter.step);
+    let value = if slot_parameter(index).is_some() {
+        // What a slot's value means depends on the piece there, its unit included.
+        let (shown, typed) = (document.clone(), document.clone());
+        value
+            .with_value_to_string(Arc::new(move |value| text(index, value, &present(&shown).kit)))
+            .with_string_to_value(Arc::new(move |text| from_text(index, text, &present(&typed).kit)))
+    } else {
+        value
+            .with_unit(unit)
+            .with_value_to_string(Arc::new(|value| parameter.text(value)))
+            .with_string_to_value(Arc::new(|text| parameter.from_text(text)))
+    };
     if parameter.is_automatable() { value } else { value.non_automatable() }
+}
+
+/// The present kit.
+fn present(document: &SharedDocument) -> Arc<KitDocument> {
+    lock(document).clone()
+}
+
+/// Locks even after a panic elsewhere: every value behind these locks is valid at all times.
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 // SAFETY: the pointers lead into a boxed slice that lives as long as `self` and never moves.
 #[allow(unsafe_code)]
 unsafe impl Params for HostParameters {
     fn param_map(&self) -> Vec<(String, ParamPtr, String)> {
-        std::iter::zip(&PARAMETERS, &self.values)
+        std::iter::zip(parameters(), &self.values)
             .map(|(parameter, value)| (parameter.id.to_owned(), value.as_ptr(), parameter.group.to_owned()))
             .chain([(BYPASS_ID.to_owned(), self.bypass.as_ptr(), BYPASS_GROUP.to_owned())])
             .collect()
@@ -203,10 +274,23 @@ unsafe impl Params for HostParameters {
             fields.insert(state::VIEW_FIELD.to_owned(), view);
         }
         fields.insert(state::NOTES_FIELD.to_owned(), state::notes_text(&self.assignments.changed()));
+        fields.extend(state::kit_text(&self.document()).map(|text| (state::KIT_FIELD.to_owned(), text)));
         fields
     }
 
     fn deserialize_fields(&self, fields: &BTreeMap<String, String>) {
+        // Every state that was not refused as a whole has a schema by now.
+        if !fields.contains_key(state::SCHEMA_FIELD) {
+            return;
+        }
+        match state::kit(fields) {
+            Ok(document) => {
+                if let Err(error) = self.set_document(Arc::new(document)) {
+                    nice_warn!("The kit in the state cannot be built: {error}");
+                }
+            }
+            Err(error) => nice_warn!("The kit in the state is unreadable: {error}"),
+        }
         // A state older than assignments has none.
         let notes = fields.get(state::NOTES_FIELD).map(|text| state::notes(text)).unwrap_or_default();
         self.assignments.replace(&notes);
@@ -224,22 +308,24 @@ unsafe impl Params for HostParameters {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::parameters::{COUNT, find, is_live};
+    use overhear_engine::kit_spec::KitSpec;
 
     #[test]
     fn the_host_sees_the_table_in_its_order() {
-        let parameters = HostParameters::default();
-        let map = parameters.param_map();
-        assert_eq!(map.len(), PARAMETERS.len() + 1);
-        assert_eq!(map[PARAMETERS.len()].0, BYPASS_ID);
-        for ((id, _, group), parameter) in map.iter().zip(&PARAMETERS) {
+        let host = HostParameters::default();
+        let map = host.param_map();
+        assert_eq!(map.len(), COUNT + 1);
+        assert_eq!(map[COUNT].0, BYPASS_ID);
+        for ((id, _, group), parameter) in map.iter().zip(parameters()) {
             assert_eq!((id.as_str(), group.as_str()), (parameter.id, parameter.group));
         }
     }
 
     #[test]
     fn what_a_host_sends_is_what_the_table_says() {
-        let parameters = HostParameters::default();
-        for (parameter, value) in PARAMETERS.iter().zip(parameters.values()) {
+        let (host, kit) = (HostParameters::default(), KitSpec::standard());
+        for (index, (parameter, value)) in parameters().iter().zip(host.values()).enumerate() {
             assert_eq!(value.default_plain_value(), parameter.default);
             for plain in [parameter.min, parameter.default, parameter.centre, parameter.max] {
                 // A switch has no middle.
@@ -248,7 +334,14 @@ mod tests {
                 assert_eq!(normalized, parameter.normalized(plain), "{}", parameter.name);
                 assert_eq!(value.preview_plain(normalized), plain, "{}", parameter.name);
                 let text = value.normalized_value_to_string(normalized, true);
-                assert_eq!(value.string_to_normalized_value(&text), Some(normalized), "{text}");
+                let back = value.string_to_normalized_value(&text);
+                // A drum's pitch is shown to a hundredth of a hertz, and within what it can be tuned to.
+                if is_live(index, &kit) && !text.ends_with("Hz") {
+                    assert_eq!(back, Some(normalized), "{text}");
+                } else {
+                    let again = back.map(|back| value.normalized_value_to_string(back, true));
+                    assert_eq!(again, Some(text));
+                }
             }
             let middle = value.preview_plain(0.5);
             assert!((middle - parameter.centre).abs() <= parameter.step, "{}", parameter.name);
@@ -263,13 +356,44 @@ mod tests {
         let restored = HostParameters::default();
         restored.deserialize_fields(&fields);
         assert_eq!(restored.window(), (1200, 800));
+        restored.deserialize_fields(&BTreeMap::new());
+        assert_eq!(restored.window(), (1200, 800), "there was no state");
 
         for (broken, kept) in
             [("[1,1]", SMALLEST_WINDOW), ("\"large\"", SMALLEST_WINDOW), ("[9e9,1]", SMALLEST_WINDOW)]
         {
-            let fields = [(state::WINDOW_FIELD.to_owned(), broken.to_owned())].into();
+            let fields = [(state::SCHEMA_FIELD, "2"), (state::WINDOW_FIELD, broken)];
+            let fields = fields.map(|(name, value)| (name.to_owned(), value.to_owned())).into();
             restored.deserialize_fields(&fields);
             assert_eq!(restored.window(), kept, "{broken}");
         }
+    }
+
+    #[test]
+    fn values_are_shown_as_the_present_kit_has_them() {
+        let host = HostParameters::default();
+        let shown = |name: &str| {
+            let index = find(name, &KitSpec::standard()).unwrap();
+            let value = &host.values()[index];
+            value.normalized_value_to_string(value.unmodulated_normalized_value(), true)
+        };
+        let own = KitSpec::standard().pieces[0].instrument.tunings()[1];
+        assert_eq!((shown("kick_tune"), shown("slot_10_level")), (format!("{own:.2} Hz"), "-".to_owned()));
+        assert_eq!(shown("ride_tune"), "0.00 st");
+        let mut kit = KitSpec::standard();
+        kit.pieces.swap(0, 5);
+        let notes = crate::midi_map::NoteTable::standard(&kit);
+        host.set_document(Arc::new(KitDocument { kit, notes })).unwrap();
+        assert_eq!((shown("kick_tune"), shown("ride_tune")), ("0.00 st".to_owned(), format!("{own:.2} Hz")));
+    }
+
+    #[test]
+    fn a_kit_that_is_not_sound_is_not_taken() {
+        let host = HostParameters::default();
+        let mut broken = KitDocument::standard();
+        broken.kit.pieces[0].defaults.muffle = 2.0;
+        let error = host.set_document(Arc::new(broken)).unwrap_err().to_string();
+        assert_eq!(error, "pieces.kick.defaults.muffle is 2, accepted: 0 to 1");
+        assert_eq!(*host.document(), KitDocument::standard());
     }
 }

@@ -1,8 +1,8 @@
 //! Overhear as a plugin.
 //!
-//! In reading order: a host's note goes through the [`midi_map`] to the [`performer`], which owns
-//! the engine's kit; [`parameters`] is the table of everything a host may automate. These three
-//! know no framework, and the commands share them with the plugin.
+//! In reading order: a [`kit_document`] is a kit with the notes that play it, and a [`kit_file`] its text; a host's note goes
+//! through the [`midi_map`] to the [`performer`], which owns the engine's kit; [`parameters`] is the table of everything a host
+//! may automate. These know no framework, and the commands share them with the plugin.
 //!
 //! With the feature `framework`, around them: [`plugin`] is the instance a host holds,
 //! [`builder`] the thread that makes its pieces, [`shelf`] what outlives it, [`host_parameters`], [`view`] and [`state`] what a project
@@ -18,6 +18,8 @@ pub mod deadline;
 pub mod editor;
 #[cfg(feature = "framework")]
 pub mod host_parameters;
+pub mod kit_document;
+pub mod kit_file;
 pub mod midi;
 pub mod midi_map;
 #[cfg(feature = "framework")]
@@ -45,10 +47,10 @@ pub const NAME: &str = "Overhear";
 /// The plugin's id in CLAP hosts. Frozen: projects find it by this.
 pub const CLAP_ID: &str = "org.overhear.overhear";
 
-/// Name in hosts of the instrument with an output for every piece.
+/// Name in hosts of the instrument with an output for every slot.
 pub const MULTI_NAME: &str = "Overhear Multi";
 
-/// Id in CLAP hosts of the instrument with an output for every piece. Frozen.
+/// Id in CLAP hosts of the instrument with an output for every slot. Frozen.
 pub const MULTI_CLAP_ID: &str = "org.overhear.overhear-multi";
 
 #[cfg(feature = "framework")]

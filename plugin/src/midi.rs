@@ -2,13 +2,13 @@
 //!
 //! ```text
 //! note ──▶ the user's assignment ──▶ the instrument's map ──▶ reference note ──▶ stroke
-//!            (one per note)         (General MIDI, Roland,     (one table)
+//!            (one per note)         (General MIDI, Roland,     (the kit's table)
 //!                                    Yamaha, Alesis, plain)
 //! ```
 //!
-//! The [reference](crate::midi_map) table says what can be played: the General MIDI drum map and a few notes beyond it. The
-//! [`maps`] of other instruments and the user's own [`assignments`] name reference notes, so that a stroke is
-//! described in one place only. [`playing`] adds velocity, position, unevenness and chokes;
+//! The [reference](crate::midi_map) table belongs to the kit and says what can be played on it: of the standard kit, the General
+//! MIDI drum map and a few notes beyond it. The [`maps`] of other instruments and the user's own [`assignments`] name
+//! reference notes, so that a stroke is described in one place only. [`playing`] adds velocity, position, unevenness and chokes;
 //! [`document`] prints it all.
 
 pub mod assignments;

@@ -181,12 +181,13 @@ fn carry_peaks(from: &KitSnapshot, into: &mut KitSnapshot) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use overhear_engine::piece::{BuildOptions, Piece, PieceId, Quality};
+    use crate::kit_document::{KitDocument, standard_slot};
+    use overhear_engine::piece::{BuildOptions, Piece, Quality};
     use overhear_engine::strike::{Strike, Striker};
 
     #[test]
     fn snapshots_appear_at_their_rate_whatever_the_buffers() {
-        let mut performer = Performer::new(48_000.0);
+        let mut performer = Performer::new(48_000.0, &KitDocument::standard(), Arc::default());
         let (mut publisher, viewer) = monitor();
         publisher.set_sample_rate(48_000.0);
         let mut sound = [[0.0; 64]; 2];
@@ -206,9 +207,11 @@ mod tests {
 
     #[test]
     fn after_any_rest_a_stroke_is_kept_from_its_beginning() {
-        let mut performer = Performer::new(48_000.0);
+        let mut performer = Performer::new(48_000.0, &KitDocument::standard(), Arc::default());
         let options = BuildOptions { quality: Quality::Eco, ..BuildOptions::new(48_000.0) };
-        performer.install(Box::new(Piece::new(PieceId::Splash, &options).unwrap()));
+        let splash = standard_slot("splash");
+        let build = KitDocument::standard().kit.build(splash).unwrap();
+        performer.install(Box::new(Piece::new(splash, &build, &options).unwrap()));
         let (mut publisher, viewer) = monitor();
         publisher.set_sample_rate(48_000.0);
         let mut sound = [[0.0; 64]; 2];
@@ -222,18 +225,16 @@ mod tests {
         // Longer than all places last.
         play(&mut performer, 2 * 750);
         assert!(viewer.since().is_empty());
-        performer.strike(PieceId::Splash, &hit());
+        performer.strike(splash, &hit());
         play(&mut performer, 375);
         let past = viewer.since();
         assert!((40..=45).contains(&past.len()), "{} in half a second", past.len());
         let clocks: Vec<_> = past.iter().map(|snapshot| snapshot.clock).collect();
         assert!(clocks.windows(2).all(|pair| (1..=640).contains(&(pair[1] - pair[0]))), "{clocks:?}");
-        let counts: Vec<_> = past.iter().map(|snapshot| snapshot.pieces[SPLASH].strike.count).collect();
+        let counts: Vec<_> =
+            past.iter().map(|snapshot| snapshot.pieces[splash.index()].strike.count).collect();
         assert_eq!(counts[..2], [0, 1], "the last at rest, then the stroke");
     }
-
-    /// A splash's place in the kit.
-    const SPLASH: usize = 6;
 
     fn hit() -> Strike {
         Strike { speed: 3.0, radius: 0.5, angle: 0.0, striker: Striker::Stick }

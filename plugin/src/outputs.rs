@@ -1,13 +1,9 @@
-//! The two kinds of instrument: one stereo output, or one more for each piece.
+//! The two kinds of instrument: one stereo output, or one more for each slot and each pair of microphones.
 
 use std::num::NonZeroU32;
 
 use nice_plug::prelude::*;
-use overhear_engine::kit::Stereo;
-use overhear_engine::piece::PieceId;
-
-/// Pieces of the kit.
-const PIECES: usize = PieceId::KIT.len();
+use overhear_engine::kit::{OUTPUTS, Stereo};
 
 /// What tells one kind of instrument from the other.
 pub trait Outputs: Send + 'static {
@@ -35,7 +31,7 @@ impl Outputs for Mix {
         AudioIOLayout { main_output_channels: NonZeroU32::new(2), ..AudioIOLayout::const_default() };
 }
 
-/// The mix and a stereo output for every piece.
+/// The mix and a stereo output for every slot and each pair of microphones.
 pub struct Apart;
 
 impl Outputs for Apart {
@@ -45,42 +41,39 @@ impl Outputs for Apart {
     const ABOUT: &'static str = "A physically modelled drum kit with an output for every piece";
     const LAYOUT: AudioIOLayout = AudioIOLayout {
         main_output_channels: NonZeroU32::new(2),
-        aux_output_ports: &[new_nonzero_u32(2); PIECES],
+        aux_output_ports: &[new_nonzero_u32(2); OUTPUTS],
         names: PortNames { aux_outputs: &TITLES, ..PortNames::const_default() },
         ..AudioIOLayout::const_default()
     };
 }
 
-/// Names of the pieces on screen and of their outputs, in the order of [`PieceId::KIT`].
-const TITLES: [&str; PIECES] = {
-    let mut titles = [""; PIECES];
-    let mut slot = 0;
-    while slot < PIECES {
-        titles[slot] = title(PieceId::KIT[slot]);
-        slot += 1;
-    }
-    titles
-};
+/// Names of the outputs: hosts ask for them before there is an instance, so that they are those of the standard kit's pieces,
+/// and of the slots behind these.
+const TITLES: [&str; OUTPUTS] = [
+    "Kick",
+    "Snare",
+    "Rack tom",
+    "Floor tom",
+    "Crash",
+    "Ride",
+    "Splash",
+    "Timpani",
+    "Hi-hat",
+    "Slot 10",
+    "Slot 11",
+    "Slot 12",
+    "Slot 13",
+    "Slot 14",
+    "Slot 15",
+    "Slot 16",
+    "Overheads",
+    "Room",
+];
 
-/// A piece's name on screen, which is also its parameters' group.
-pub const fn title(piece: PieceId) -> &'static str {
-    match piece {
-        PieceId::Kick => "Kick",
-        PieceId::Snare => "Snare",
-        PieceId::RackTom => "Rack tom",
-        PieceId::FloorTom => "Floor tom",
-        PieceId::Crash => "Crash",
-        PieceId::Ride => "Ride",
-        PieceId::Splash => "Splash",
-        PieceId::Timpani => "Timpani",
-        PieceId::HiHat => "Hi-hat",
-    }
-}
-
-/// The buffers of one slice: the mix, and each piece's, empty where there is none.
+/// The buffers of one slice: the mix, and those of the other outputs, empty where there is none.
 pub struct Buffers<'a> {
     main: Stereo<'a>,
-    pieces: [Stereo<'a>; PIECES],
+    others: [Stereo<'a>; OUTPUTS],
 }
 
 impl<'a> Buffers<'a> {
@@ -89,14 +82,14 @@ impl<'a> Buffers<'a> {
     /// # Real-time
     /// No allocation.
     pub fn new(main: &'a mut [&mut [f32]], apart: &'a mut [Buffer<'_>]) -> Option<Buffers<'a>> {
-        let mut pieces: [Stereo<'a>; PIECES] = std::array::from_fn(|_| Stereo::default());
-        for (piece, buffer) in pieces.iter_mut().zip(apart) {
+        let mut others: [Stereo<'a>; OUTPUTS] = std::array::from_fn(|_| Stereo::default());
+        for (other, buffer) in others.iter_mut().zip(apart) {
             if let [left, right] = buffer.as_slice() {
-                *piece = [left, right];
+                *other = [left, right];
             }
         }
         match main {
-            [left, right] => Some(Buffers { main: [left, right], pieces }),
+            [left, right] => Some(Buffers { main: [left, right], others }),
             _ => None,
         }
     }
@@ -116,13 +109,13 @@ impl<'a> Buffers<'a> {
     ///
     /// # Real-time
     /// No allocation.
-    pub fn stretch(&mut self, from: usize, to: usize) -> (Stereo<'_>, [Stereo<'_>; PIECES]) {
-        (cut(&mut self.main, from, to), self.pieces.each_mut().map(|pair| cut(pair, from, to)))
+    pub fn stretch(&mut self, from: usize, to: usize) -> (Stereo<'_>, [Stereo<'_>; OUTPUTS]) {
+        (cut(&mut self.main, from, to), self.others.each_mut().map(|pair| cut(pair, from, to)))
     }
 
     /// Every channel there is, full scale 1.
     pub fn channels(&mut self) -> impl Iterator<Item = &mut [f32]> {
-        self.main.iter_mut().chain(self.pieces.iter_mut().flatten()).map(|channel| &mut **channel)
+        self.main.iter_mut().chain(self.others.iter_mut().flatten()).map(|channel| &mut **channel)
     }
 
     /// Silence on every output.
@@ -134,4 +127,18 @@ impl<'a> Buffers<'a> {
 /// A stretch of a pair; empty if the pair is.
 fn cut<'b>(pair: &'b mut Stereo<'_>, from: usize, to: usize) -> Stereo<'b> {
     pair.each_mut().map(|channel| channel.get_mut(from..to).unwrap_or_default())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::parameters::SlotParameter::Level;
+    use crate::parameters::{parameters, slot_index};
+    use overhear_engine::slot::{SLOTS, Slot};
+
+    #[test]
+    fn outputs_are_called_as_the_standard_kit_s_parameters_are() {
+        let groups = Slot::ALL.map(|slot| parameters()[slot_index(slot, Level)].group);
+        assert_eq!(TITLES[..SLOTS], groups);
+    }
 }

@@ -1,5 +1,8 @@
 //! The parameters: one table that the host, the editor, presets and `--set` all read.
 //!
+//! First come those of the 16 slots of a kit, as many for each slot, whatever stands there; then those of the whole kit. What
+//! needs building (sizes, heads, metals) is no parameter but in the kit.
+//!
 //! Ids are stored in projects and presets and hashed by hosts: once released, an id, its meaning
 //! and the order of the table never change. New parameters are appended.
 //!
@@ -7,21 +10,51 @@
 //! of the range and lose its last bits; rounding to a step finds them again, so that a project, a
 //! preset and a command line that ask for the same value get the same samples.
 
+use std::sync::LazyLock;
+
 use overhear_engine::kit::{Control, Microphone};
-use overhear_engine::piece::PieceId;
+use overhear_engine::kit_spec::KitSpec;
+use overhear_engine::slot::{SLOTS, Slot};
 #[cfg(doc)]
 use {
     crate::midi::{maps::NoteMap, playing::ChokeRule},
-    overhear_engine::{piece::Quality, strike::Striker},
+    overhear_engine::piece::Quality,
 };
 
 mod document;
 mod error;
+mod in_kit;
+mod slot;
 mod table;
 
-pub use document::document;
+pub use document::{about, document};
 pub use error::ParameterError;
-pub use table::PARAMETERS;
+pub use in_kit::{
+    default_value, find, from_text, is_live, name, parse_assignment, parse_value, range, slot_index,
+    slot_parameter, text,
+};
+pub use slot::{SlotParameter, number};
+
+/// Parameters that belong to a slot: they come first, slot by slot.
+pub const SLOT_COUNT: usize = SLOTS * SlotParameter::ALL.len();
+
+/// All parameters.
+pub const COUNT: usize = SLOT_COUNT + table::GLOBALS;
+
+/// Every parameter, in the order hosts see, named and set as in the standard kit. The order is frozen: append only.
+///
+/// # Real-time
+/// A look at a pointer, once it has been called anywhere before.
+pub fn parameters() -> &'static [Parameter; COUNT] {
+    static PARAMETERS: LazyLock<[Parameter; COUNT]> = LazyLock::new(|| {
+        let kit = KitSpec::standard();
+        std::array::from_fn(|index| match slot_parameter(index) {
+            Some((slot, what)) => what.in_slot(slot, &kit),
+            None => table::TABLE[index - SLOT_COUNT],
+        })
+    });
+    &PARAMETERS
+}
 
 /// Id of the host's bypass. Frozen. No parameter of the table: presets and command lines have nothing to bypass.
 pub const BYPASS_ID: &str = "bypass";
@@ -39,12 +72,10 @@ pub fn host_id(id: &str) -> u32 {
 /// What a parameter moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Drives {
+    /// Something of the piece in a slot.
+    Slot(Slot, SlotParameter),
     /// A control of the engine, in the control's own unit.
     Control(Control),
-    /// A control of the engine, in hundredths of its own unit.
-    Percent(Control),
-    /// The tuning of a cymbal, given in semitones where the engine takes a ratio.
-    Semitones(PieceId),
     /// Where a pair of microphones stands, from where it does by default.
     Stand(Microphone, Stand),
     /// How notes become strokes.
@@ -72,7 +103,7 @@ pub enum Manner {
     /// Exponent of the velocity curve.
     Curve,
     /// Mean distance from where a stroke is aimed, hundredths of the radius.
-    PlaceSpread,
+    PositionSpread,
     /// Mean difference of speed, dB.
     SpeedSpread,
     /// The map of the instrument played, by its place in [`NoteMap::ALL`].
@@ -85,21 +116,15 @@ pub enum Manner {
     FollowsPosition,
     /// Whether program changes load presets.
     FollowsPrograms,
-    /// Added to the place of strokes on a piece, share of the radius.
-    Offset(PieceId),
-    /// What is swung at a piece: 0 for what the map says, then by its place in [`Striker::ALL`] from 1 on.
-    Striker(PieceId),
 }
 
-/// What of [`BuildOptions`](overhear_engine::piece::BuildOptions) a parameter sets.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// What of building a parameter sets: how closely the same instrument is computed, and by how many cores.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Construction {
     /// Quality while playing, by its place in [`Quality::ALL`].
     Quality,
     /// Quality while a host renders faster or slower than real time: 0 for that of playing, then as above from 1 on.
     OfflineQuality,
-    /// Pitch of a drum's resonant head over the batter head's.
-    ResonantRatio(PieceId),
     /// Threads that render pieces beside the host's own.
     Workers,
 }
@@ -110,11 +135,11 @@ pub struct Parameter {
     /// Frozen id in states and hosts: at most 6 ASCII characters, as longer ones may collide once
     /// hashed.
     pub id: &'static str,
-    /// Name on command lines and in presets, in snake case.
+    /// Name on command lines and in presets, in snake case; of a slot's, in the standard kit.
     pub name: &'static str,
     /// Name on screen within its [`group`](Self::group).
     pub label: &'static str,
-    /// Group on screen: the piece, or `Kit`.
+    /// Group on screen: the piece that the standard kit has in the slot, `Slot 10` where it has none, or `Kit`.
     pub group: &'static str,
     /// Unit as printed after a value; empty for a plain number.
     pub unit: &'static str,
@@ -122,7 +147,7 @@ pub struct Parameter {
     pub min: f32,
     /// Largest value.
     pub max: f32,
-    /// Value of a fresh instance.
+    /// Value of a fresh instance, with the standard kit.
     pub default: f32,
     /// Value in the middle of a knob's travel; sets its skew.
     pub centre: f32,
@@ -134,13 +159,6 @@ pub struct Parameter {
     pub drives: Drives,
     /// Names of the values from [`min`](Self::min) on, if they have names.
     pub choices: &'static [&'static str],
-}
-
-impl Construction {
-    /// Whether it is about the machine: the same instrument, computed more or less closely, or by more cores.
-    pub fn is_effort(self) -> bool {
-        matches!(self, Construction::Quality | Construction::OfflineQuality | Construction::Workers)
-    }
 }
 
 impl Parameter {
@@ -192,19 +210,15 @@ impl Parameter {
         number.parse().ok().filter(|value: &f32| value.is_finite())
     }
 
-    /// Reads the value of a `name=value`, in the parameter's unit.
+    /// Reads a value in the parameter's unit, for a parameter of that name.
     ///
     /// # Errors
     /// [`ParameterError`] with the value and the accepted range.
-    pub fn parse(&self, text: &str) -> Result<f32, ParameterError> {
-        let Parameter { name, min, max, unit, .. } = *self;
-        let value = self.from_text(text).ok_or_else(|| ParameterError::NotANumber {
-            name,
-            given: text.to_owned(),
-            min,
-            max,
-            unit,
-        })?;
+    fn parse(&self, name: &str, text: &str) -> Result<f32, ParameterError> {
+        let (Parameter { min, max, unit, .. }, name) = (*self, name.to_owned());
+        let Some(value) = self.from_text(text) else {
+            return Err(ParameterError::NotANumber { name, given: text.to_owned(), min, max, unit });
+        };
         if (min..=max).contains(&value) {
             Ok(self.snap(value))
         } else {
@@ -228,142 +242,11 @@ impl Parameter {
     fn is_level(&self) -> bool {
         matches!(
             self.drives,
-            Drives::Control(
-                Control::Level(_) | Control::MicrophoneLevel(_) | Control::CloseLevel | Control::Master
-            )
+            Drives::Slot(_, SlotParameter::Level)
+                | Drives::Control(Control::MicrophoneLevel(_) | Control::CloseLevel | Control::Master)
         )
     }
 }
 
-/// The parameter of that long name, with its index in [`PARAMETERS`].
-///
-/// # Errors
-/// [`ParameterError::Unknown`] listing every name.
-pub fn find(name: &str) -> Result<(usize, &'static Parameter), ParameterError> {
-    PARAMETERS.iter().enumerate().find(|(_, parameter)| parameter.name == name).ok_or_else(|| {
-        let names: Vec<_> = PARAMETERS.iter().map(|parameter| parameter.name).collect();
-        ParameterError::Unknown { name: name.to_owned(), accepted: names.join(", ") }
-    })
-}
-
-/// Reads a `name=value` into an index in [`PARAMETERS`] and a value in that parameter's unit.
-///
-/// # Errors
-/// [`ParameterError`] if the form, the name or the value is wrong.
-pub fn parse_assignment(text: &str) -> Result<(usize, f32), ParameterError> {
-    let syntax = || ParameterError::Syntax { given: text.to_owned() };
-    let (name, value) = text.split_once('=').ok_or_else(syntax)?;
-    let (index, parameter) = find(name.trim())?;
-    Ok((index, parameter.parse(value)?))
-}
-
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use overhear_engine::piece::Piece;
-
-    /// Changing this list breaks every project that was ever saved.
-    const FROZEN_IDS: [&str; 86] = [
-        "kktune", "kkmuff", "kklevl", "sntune", "snmuff", "snlevl", "rttune", "rtmuff", "rtlevl", "fttune",
-        "ftmuff", "ftlevl", "crtune", "crmuff", "crlevl", "rdtune", "rdmuff", "rdlevl", "sptune", "spmuff",
-        "splevl", "master", "dynam", "snprel", "snwire", "tptune", "tpmuff", "tplevl", "kkpan", "snpan",
-        "rtpan", "ftpan", "crpan", "rdpan", "sppan", "tppan", "kkplac", "snplac", "rtplac", "ftplac",
-        "crplac", "rdplac", "spplac", "tpplac", "kkstik", "snstik", "rtstik", "ftstik", "crstik", "rdstik",
-        "spstik", "tpstik", "velcur", "humpla", "humspd", "notmap", "midchn", "chokes", "poscc", "qualit",
-        "offqua", "kkreso", "snreso", "rtreso", "ftreso", "cllevl", "ohlevl", "rmlevl", "hear", "sympat",
-        "clip", "hhtune", "hhmuff", "hhlevl", "hhpan", "hhplac", "hhstik", "hhpedl", "workrs", "progch",
-        "ohup", "ohaway", "ohwide", "rmup", "rmaway", "rmwide",
-    ];
-
-    #[test]
-    fn ids_hash_as_the_framework_documents() {
-        assert_eq!((host_id(""), host_id("a"), host_id("ab")), (0, 97, 97 * 31 + 98));
-        assert_eq!(host_id("kktune") >> 31, 0);
-    }
-
-    #[test]
-    fn ids_and_their_order_are_frozen() {
-        assert_eq!(PARAMETERS.map(|parameter| parameter.id), FROZEN_IDS);
-    }
-
-    #[test]
-    fn ids_are_short_and_ids_and_names_unique() {
-        for (index, parameter) in PARAMETERS.iter().enumerate() {
-            assert!(parameter.id.is_ascii() && (1..=6).contains(&parameter.id.len()));
-            for other in &PARAMETERS[..index] {
-                assert_ne!(parameter.id, other.id);
-                assert_ne!(parameter.name, other.name);
-            }
-        }
-    }
-
-    #[test]
-    fn tunings_span_what_the_engine_accepts_about_the_pieces_own_pitch() {
-        for parameter in &PARAMETERS {
-            let Parameter { min, centre, max, default, .. } = *parameter;
-            let (piece, spanned): (_, [f32; 3]) = match parameter.drives {
-                Drives::Control(Control::Tuning(piece)) => (piece, [min, centre, max]),
-                Drives::Semitones(piece) => (piece, [min, centre, max].map(|st| (st / 12.0).exp2())),
-                _ => continue,
-            };
-            assert!((min..=max).contains(&default), "{piece:?}");
-            let (min, own, max) = Piece::tuning_range(piece);
-            assert_eq!(spanned, [min, own, max].map(|value| value as f32), "{piece:?}");
-        }
-    }
-
-    #[test]
-    fn every_piece_can_be_tuned_muffled_and_levelled() {
-        for piece in PieceId::KIT {
-            let name = piece.name().replace('-', "_");
-            for what in ["tune", "muffle", "level"] {
-                assert!(find(&format!("{name}_{what}")).is_ok(), "{name}_{what}");
-            }
-        }
-    }
-
-    #[test]
-    fn a_value_that_went_through_a_host_comes_back_the_same() {
-        for parameter in &PARAMETERS {
-            for part in 0..=1000 {
-                let span = parameter.max - parameter.min;
-                let value = parameter.snap(parameter.min + span * part as f32 / 1000.0);
-                let share = parameter.normalized(value).powf(1.0 / parameter.skew());
-                let back = parameter.snap(parameter.min + span * share);
-                assert_eq!(value, back, "{}", parameter.name);
-                assert_eq!(parameter.snap(value), value, "{}", parameter.name);
-            }
-        }
-    }
-
-    #[test]
-    fn text_and_value_agree_both_ways() {
-        for parameter in &PARAMETERS {
-            for value in [parameter.min, parameter.default, parameter.centre, parameter.max] {
-                // A switch has no middle.
-                let value = parameter.snap(value);
-                let text = format!("{}{}", parameter.text(value), parameter.unit);
-                assert_eq!(parameter.from_text(&text), Some(value), "{text}");
-            }
-        }
-    }
-
-    #[test]
-    fn errors_name_the_value_and_what_is_accepted() {
-        let error = |text: &str| parse_assignment(text).unwrap_err().to_string();
-        assert_eq!(error("kick_tune=20"), "kick_tune is 20, accepted: 35 to 90 Hz");
-        assert_eq!(error("ride_tune=-12.5"), "ride_tune is -12.5, accepted: -12 to 12 st");
-        assert_eq!(error("kick_muffle=much"), "kick_muffle is `much`, accepted: 0 to 1");
-        assert_eq!(error("kick_muffle=NaN"), "kick_muffle is `NaN`, accepted: 0 to 1");
-        assert!(error("kick_muffle").contains("`kick_muffle` is not of the form name=value"));
-        assert!(error("triangle_tune=1").contains("accepted: kick_tune, kick_muffle"));
-    }
-
-    #[test]
-    fn assignments_take_plain_units() {
-        assert_eq!(parse_assignment("kick_tune=60"), Ok((0, 60.0)));
-        assert_eq!(parse_assignment("kick_muffle=.5"), Ok((1, 0.5)));
-        assert_eq!(parse_assignment(" crash_tune = -3 st"), Ok((12, -3.0)));
-        assert_eq!(parse_assignment("master_level=-inf"), Ok((21, -60.0)));
-    }
-}
+mod tests;

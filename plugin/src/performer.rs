@@ -1,104 +1,141 @@
 //! The performer: turns notes and parameters into strikes and controls of the kit.
 //!
+//! It knows slots and kinds of pieces and what the kit's [document](KitDocument) says of them. The document can be
+//! [changed](Performer::change_kit) while it plays: parameters keep their values, pieces arrive one by one.
+//!
 //! Every musical decision of the plugin is made here and none in the glue to the framework, so
 //! that whoever drives a performer with the same notes, values and sample times, be it a host or
 //! a command line, hears the same samples.
+
+mod controls;
 
 use std::sync::Arc;
 
 use no_denormals::no_denormals;
 use overhear_engine::error::SpecError;
 use overhear_engine::hi_hat::foot::SPEED;
-use overhear_engine::kit::{Control, Crew, Kit, Microphone, Stereo};
-use overhear_engine::layout::{Layout, Pair};
-use overhear_engine::piece::{Piece, PieceId};
+use overhear_engine::kit::{Arrangement, Control, Crew, Kit, Microphone, Stereo};
+use overhear_engine::kit_spec::Kind;
+use overhear_engine::piece::Piece;
+use overhear_engine::slot::{SLOTS, Slot};
 use overhear_engine::snapshot::KitSnapshot;
-use overhear_engine::strike::{Strike, Striker};
+use overhear_engine::strike::Strike;
 
 use crate::building::{BuildPlan, Pace};
+use crate::kit_document::KitDocument;
 use crate::midi::assignments::Assignments;
-use crate::midi::maps::NoteMap;
-use crate::midi::playing::{ChokeRule, Grip, Playing};
+use crate::midi::playing::{Grip, Playing};
 use crate::midi_map::Foot;
-use crate::parameters::{Drives, Manner, PARAMETERS};
-use crate::placing;
+use crate::parameters::{
+    COUNT, SLOT_COUNT, SlotParameter, default_value, is_live, slot_index, slot_parameter,
+};
 use crate::presets::Program;
 
 pub use crate::midi::playing::velocity_from_midi;
 
-/// Pieces of the kit.
-const PIECES: usize = PieceId::KIT.len();
-
 /// Most semitones of a bend, either way; the pieces' own ranges are narrower.
 const MOST_BEND: f32 = 48.0;
+
+/// Another kit for a performer, worked out beforehand: made by any thread, taken over by the audio thread, dropped by any
+/// other.
+pub struct Setup {
+    document: Arc<KitDocument>,
+    arrangement: Box<Arrangement>,
+}
+
+impl Setup {
+    /// That of a document, at the performer's sample rate, Hz. Allocates.
+    pub fn new(sample_rate: f64, document: Arc<KitDocument>) -> Setup {
+        let arrangement = Box::new(Arrangement::new(sample_rate, &document.kit));
+        Setup { document, arrangement }
+    }
+
+    /// Whether the kit has a piece in a slot.
+    pub fn has(&self, slot: Slot) -> bool {
+        self.document.kit.piece(slot).is_some()
+    }
+}
 
 /// A kit and who plays it.
 pub struct Performer {
     kit: Kit,
-    /// Where the overheads and the room's pair stand unless parameters move them.
-    usual: [Pair; 2],
     /// Values as asked for, `[parameter]`: hosts repeat all of them with every buffer.
-    asked: [f32; PARAMETERS.len()],
+    asked: [f32; COUNT],
     /// Plain values, `[parameter]`.
-    values: [f32; PARAMETERS.len()],
+    values: [f32; COUNT],
     playing: Playing,
-    /// Semitones by which notes bend the pitch of what they struck, `[piece]`.
-    bends: [f64; PIECES],
+    /// Tuning of the pieces that stand there, before anybody moves it, `[slot]`: Hz of a drum, ratio of a cymbal.
+    own: [f64; SLOTS],
+    /// Semitones by which notes bend the pitch of what they struck, `[slot]`.
+    bends: [f64; SLOTS],
     /// Whether anything was played or rendered since the start or the latest reset.
     started: bool,
 }
 
 impl Performer {
-    /// A performer at a kit that has no pieces yet, every parameter at its default; the sample rate is in Hz.
-    pub fn new(sample_rate: f64) -> Performer {
-        Performer::with_assignments(sample_rate, Arc::default())
-    }
-
-    /// As [`new`](Self::new) at a sample rate in Hz, with the user's assignments of notes.
-    pub fn with_assignments(sample_rate: f64, assignments: Arc<Assignments>) -> Performer {
-        Performer::at(Kit::new(sample_rate), assignments)
-    }
-
-    /// As [`new`](Self::new) at a sample rate in Hz, at a kit that stands so.
-    pub fn with_layout(sample_rate: f64, layout: &Layout) -> Performer {
-        Performer::at(Kit::with_layout(sample_rate, layout), Arc::default())
-    }
-
-    fn at(kit: Kit, assignments: Arc<Assignments>) -> Performer {
-        let usual = [kit.layout().overheads, kit.layout().room];
+    /// A performer at a kit that has no pieces yet, every parameter at the kit's default, with the user's assignments of
+    /// notes; the sample rate is in Hz.
+    pub fn new(sample_rate: f64, document: &KitDocument, assignments: Arc<Assignments>) -> Performer {
+        let own = Slot::ALL.map(|slot| {
+            let piece = document.kit.piece(slot);
+            piece.map_or(1.0, |piece| piece.instrument.tunings()[1])
+        });
         let mut performer = Performer {
-            kit,
-            usual,
-            asked: [f32::NAN; PARAMETERS.len()],
-            values: [f32::NAN; PARAMETERS.len()],
-            playing: Playing::new(assignments),
-            bends: [0.0; PIECES],
+            kit: Kit::new(sample_rate, &document.kit),
+            asked: [f32::NAN; COUNT],
+            values: [f32::NAN; COUNT],
+            playing: Playing::new(Arc::new(document.clone()), assignments),
+            own,
+            bends: [0.0; SLOTS],
             started: false,
         };
-        for (index, parameter) in PARAMETERS.iter().enumerate() {
-            performer.set_parameter(index, parameter.default);
+        for index in 0..COUNT {
+            performer.set_parameter(index, default_value(index, &document.kit));
         }
         performer
     }
 
-    /// Builds and installs every piece of the kit as a host plays it, on this thread. Takes seconds.
+    /// The kit that is played, and its notes.
+    pub fn document(&self) -> &KitDocument {
+        self.playing.document()
+    }
+
+    /// Builds and installs every piece of the kit as a host that plays or bounces has it, on this thread. Takes seconds.
     ///
     /// # Errors
     /// [`SpecError`] if the sample rate (Hz) is out of range.
-    pub fn install_kit(&mut self, sample_rate: f64) -> Result<(), SpecError> {
-        self.install_kit_for(sample_rate, Pace::RealTime)
-    }
-
-    /// The same for a host that plays or bounces, at a sample rate in Hz.
-    ///
-    /// # Errors
-    /// As [`install_kit`](Self::install_kit).
-    pub fn install_kit_for(&mut self, sample_rate: f64, pace: Pace) -> Result<(), SpecError> {
-        let plan = BuildPlan::of(|index| self.values[index], pace);
-        for id in PieceId::KIT {
-            self.install(Box::new(Piece::new(id, &plan.options(id, sample_rate))?));
+    pub fn install_kit(&mut self, sample_rate: f64, pace: Pace) -> Result<(), SpecError> {
+        let plan = BuildPlan::of(self.playing.document().clone(), |index| self.values[index], pace);
+        for slot in Slot::ALL {
+            let Some(build) = plan.build(slot) else { continue };
+            self.install(Box::new(Piece::new(slot, &build, &plan.options(sample_rate))?));
         }
         Ok(())
+    }
+
+    /// Goes over to another kit: its notes, places and room are there at once; its pieces are to be installed. Pieces of slots
+    /// that it leaves empty fade out, all others play on until others take their place. Parameters keep their values. What is
+    /// not needed any more comes back, to be dropped elsewhere.
+    ///
+    /// # Real-time
+    /// No allocation; nothing is dropped here.
+    pub fn change_kit(&mut self, setup: Setup) -> Setup {
+        let former = self.playing.change_kit(setup.document);
+        let arrangement = flushed(|| self.kit.arrange(setup.arrangement));
+        self.bends = [0.0; SLOTS];
+        for index in 0..SLOT_COUNT {
+            // A foot on a hi-hat stays where it is.
+            let is_pedal = matches!(slot_parameter(index), Some((_, SlotParameter::Pedal)));
+            if !(is_pedal && is_live(index, &former.kit)) {
+                self.apply(index);
+            }
+        }
+        if let Some(pedal) = self.playing.pedal_at() {
+            self.press_pedals(pedal);
+        }
+        self.place(Microphone::Overheads);
+        self.place(Microphone::Room);
+        Setup { document: former, arrangement }
     }
 
     /// Lets others render pieces, or nobody, from the next run on; returns who did so far, to be dropped elsewhere. Meant for
@@ -115,12 +152,21 @@ impl Performer {
         self.kit.is_whole()
     }
 
-    /// Puts a piece in its place and returns what stood there, to be dropped elsewhere.
+    /// Puts a piece in its slot and returns what stood there, to be dropped elsewhere. It starts at the pitch that the slot's
+    /// parameter asks of such a piece.
     ///
     /// # Real-time
     /// No allocation; nothing is dropped here.
     pub fn install(&mut self, piece: Box<Piece>) -> Option<Box<Piece>> {
-        flushed(|| self.kit.install(piece))
+        let (slot, [_, own, _]) = (piece.slot(), piece.tunings());
+        let former = flushed(|| self.kit.install(piece));
+        if std::mem::replace(&mut self.own[slot.index()], own) != own {
+            self.tune(slot);
+            if let Some(piece) = self.kit.piece_mut(slot) {
+                flushed(|| piece.finish_controls());
+            }
+        }
+        former
     }
 
     /// Hands back a replaced piece that has faded out, to be dropped elsewhere; one a call.
@@ -137,35 +183,34 @@ impl Performer {
     /// No allocation, no lock.
     pub fn note_on(&mut self, note: u8, velocity: f32, channel: u8) -> bool {
         let foot = self.playing.foot(note, velocity, channel);
-        if let Some((foot, speed)) = foot {
-            self.step(foot, speed);
+        if let Some((slot, foot, speed)) = foot {
+            self.step(slot, foot, speed);
         }
         let Some(played) = self.playing.note_on(note, velocity, channel) else {
             return foot.is_some();
         };
         self.start();
         // A bend belongs to the note that made it.
-        self.bend_piece(played.piece, 0.0);
+        self.bend_piece(played.slot, 0.0);
         flushed(|| {
             if played.releases {
-                self.kit.choke(played.piece, 0.0);
+                self.kit.choke(played.slot, 0.0);
             }
-            self.kit.strike(played.piece, &played.strike);
+            self.kit.strike(played.slot, &played.strike);
         });
         true
     }
 
-    /// Strikes a piece at the next sample as a hand asks, with the striker that its parameter says.
+    /// Strikes the piece of a slot at the next sample as a hand asks, with what its parameter says.
     ///
     /// # Real-time
     /// No allocation, no lock.
-    pub fn strike(&mut self, piece: PieceId, strike: &Strike) {
-        let Some(slot) = piece.slot() else { return };
-        let striker = self.playing.style.strikers[slot].unwrap_or(strike.striker);
+    pub fn strike(&mut self, slot: Slot, strike: &Strike) {
+        let striker = self.playing.style.strikers[slot.index()].unwrap_or(strike.striker);
         self.start();
         flushed(|| {
-            self.kit.choke(piece, 0.0);
-            self.kit.strike(piece, &Strike { striker, ..*strike });
+            self.kit.choke(slot, 0.0);
+            self.kit.strike(slot, &Strike { striker, ..*strike });
         });
     }
 
@@ -183,43 +228,29 @@ impl Performer {
     /// # Real-time
     /// No allocation, no lock.
     pub fn bend(&mut self, note: u8, semitones: f32, channel: u8) {
-        if let Some(piece) = self.playing.bent(note, channel).filter(|_| !semitones.is_nan()) {
-            self.bend_piece(piece, f64::from(semitones.clamp(-MOST_BEND, MOST_BEND)));
+        if let Some(slot) = self.playing.bent(note, channel).filter(|_| !semitones.is_nan()) {
+            self.bend_piece(slot, f64::from(semitones.clamp(-MOST_BEND, MOST_BEND)));
         }
     }
 
-    fn bend_piece(&mut self, piece: PieceId, semitones: f64) {
-        let bend = piece.slot().and_then(|slot| self.bends.get_mut(slot));
-        if bend.is_some_and(|bend| std::mem::replace(bend, semitones) != semitones) {
-            self.tune(piece);
-        }
-    }
-
-    /// Brings a piece to the pitch that its parameter and its bend come to.
-    fn tune(&mut self, piece: PieceId) {
-        let bend = piece.slot().map_or(0.0, |slot| self.bends[slot]);
-        for (parameter, value) in PARAMETERS.iter().zip(self.values) {
-            let value = f64::from(value);
-            let tuning = match parameter.drives {
-                Drives::Control(Control::Tuning(of)) if of == piece => value * libm::exp2(bend / 12.0),
-                Drives::Semitones(of) if of == piece => libm::exp2((value + bend) / 12.0),
-                _ => continue,
-            };
-            flushed(|| self.kit.set(Control::Tuning(piece), tuning));
-        }
-    }
-
-    /// Moves the hi-hat's pedal for a note.
-    fn step(&mut self, foot: Foot, speed: f64) {
+    /// Moves a hi-hat's pedal for a note.
+    fn step(&mut self, slot: Slot, foot: Foot, speed: f64) {
         if foot == Foot::Chick || foot == Foot::Splash {
             self.start();
         }
         flushed(|| match foot {
             // As fast as can be: a drummer's foot would have been there before the stroke.
-            Foot::Brought(pedal) => self.kit.press_pedal(pedal, SPEED.2),
-            Foot::Chick => self.kit.stamp_pedal(speed),
-            Foot::Splash => self.kit.splash_pedal(speed),
+            Foot::Brought(pedal) => self.kit.press_pedal(slot, pedal, SPEED.2),
+            Foot::Chick => self.kit.stamp_pedal(slot, speed),
+            Foot::Splash => self.kit.splash_pedal(slot, speed),
         });
+    }
+
+    /// The slots that have a hi-hat.
+    fn hi_hats(&self) -> [Option<Slot>; SLOTS] {
+        let kit = &self.playing.document().kit;
+        Slot::ALL
+            .map(|slot| kit.piece(slot).filter(|piece| piece.instrument.kind() == Kind::HiHat).map(|_| slot))
     }
 
     /// Ends a note: chokes its cymbal if the rule says so.
@@ -256,11 +287,19 @@ impl Performer {
     pub fn control_change(&mut self, controller: u8, value: f32, channel: u8) {
         self.playing.control_change(controller, value, channel);
         if let Some(pedal) = self.playing.pedal(controller, value, channel) {
-            flushed(|| self.kit.set(Control::Pedal, pedal));
+            self.press_pedals(pedal);
         }
     }
 
-    /// Loads a preset for a program change, unless the parameters or the channel say otherwise.
+    /// Brings the pedals of all hi-hats to a place, 0 (up) to 1 (down).
+    fn press_pedals(&mut self, pedal: f64) {
+        for slot in self.hi_hats().into_iter().flatten() {
+            flushed(|| self.kit.set(Control::Pedal(slot), pedal));
+        }
+    }
+
+    /// Loads the values and the assignments of a preset for a program change, unless the parameters or the channel say
+    /// otherwise.
     ///
     /// # Real-time
     /// No allocation, no lock.
@@ -277,87 +316,18 @@ impl Performer {
     }
 
     fn grip(&mut self, grip: Option<Grip>) {
-        if let Some(Grip { piece, strength }) = grip {
+        if let Some(Grip { slot, strength }) = grip {
             self.start();
-            flushed(|| self.kit.choke(piece, strength));
+            flushed(|| self.kit.choke(slot, strength));
         }
     }
 
-    /// Moves a parameter, by its index in [`PARAMETERS`], to a plain value from the next sample
-    /// on; before the first note and sample it is there at once. The value is
-    /// [snapped](crate::parameters::Parameter::snap); an unchanged one and an unknown index do
-    /// nothing.
-    ///
-    /// # Real-time
-    /// No allocation, no lock.
-    pub fn set_parameter(&mut self, index: usize, value: f32) {
-        let Some(parameter) = PARAMETERS.get(index) else {
-            return;
-        };
-        if std::mem::replace(&mut self.asked[index], value) == value {
-            return;
-        }
-        let value = parameter.snap(value);
-        if value == self.values[index] {
-            return;
-        }
-        self.values[index] = value;
-        let value = f64::from(value);
-        match parameter.drives {
-            Drives::Control(Control::Tuning(piece)) | Drives::Semitones(piece) => self.tune(piece),
-            Drives::Control(control) => flushed(|| self.kit.set(control, value)),
-            Drives::Percent(control) => flushed(|| self.kit.set(control, value / 100.0)),
-            Drives::Stand(pair, _) => self.place(pair),
-            Drives::Playing(manner) => self.set_manner(manner, value),
-            // The builder reads it; new pieces will arrive.
-            Drives::Building(_) => {}
-        }
+    /// The slot whose piece a note strikes, if it sounds.
+    pub fn slot_of(&self, note: u8) -> Option<Slot> {
+        self.playing.stroke(note).map(|stroke| stroke.slot)
     }
 
-    /// Puts a pair of microphones where the parameters want it.
-    fn place(&mut self, pair: Microphone) {
-        let usual = if pair == Microphone::Room { self.usual[1] } else { self.usual[0] };
-        let places = placing::places(usual, pair, &|index| self.values.get(index).copied());
-        let layout = self.kit.layout();
-        let present = if pair == Microphone::Room { layout.room } else { layout.overheads };
-        // What stays where it is must not fade over.
-        if places != present {
-            flushed(|| self.kit.place(pair, places));
-        }
-    }
-
-    fn set_manner(&mut self, manner: Manner, value: f64) {
-        let style = &mut self.playing.style;
-        let place = value as usize;
-        match manner {
-            Manner::Dynamics => style.dynamics = value,
-            Manner::Curve => style.curve = value,
-            Manner::PlaceSpread => style.place_spread = value / 100.0,
-            Manner::SpeedSpread => style.speed_spread = value,
-            Manner::Map => style.map = NoteMap::ALL.get(place).copied().unwrap_or_default(),
-            Manner::Channel => style.channel = place.checked_sub(1).map(|channel| channel as u8),
-            Manner::Chokes => style.chokes = ChokeRule::ALL.get(place).copied().unwrap_or_default(),
-            Manner::FollowsPosition => style.follows_position = value >= 0.5,
-            Manner::FollowsPrograms => style.follows_programs = value >= 0.5,
-            Manner::Offset(piece) => {
-                if let Some(slot) = piece.slot() {
-                    style.offsets[slot] = value;
-                }
-            }
-            Manner::Striker(piece) => {
-                if let Some(slot) = piece.slot() {
-                    style.strikers[slot] = place.checked_sub(1).and_then(|at| Striker::ALL.get(at).copied());
-                }
-            }
-        }
-    }
-
-    /// The piece that a note strikes, if it sounds.
-    pub fn piece_of(&self, note: u8) -> Option<PieceId> {
-        self.playing.stroke(note).map(|stroke| stroke.piece)
-    }
-
-    /// The present value of a parameter, in its unit, by its index in [`PARAMETERS`].
+    /// The present value of a parameter, in its unit, by its place in the [table](crate::parameters::parameters).
     pub fn parameter(&self, index: usize) -> Option<f32> {
         self.values.get(index).copied()
     }
@@ -372,14 +342,14 @@ impl Performer {
         flushed(|| self.kit.render(left, right));
     }
 
-    /// [`render`](Self::render), and each piece to an output of its own, in the order of [`PieceId::KIT`]; see
+    /// [`render`](Self::render), and each slot's piece and the pairs of microphones to outputs of their own; see
     /// [`Kit::render_outputs`].
     ///
     /// # Real-time
     /// No allocation, no lock.
-    pub fn render_outputs(&mut self, main: Stereo<'_>, pieces: &mut [Stereo<'_>]) {
+    pub fn render_outputs(&mut self, main: Stereo<'_>, outputs: &mut [Stereo<'_>]) {
         self.start();
-        flushed(|| self.kit.render_outputs(main, pieces));
+        flushed(|| self.kit.render_outputs(main, outputs));
     }
 
     /// Whether every piece has been installed.
@@ -392,16 +362,17 @@ impl Performer {
     /// # Real-time
     /// No allocation, no lock.
     pub fn reset(&mut self) {
-        if !self.playing.plays_pedal() {
+        if self.playing.pedal_at().is_none() {
             // Where notes have left it is forgotten, where a foot is is not.
-            let pedal = PARAMETERS.iter().position(|it| it.drives == Drives::Control(Control::Pedal));
-            let value = pedal.map_or(0.0, |index| f64::from(self.values[index]));
-            flushed(|| self.kit.set(Control::Pedal, value));
+            for slot in self.hi_hats().into_iter().flatten() {
+                let value = f64::from(self.values[slot_index(slot, SlotParameter::Pedal)]);
+                flushed(|| self.kit.set(Control::Pedal(slot), value));
+            }
         }
-        PieceId::KIT.into_iter().for_each(|piece| self.bend_piece(piece, 0.0));
+        Slot::ALL.into_iter().for_each(|slot| self.bend_piece(slot, 0.0));
         flushed(|| {
             // Whatever hand was on a cymbal is gone with the note it belonged to.
-            PieceId::KIT.into_iter().for_each(|piece| self.kit.choke(piece, 0.0));
+            Slot::ALL.into_iter().for_each(|slot| self.kit.choke(slot, 0.0));
             self.kit.reset();
         });
         self.playing.reset();

@@ -1,19 +1,19 @@
 //! Where the pairs of microphones stand, from the parameters that move them.
 //!
 //! A pair is moved as a whole, up and away from the drummer, and drawn apart along its own axis; all of it from where
-//! it stands in the kit's layout, so that untouched parameters leave every layout as it is, to the last bit.
+//! it stands in the kit, so that untouched parameters leave every kit as it is, to the last bit.
 
 use overhear_engine::kit::Microphone;
 use overhear_engine::layout::Pair;
 
-use crate::parameters::{Drives, PARAMETERS, Stand};
+use crate::parameters::{Drives, Stand, parameters};
 
 /// Index of the parameter that moves this of a pair.
 ///
 /// # Real-time
 /// A search through the table.
 pub fn index_of(pair: Microphone, stand: Stand) -> Option<usize> {
-    PARAMETERS.iter().position(|parameter| parameter.drives == Drives::Stand(pair, stand))
+    parameters().iter().position(|parameter| parameter.drives == Drives::Stand(pair, stand))
 }
 
 /// Places of a pair that usually stands there; `value` gives a parameter's value in its unit, by its index.
@@ -38,18 +38,19 @@ pub fn places(usual: Pair, pair: Microphone, value: &dyn Fn(usize) -> Option<f32
 #[cfg(test)]
 mod tests {
     use super::*;
-    use overhear_engine::layout::{Layout, distance};
+    use overhear_engine::kit_spec::{KitSpec, MicrophonesSpec};
+    use overhear_engine::layout::distance;
 
     #[test]
     fn untouched_parameters_move_nothing_and_others_what_they_say() {
-        let Layout { overheads, room, .. } = Layout::default();
-        let default = |index: usize| Some(PARAMETERS[index].default);
+        let MicrophonesSpec { overheads, room } = KitSpec::standard().microphones;
+        let default = |index: usize| Some(parameters()[index].default);
         assert_eq!(places(overheads, Microphone::Overheads, &default), overheads);
         assert_eq!(places(room, Microphone::Room, &default), room);
         let with = |stand: Stand, value: f32| {
             let moved = index_of(Microphone::Overheads, stand).unwrap();
             places(overheads, Microphone::Overheads, &|index| {
-                Some(if index == moved { value } else { PARAMETERS[index].default })
+                Some(if index == moved { value } else { parameters()[index].default })
             })
         };
         let up = with(Stand::Height, 50.0);

@@ -16,14 +16,14 @@ use std::time::Duration;
 
 use nice_plug::prelude::*;
 
-use crate::builder::{Builder, Delivery, Outcome};
+use crate::builder::{Arrival, Builder, Delivery, Outcome};
 use crate::building::{BuildPlan, Pace};
 use crate::bypass::Bypass;
 use crate::editor::OverhearEditor;
 use crate::host_parameters::{self, HostParameters};
 use crate::monitor::{self, Publisher, Viewer};
 use crate::outputs::{Apart, Buffers, Mix, Outputs};
-use crate::parameters::PARAMETERS;
+use crate::parameters::parameters;
 use crate::performer::Performer;
 use crate::state;
 use crate::strokes::{self, Strokes, Waiting};
@@ -44,7 +44,7 @@ const PATIENCE_OF_TESTS: u64 = 120;
 /// Overhear with one stereo output.
 pub type Overhear = Instrument<Mix>;
 
-/// Overhear with an output for every piece.
+/// Overhear with an output for every slot and each pair of microphones.
 pub type OverhearMulti = Instrument<Apart>;
 
 /// One instance.
@@ -95,14 +95,14 @@ impl<O> Default for Instrument<O> {
     }
 }
 
-/// What the parameters ask of building now.
-fn plan(parameters: &HostParameters, offline: &AtomicBool) -> BuildPlan {
+/// What is to be built now.
+fn plan(host: &HostParameters, offline: &AtomicBool) -> BuildPlan {
     let pace = if offline.load(Ordering::Acquire) { Pace::Offline } else { Pace::RealTime };
     let value = |index: usize| {
-        let default = PARAMETERS[index].default;
-        parameters.values().get(index).map_or(default, |value| value.unmodulated_plain_value())
+        let default = parameters()[index].default;
+        host.values().get(index).map_or(default, |value| value.unmodulated_plain_value())
     };
-    BuildPlan::of(value, pace)
+    BuildPlan::of(host.document(), value, pace)
 }
 
 impl<O: Outputs> Plugin for Instrument<O> {
@@ -196,15 +196,19 @@ impl<O: Outputs> Instrument<O> {
         let other_pace = self.offline.swap(offline, Ordering::AcqRel) != offline;
         let rate = f64::from(sample_rate);
         let usable = |stage: &Stage| stage.sample_rate == sample_rate && !stage.broken;
+        let document = self.parameters.document();
+        let at_another_kit =
+            self.stage.as_ref().is_some_and(|stage| *stage.performer.document() != *document);
         let ordered = if self.stage.as_ref().is_some_and(usable) {
             None
         } else {
             self.stage = None;
-            Some(self.builder.order(rate))
+            Some(self.builder.order(rate, document.clone()))
         };
         // A kit that plays is replaced piece by piece while it plays on. A bounce gets what it asks for from its start,
-        // and so does who plays after it: a kit made for bouncing may be too dear to be played.
-        if ordered.is_none() && !offline && !other_pace {
+        // and so does who plays after it: a kit made for bouncing may be too dear to be played. Nor does another kit begin
+        // with what is left of the former one.
+        if ordered.is_none() && !offline && !other_pace && !at_another_kit {
             self.follow();
             return;
         }
@@ -218,7 +222,7 @@ impl<O: Outputs> Instrument<O> {
             }
         }
         if let Some(delivery) = ordered {
-            let performer = Performer::with_assignments(rate, self.parameters.assignments());
+            let performer = Performer::new(rate, &document, self.parameters.assignments());
             let bypass = Bypass::new(sample_rate, self.parameters.is_bypassed());
             self.stage = Some(Stage { performer, delivery, sample_rate, bypass, broken: false });
             self.publisher.set_sample_rate(rate);
@@ -235,13 +239,16 @@ impl<O: Outputs> Instrument<O> {
 }
 
 impl Stage {
-    /// Takes over the parameters, then the pieces that have arrived: in this order a new piece
+    /// Takes over the parameters, then the kit and the pieces that have arrived: in this order a new piece
     /// starts with the present values.
     fn follow(&mut self, parameters: &HostParameters) {
         for (index, value) in parameters.values().iter().enumerate() {
             self.performer.set_parameter(index, value.value());
         }
-        self.delivery.take(|piece| self.performer.install(piece));
+        self.delivery.take(|arrival| match arrival {
+            Arrival::Setup(setup) => Some(Arrival::Setup(self.performer.change_kit(setup))),
+            Arrival::Piece(piece) => self.performer.install(piece).map(Arrival::Piece),
+        });
         while let Some(piece) = self.performer.retire() {
             self.delivery.give_back(piece);
         }
@@ -271,14 +278,14 @@ impl<O: Outputs> ClapPlugin for Instrument<O> {
     fn remote_controls(&self, context: &mut impl RemoteControlsContext) {
         context.add_section("Kit", |section| {
             let mut groups: Vec<&str> = Vec::new();
-            for parameter in &PARAMETERS {
+            for parameter in parameters() {
                 if !groups.contains(&parameter.group) {
                     groups.push(parameter.group);
                 }
             }
             for group in groups {
                 section.add_page(group, |page| {
-                    for (parameter, value) in PARAMETERS.iter().zip(self.parameters.values()) {
+                    for (parameter, value) in parameters().iter().zip(self.parameters.values()) {
                         if parameter.group == group {
                             page.add_param(value);
                         }

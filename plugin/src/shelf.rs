@@ -12,8 +12,8 @@
 //! ```
 //!
 //! and is taken only if all of it is right; whatever is not is as good as missing, and written anew. Its
-//! name holds a digest of the engine's sources and of what was asked for, so that a newer engine finds nothing of an
-//! older one's. Files are written beside and moved into place: whoever reads meanwhile sees a whole one or none.
+//! name holds a digest of the version of the engine's equations and of what was asked for, so that a newer engine finds nothing
+//! of an older one's. Files are written beside and moved into place: whoever reads meanwhile sees a whole one or none.
 //!
 //! Nothing here runs on the audio thread.
 
@@ -34,8 +34,8 @@ const HEADER: usize = 24;
 /// How files' names end.
 const EXTENSION: &str = "kept";
 
-/// Files kept; beyond, the oldest are removed. A kit needs 15 at a sample rate.
-const MOST_FILES: usize = 96;
+/// Files kept; beyond, the oldest are removed. The standard kit needs 15 at a sample rate, one of 16 pieces about 30.
+const MOST_FILES: usize = 256;
 
 /// A folder of checked files.
 pub struct FolderShelf {

@@ -6,7 +6,7 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use overhear_engine::piece::PieceId;
+use overhear_engine::slot::Slot;
 use overhear_engine::strike::Strike;
 use rtrb::{Consumer, Producer, RingBuffer};
 
@@ -18,8 +18,8 @@ const WAITING: usize = 32;
 /// A stroke on a piece.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stroke {
-    /// The piece.
-    pub piece: PieceId,
+    /// Slot of the piece.
+    pub slot: Slot,
     /// How fast, where, with what.
     pub strike: Strike,
 }
@@ -58,8 +58,8 @@ impl Waiting {
     pub fn deliver(&mut self, performer: &mut Performer) {
         // A hand that goes on playing does not hold it up.
         for _ in 0..WAITING {
-            let Ok(Stroke { piece, strike }) = self.strokes.pop() else { return };
-            performer.strike(piece, &strike);
+            let Ok(Stroke { slot, strike }) = self.strokes.pop() else { return };
+            performer.strike(slot, &strike);
         }
     }
 
@@ -79,21 +79,28 @@ impl Waiting {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kit_document::{KitDocument, standard_slot};
     use overhear_engine::piece::{BuildOptions, Piece, Quality};
     use overhear_engine::snapshot::KitSnapshot;
     use overhear_engine::strike::Striker;
 
     const RATE: f64 = 48_000.0;
 
-    fn stroke(piece: PieceId, speed: f64, radius: f64, angle: f64) -> Stroke {
-        Stroke { piece, strike: Strike { speed, radius, angle, striker: Striker::Stick } }
+    fn stroke(piece: &str, speed: f64, radius: f64, angle: f64) -> Stroke {
+        Stroke {
+            slot: standard_slot(piece),
+            strike: Strike { speed, radius, angle, striker: Striker::Stick },
+        }
     }
 
-    fn performer(pieces: &[PieceId]) -> Performer {
-        let mut performer = Performer::new(RATE);
-        for &id in pieces {
+    fn performer(pieces: &[&str]) -> Performer {
+        let document = KitDocument::standard();
+        let mut performer = Performer::new(RATE, &document, Arc::default());
+        for piece in pieces {
             let options = BuildOptions { quality: Quality::Eco, ..BuildOptions::new(RATE) };
-            performer.install(Box::new(Piece::new(id, &options).unwrap()));
+            let slot = standard_slot(piece);
+            let build = document.kit.build(slot).unwrap();
+            performer.install(Box::new(Piece::new(slot, &build, &options).unwrap()));
         }
         performer
     }
@@ -106,18 +113,18 @@ mod tests {
 
     #[test]
     fn a_stroke_of_a_hand_strikes_that_piece_there_and_is_heard() {
-        let mut performer = performer(&[PieceId::RackTom, PieceId::Splash]);
+        let mut performer = performer(&["rack-tom", "splash"]);
         let (strokes, mut waiting) = super::strokes();
         let silence = heard(&mut performer);
         assert!(silence.iter().all(|&sample| sample == 0.0));
-        strokes.play(stroke(PieceId::RackTom, 3.0, 0.4, -1.1));
+        strokes.play(stroke("rack-tom", 3.0, 0.4, -1.1));
         waiting.deliver(&mut performer);
         let sound = heard(&mut performer);
         assert!(sound.iter().any(|sample| sample.abs() > 0.01), "nothing is heard");
         let mut snapshot = KitSnapshot::default();
         performer.snapshot(&mut snapshot);
         let [tom, splash] =
-            [PieceId::RackTom, PieceId::Splash].map(|piece| snapshot.pieces[piece.slot().unwrap()].strike);
+            ["rack-tom", "splash"].map(|piece| snapshot.pieces[standard_slot(piece).index()].strike);
         assert_eq!((tom.count, tom.speed, tom.radius, tom.angle), (1, 3.0, 0.4, -1.1));
         assert_eq!(splash.count, 0);
     }
@@ -125,9 +132,9 @@ mod tests {
     #[test]
     fn elsewhere_sounds_different() {
         let sound = |radius: f64| {
-            let mut performer = performer(&[PieceId::RackTom]);
+            let mut performer = performer(&["rack-tom"]);
             let (strokes, mut waiting) = super::strokes();
-            strokes.play(stroke(PieceId::RackTom, 3.0, radius, 0.0));
+            strokes.play(stroke("rack-tom", 3.0, radius, 0.0));
             waiting.deliver(&mut performer);
             heard(&mut performer)
         };
@@ -139,26 +146,26 @@ mod tests {
 
     #[test]
     fn a_full_queue_loses_strokes_and_nothing_else() {
-        let mut performer = performer(&[PieceId::Splash]);
+        let mut performer = performer(&["splash"]);
         let (strokes, mut waiting) = super::strokes();
         for _ in 0..1_000 {
-            strokes.play(stroke(PieceId::Splash, 1.0, 0.5, 0.0));
+            strokes.play(stroke("splash", 1.0, 0.5, 0.0));
         }
         waiting.deliver(&mut performer);
         let mut snapshot = KitSnapshot::default();
         performer.snapshot(&mut snapshot);
-        assert_eq!(snapshot.pieces[PieceId::Splash.slot().unwrap()].strike.count, WAITING as u32);
+        assert_eq!(snapshot.pieces[standard_slot("splash").index()].strike.count, WAITING as u32);
     }
 
     #[test]
     fn what_is_forgotten_strikes_nothing() {
-        let mut performer = performer(&[PieceId::Splash]);
+        let mut performer = performer(&["splash"]);
         let (strokes, mut waiting) = super::strokes();
-        strokes.play(stroke(PieceId::Splash, 1.0, 0.5, 0.0));
+        strokes.play(stroke("splash", 1.0, 0.5, 0.0));
         waiting.clear();
         waiting.deliver(&mut performer);
         assert!(heard(&mut performer).iter().all(|&sample| sample == 0.0));
-        strokes.play(stroke(PieceId::Splash, 1.0, 0.5, 0.0));
+        strokes.play(stroke("splash", 1.0, 0.5, 0.0));
         waiting.deliver(&mut performer);
         assert!(heard(&mut performer).iter().any(|sample| sample.abs() > 1e-3));
     }

@@ -1,7 +1,7 @@
 """Renders one job through a VST3 bundle with pedalboard, which leaves all outputs but the main one inactive.
 
-The argument is a JSON file: plugin, name, rate, block, frames, notes [[sample, key, velocity]], out. Left and then
-right samples are written to `out` as little-endian 32-bit floats.
+The argument is a JSON file: plugin, name, preset (a .vstpreset to load first, or null), rate, block, frames,
+notes [[sample, key, velocity]], out. Left and then right samples are written to `out` as little-endian 32-bit floats.
 """
 
 import json
@@ -18,6 +18,8 @@ with open(sys.argv[1]) as file:
 _pedalboard.PARAMETER_NAME_REGEXES_TO_IGNORE.add(re.compile(r"MIDI Ch\. \d+ "))
 
 plugin = pedalboard.VST3Plugin(job["plugin"], plugin_name=job["name"])
+if job["preset"]:
+    plugin.load_preset(job["preset"])
 # Pedalboard takes seconds and cuts them to a sample: aim behind its start, not at it.
 notes = [([0x99, key, velocity], (sample + 0.25) / job["rate"]) for sample, key, velocity in job["notes"]]
 sound = plugin(

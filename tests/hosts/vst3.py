@@ -2,8 +2,8 @@
 
 The argument is a JSON file: plugin, rate, block, frames, notes [[sample, key, velocity]],
 parameters [[index, share of the range]], automation [[index, [share of the range for each block]]],
-load and save (files of a state, or null), out. Left and then right samples are written to `out`
-as little-endian 32-bit floats.
+preset (a .vstpreset to load first, or null), load and save (files of this host's states, or null),
+out. Left and then right samples are written to `out` as little-endian 32-bit floats.
 """
 
 import json
@@ -17,6 +17,8 @@ with open(sys.argv[1]) as file:
 
 engine = dawdreamer.RenderEngine(job["rate"], job["block"])
 plugin = engine.make_plugin_processor("overhear", job["plugin"])
+if job["preset"] and not plugin.load_vst3_preset(job["preset"]):
+    sys.exit("the preset is refused")
 if job["load"]:
     plugin.load_state(job["load"])
 for index, value in job["parameters"]:

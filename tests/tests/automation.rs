@@ -1,7 +1,12 @@
 //! Parameters swept while a groove plays: no clicks, the same samples for every buffer size.
 
-use overhear::parameters::{PARAMETERS, find};
+use std::sync::Arc;
+
+use overhear::building::Pace;
+use overhear::kit_document::KitDocument;
+use overhear::parameters::{COUNT, default_value, find, is_live, name, parameters};
 use overhear::performer::Performer;
+use overhear_tests::standard;
 
 const RATE: f64 = 48_000.0;
 
@@ -41,30 +46,32 @@ fn triangle(sample: usize) -> f32 {
 
 /// Everything that can be heard move on a drum that rings, of a suffix.
 fn all(suffix: &str) -> Vec<String> {
-    let names = PARAMETERS.iter().map(|parameter| parameter.name.to_owned());
+    let kit = standard();
+    let names = (0..COUNT).filter(|&index| is_live(index, &kit)).map(|index| name(index, &kit));
     names.filter(|name| name.ends_with(suffix)).collect()
 }
 
 /// A performer with its kit.
 fn performer() -> Performer {
-    let mut performer = Performer::new(RATE);
-    performer.install_kit(RATE).unwrap();
+    let mut performer = Performer::new(RATE, &KitDocument::standard(), Arc::default());
+    performer.install_kit(RATE, Pace::RealTime).unwrap();
     performer
 }
 
 /// Plays notes under a sweep in buffers of some length, from rest and from the defaults.
 fn play(performer: &mut Performer, sweep: &Sweep, buffer: usize, notes: &[(usize, u8, f32)]) -> Vec<f32> {
-    for (index, parameter) in PARAMETERS.iter().enumerate() {
-        performer.set_parameter(index, parameter.default);
+    let kit = standard();
+    for index in 0..COUNT {
+        performer.set_parameter(index, default_value(index, &kit));
     }
     performer.reset();
-    let indices: Vec<usize> = sweep.names.iter().map(|name| find(name).unwrap().0).collect();
+    let indices: Vec<usize> = sweep.names.iter().map(|name| find(name, &kit).unwrap()).collect();
     let (mut left, mut right) = (vec![0.0; FRAMES], vec![0.0; FRAMES]);
     let mut now = 0;
     while now < FRAMES {
         if now % STEP == 0 {
             for &index in &indices {
-                let parameter = &PARAMETERS[index];
+                let parameter = &parameters()[index];
                 let value = parameter.min + (parameter.max - parameter.min) * (sweep.share)(now);
                 performer.set_parameter(index, value);
             }

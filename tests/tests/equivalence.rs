@@ -1,13 +1,16 @@
 //! The same strikes and controls give the same samples, bit for bit, however time is cut; rest is rest.
 
 use overhear_engine::kit::{Control, Kit};
-use overhear_engine::piece::{Piece, PieceId};
+use overhear_engine::piece::Piece;
+use overhear_engine::slot::Slot;
 use overhear_engine::strike::{Strike, Striker};
-use overhear_tests::{Chance, RATES, kit, kit_piece, piece, render, stroke, total_energy};
+use overhear_tests::{
+    Chance, RATES, kit, member, names, piece, render, render_into, slot, spec, standard, stroke, total_energy,
+};
 
 #[derive(Debug, Clone, Copy)]
 enum Action {
-    Strike(PieceId, Strike),
+    Strike(Slot, Strike),
     Set(Control, f64),
     /// A newly built snare takes the place of the one that plays.
     Replace,
@@ -21,19 +24,21 @@ const LENGTH: usize = 12_011;
 /// Strikes and controls on every piece at odd samples, many of them close together.
 fn score(seed: u64) -> Score {
     let mut chance = Chance::new(seed);
+    let tunings: Vec<_> =
+        standard().slots().map(|(slot, piece)| (slot, piece.instrument.tunings())).collect();
+    let [snare, hi_hat] = ["snare", "hi-hat"].map(slot);
     let mut score: Score = (0..90)
         .map(|_| {
-            let id = chance.of(&PieceId::KIT);
-            let (low, _, high) = Piece::tuning_range(id);
+            let (slot, [low, _, high]) = chance.of(&tunings);
             let action = match chance.below(9) {
-                0 => Action::Set(Control::Tuning(id), chance.between(low, high)),
-                1 => Action::Set(Control::Muffling(id), chance.unit()),
-                2 => Action::Set(Control::Level(id), chance.between(-70.0, 6.0)),
+                0 => Action::Set(Control::Tuning(slot), chance.between(low, high)),
+                1 => Action::Set(Control::Muffling(slot), chance.unit()),
+                2 => Action::Set(Control::Level(slot), chance.between(-70.0, 6.0)),
                 3 => Action::Set(Control::Master, chance.between(-20.0, 6.0)),
-                4 => Action::Set(Control::SnarePreload, chance.between(0.03, 1.5)),
-                5 => Action::Set(Control::SnareWires, chance.unit().round()),
-                6 => Action::Set(Control::Pedal, chance.unit()),
-                _ => Action::Strike(id, chance.stroke(8.0)),
+                4 => Action::Set(Control::Preload(snare), chance.between(0.03, 1.5)),
+                5 => Action::Set(Control::Wires(snare), chance.unit().round()),
+                6 => Action::Set(Control::Pedal(hi_hat), chance.unit()),
+                _ => Action::Strike(slot, chance.stroke(8.0)),
             };
             (chance.below(LENGTH / 2) * 2 + 1, action)
         })
@@ -45,7 +50,7 @@ fn score(seed: u64) -> Score {
 
 fn act(kit: &mut Kit, action: Action, spare: &mut Option<Box<Piece>>) {
     match action {
-        Action::Strike(id, strike) => kit.strike(id, &strike),
+        Action::Strike(slot, strike) => kit.strike(slot, &strike),
         Action::Set(control, value) => kit.set(control, value),
         Action::Replace => *spare = spare.take().and_then(|spare| kit.install(spare)),
     }
@@ -78,13 +83,14 @@ fn play(
 /// Puts the controls where they are in a new kit, and all to rest.
 fn start_over(kit: &mut Kit, spare: &mut Option<Box<Piece>>) {
     kit.set(Control::Master, 0.0);
-    kit.set(Control::SnarePreload, 0.15);
-    kit.set(Control::SnareWires, 1.0);
-    kit.set(Control::Pedal, 0.0);
-    for id in PieceId::KIT {
-        kit.set(Control::Tuning(id), Piece::tuning_range(id).1);
-        kit.set(Control::Muffling(id), 0.0);
-        kit.set(Control::Level(id), 0.0);
+    for (slot, piece) in standard().slots() {
+        let [_, own, _] = piece.instrument.tunings();
+        kit.set(Control::Tuning(slot), own);
+        kit.set(Control::Muffling(slot), piece.defaults.muffle);
+        kit.set(Control::Level(slot), piece.defaults.level_db);
+        kit.set(Control::Wires(slot), 1.0);
+        kit.set(Control::Pedal(slot), 0.0);
+        piece.defaults.preload.into_iter().for_each(|newtons| kit.set(Control::Preload(slot), newtons));
     }
     kit.reset();
     if let Some(replaced) = kit.retire() {
@@ -93,9 +99,13 @@ fn start_over(kit: &mut Kit, spare: &mut Option<Box<Piece>>) {
     spare.iter_mut().for_each(|spare| spare.reset());
 }
 
+fn spare_snare(rate: f64) -> Box<Piece> {
+    Box::new(member(&standard(), slot("snare"), rate))
+}
+
 fn buffers_do_not_matter(rate: f64) {
     let mut kit = kit(rate);
-    let mut spare = Some(Box::new(kit_piece(PieceId::Snare, rate)));
+    let mut spare = Some(spare_snare(rate));
     let score = score(rate as u64);
     let whole = play(&mut kit, &mut spare, &score, || LENGTH);
     assert!(whole.iter().filter(|&&[left, _]| f32::from_bits(left).abs() > 1e-3).count() > LENGTH / 2);
@@ -129,15 +139,15 @@ fn the_hosts_buffer_changes_no_sample_at_96_khz() {
 #[test]
 fn a_kit_reset_plays_as_a_new_one() {
     let score = score(7);
-    let spare = || Some(Box::new(kit_piece(PieceId::Snare, RATES[0])));
+    let spare = || Some(spare_snare(RATES[0]));
     let mut random = Chance::new(3);
     let new = play(&mut kit(RATES[0]), &mut spare(), &score, || 512);
     // Left in the middle of a block, with controls on their way and strikers about.
     let mut used = kit(RATES[0]);
     play(&mut used, &mut spare(), &self::score(8), || 1 + random.below(99));
-    for id in PieceId::KIT {
-        used.set(Control::Tuning(id), 1.0);
-        used.strike(id, &stroke(Striker::Nylon, 5.0, 0.3, 0.0));
+    for (slot, _) in standard().slots() {
+        used.set(Control::Tuning(slot), 1.0);
+        used.strike(slot, &stroke(Striker::Nylon, 5.0, 0.3, 0.0));
     }
     used.render(&mut [0.0; 7], &mut [0.0; 7]);
     start_over(&mut used, &mut None);
@@ -146,17 +156,18 @@ fn a_kit_reset_plays_as_a_new_one() {
 
 #[test]
 fn a_piece_reset_plays_as_a_new_one() {
-    for id in PieceId::ALL {
-        let mut new = piece(id, RATES[0]);
-        let mut used = piece(id, RATES[0]);
+    for name in names() {
+        let mut new = piece(&name, RATES[0]);
+        let mut used = piece(&name, RATES[0]);
+        let muffle = spec(&name).defaults.muffle;
         // Reset while it rings, is muffled, and two of three strikers still touch or may again.
         used.strike(&stroke(Striker::Stick, 9.0, 0.8, 0.0));
         used.set_muffling(0.7);
-        used.render(&mut [0.0; 1003]);
+        render_into(&mut used, &mut [0.0; 1003]);
         used.strike(&stroke(Striker::YarnMallet, 1.0, 0.3, 0.0));
         used.strike(&stroke(Striker::FeltBeater, 1.0, 0.5, 1.0));
-        used.render(&mut [0.0; 5]);
-        used.set_muffling(0.0);
+        render_into(&mut used, &mut [0.0; 5]);
+        used.set_muffling(muffle);
         used.reset();
         assert_eq!(total_energy(&used), 0.0);
         let roll = |piece: &mut Piece| -> Vec<f32> {
@@ -167,7 +178,7 @@ fn a_piece_reset_plays_as_a_new_one() {
             };
             (0..12).flat_map(stroke).collect()
         };
-        assert!(roll(&mut new) == roll(&mut used), "{id:?}");
+        assert!(roll(&mut new) == roll(&mut used), "{name}");
     }
 }
 
@@ -175,23 +186,25 @@ fn a_piece_reset_plays_as_a_new_one() {
 fn a_piece_left_alone_comes_to_rest_exactly_and_by_no_denormals() {
     const RATE: f64 = 22_050.0;
     // The larger cymbals take a minute and are no different.
-    for id in PieceId::ALL.into_iter().filter(|&id| id.is_drum() || id == PieceId::Splash) {
-        let mut piece = piece(id, RATE);
+    let kit = standard();
+    let small = kit.pieces.iter().filter(|piece| piece.drum().is_some() || piece.name == "splash");
+    for name in small.map(|piece| &piece.name) {
+        let mut piece = piece(name, RATE);
         piece.strike(&stroke(Striker::Stick, 0.5, 0.4, 1.0));
         let mut seconds = 0;
         while !piece.surface_mut().is_still() {
             let sound = render(&mut piece, 1.0, RATE);
             let body = piece.surface_mut().body();
             for k in 0..body.len() {
-                assert!(!body.displacement(k).is_subnormal(), "{id:?}, mode {k} after {seconds} s");
+                assert!(!body.displacement(k).is_subnormal(), "{name}, mode {k} after {seconds} s");
             }
             // What is heard is a sum over the modes; zero, once there is nothing.
             assert!(sound.iter().all(|x| !x.is_subnormal()));
             seconds += 1;
-            assert!(seconds < 120, "{id:?} still moves");
+            assert!(seconds < 120, "{name} still moves");
         }
         assert_eq!(piece.energy(), 0.0);
         assert!(render(&mut piece, 0.1, RATE).iter().all(|&x| x == 0.0));
-        println!("{id:?}: still after {seconds} s");
+        println!("{name}: still after {seconds} s");
     }
 }

@@ -4,14 +4,16 @@
 //! long ones are ignored: `cargo test --package overhear-tests --features traps --test fuzz -- --ignored`. What plays is
 //! watched by an allocator that counts.
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
 use assert_no_alloc::{AllocDisabler, assert_no_alloc, violation_count};
-use overhear::parameters::PARAMETERS;
+use overhear::building::Pace;
+use overhear::kit_document::KitDocument;
+use overhear::parameters::{COUNT, SlotParameter, default_value, parameters, slot_parameter};
 use overhear::performer::Performer;
 use overhear::presets::{FACTORY, Preset};
-use overhear_engine::piece::PieceId;
 use overhear_engine::snapshot::KitSnapshot;
 use overhear_tests::Chance;
 use xtask::song::Song;
@@ -27,7 +29,7 @@ const LOUDEST: f32 = 1e4;
 
 /// A value a host may send: within the range, at its ends, or out of all bounds.
 fn value(chance: &mut Chance, index: usize) -> f32 {
-    let (min, max) = PARAMETERS.get(index).map_or((0.0, 1.0), |parameter| (parameter.min, parameter.max));
+    let (min, max) = parameters().get(index).map_or((0.0, 1.0), |parameter| (parameter.min, parameter.max));
     match chance.below(10) {
         0 => chance.of(&[f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -0.0, 1e30, -1e30, 1e-40]),
         1 => chance.of(&[min, max]),
@@ -51,7 +53,7 @@ fn act(chance: &mut Chance, performer: &mut Performer) {
         570..620 => performer.pressure(number, odd, channel),
         620..700 => performer.control_change(number % 128, odd, channel),
         700..990 => {
-            let index = chance.below(PARAMETERS.len() + 1);
+            let index = chance.below(COUNT + 1);
             performer.set_parameter(index, value(chance, index));
         }
         990..993 => performer.aim(Some(odd)),
@@ -61,11 +63,16 @@ fn act(chance: &mut Chance, performer: &mut Performer) {
     }
 }
 
+/// A performer at the standard kit, without its pieces.
+fn performer(rate: f64) -> Performer {
+    Performer::new(rate, &KitDocument::standard(), Arc::default())
+}
+
 /// Plays random events at one rate, so many to a buffer on average, then lets everything ring out.
 fn play(seed: u64, rate: f64, events: usize, to_a_buffer: usize) {
     let mut chance = Chance::new(seed);
-    let mut performer = Performer::new(rate);
-    performer.install_kit(rate).unwrap();
+    let mut performer = performer(rate);
+    performer.install_kit(rate, Pace::RealTime).unwrap();
     let mut sound = [vec![0.0; 1024], vec![0.0; 1024]];
     for event in 0..events {
         assert_no_alloc(|| act(&mut chance, &mut performer));
@@ -85,11 +92,10 @@ fn play(seed: u64, rate: f64, events: usize, to_a_buffer: usize) {
 
 /// Mutes everything and waits for silence.
 fn ring_out(performer: &mut Performer, rate: f64, what: &str) {
-    for (index, parameter) in PARAMETERS.iter().enumerate() {
-        performer.set_parameter(index, parameter.default);
-        if parameter.name.ends_with("_muffle") {
-            performer.set_parameter(index, parameter.max);
-        }
+    for (index, parameter) in parameters().iter().enumerate() {
+        let is_muffling = matches!(slot_parameter(index), Some((_, SlotParameter::Muffle)));
+        let default = default_value(index, &performer.document().kit);
+        performer.set_parameter(index, if is_muffling { parameter.max } else { default });
     }
     for note in 35..=96 {
         performer.choke(note, 9);
@@ -172,7 +178,7 @@ fn a_hundred_thousand_mutated_presets_are_read_or_refused_with_a_line() {
             Ok(preset) => {
                 read += 1;
                 for (&index, &value) in &preset.values {
-                    let parameter = &PARAMETERS[index];
+                    let parameter = &parameters()[index];
                     assert!((parameter.min..=parameter.max).contains(&value), "{}", parameter.name);
                 }
             }
@@ -209,9 +215,9 @@ fn ten_thousand_mutated_songs_are_read_or_refused() {
 
 #[test]
 fn every_piece_is_among_what_random_notes_strike() {
-    let performer = Performer::new(48_000.0);
-    for id in PieceId::KIT {
-        assert!((35..97).any(|note| performer.piece_of(note) == Some(id)), "{id:?}");
+    let performer = performer(48_000.0);
+    for (slot, piece) in performer.document().kit.slots() {
+        assert!((35..97).any(|note| performer.slot_of(note) == Some(slot)), "{}", piece.name);
     }
 }
 

@@ -10,6 +10,8 @@ mod description;
 mod hand;
 #[path = "hosts/identity.rs"]
 mod identity;
+#[path = "hosts/kits.rs"]
+mod kits;
 #[path = "hosts/lifecycle.rs"]
 mod lifecycle;
 #[path = "hosts/midi.rs"]
@@ -29,8 +31,11 @@ mod vst3;
 mod window;
 
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
+use overhear::parameters::{host_id, parameters, parse_assignment};
+use overhear_engine::kit_spec::KitSpec;
 use xtask::host::{Bundle, Instance};
 use xtask::workspace::{Format, bundle_in};
 
@@ -50,11 +55,31 @@ fn instance() -> Instance {
     bundle.instantiate().expect("an instance")
 }
 
+/// A parameter of the standard kit, by its place in the table, and its value: `kick_tune=62` is a pitch in Hz.
+fn setting(text: &str) -> (usize, f32) {
+    parse_assignment(text, &KitSpec::standard()).expect("a parameter and a value")
+}
+
+/// A parameter's value as hosts have it: by its number, and as a share of the range.
+fn as_hosts_have_it((index, value): (usize, f32)) -> (u32, f64) {
+    let parameter = &parameters()[index];
+    (host_id(parameter.id), f64::from(parameter.normalized(value)))
+}
+
 /// One test at a time: each builds kits, and a plugin that waits too long for its kit starts
 /// without it, as it should on a machine that cannot keep up.
 fn alone() -> MutexGuard<'static, ()> {
     static TURN: Mutex<()> = Mutex::new(());
     TURN.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Tells the other thread to stop, whatever ends this one's work.
+struct Stop<'a>(&'a AtomicBool);
+
+impl Drop for Stop<'_> {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Release);
+    }
 }
 
 /// A file of this package.

@@ -3,15 +3,21 @@
 //!
 //! `cargo test --package overhear-tests --features traps --test process`
 
+use std::sync::Arc;
+
 use assert_no_alloc::{AllocDisabler, assert_no_alloc, reset_violation_count, violation_count};
+use overhear::building::Pace;
 use overhear::deadline::Deadlines;
-use overhear::parameters::PARAMETERS;
-use overhear::performer::Performer;
+use overhear::kit_document::KitDocument;
+use overhear::midi_map::NoteTable;
+use overhear::parameters::COUNT;
+use overhear::performer::{Performer, Setup};
 use overhear::strokes::{Stroke, Strokes, Waiting, strokes};
-use overhear_engine::piece::PieceId;
+use overhear_engine::piece::Piece;
+use overhear_engine::slot::Slot;
 use overhear_engine::snapshot::KitSnapshot;
 use overhear_engine::strike::{Strike, Striker};
-use overhear_tests::Chance;
+use overhear_tests::{Chance, member};
 
 #[global_allocator]
 static ALLOCATOR: AllocDisabler = AllocDisabler;
@@ -30,8 +36,8 @@ struct Session {
 
 impl Session {
     fn new(seed: u64) -> Session {
-        let mut performer = Performer::new(48_000.0);
-        performer.install_kit(48_000.0).expect("a rate that pieces can be built for");
+        let mut performer = Performer::new(48_000.0, &KitDocument::standard(), Arc::default());
+        performer.install_kit(48_000.0, Pace::RealTime).expect("a rate that pieces can be built for");
         let deadlines = Deadlines::default();
         let (strokes, waiting) = strokes();
         deadlines.expect(Some(48_000.0));
@@ -69,17 +75,18 @@ impl Session {
             }
             600..960 => {
                 // One past the end too: a host may ask for a parameter there is not.
-                let index = self.chance.below(PARAMETERS.len() + 1);
+                let index = self.chance.below(COUNT + 1);
                 let value = self.chance.of(&[f32::NAN, -1e9, -30.0, 0.0, 0.5, 1.0, 60.0, 140.0, 1e9]);
                 self.performer.set_parameter(index, value);
             }
             960..980 => {
                 // A hand on the editor's picture.
-                let piece = self.chance.of(&PieceId::KIT);
+                let pieces = self.performer.document().kit.pieces.len();
+                let slot = Slot::ALL[self.chance.below(pieces)];
                 let number = |chance: &mut Chance| chance.of(&[f64::NAN, -1.0, 0.0, 0.4, 1.0, 7.0]);
                 let [speed, radius, angle] = std::array::from_fn(|_| number(&mut self.chance));
                 let strike = Strike { speed, radius, angle, striker: Striker::Stick };
-                self.strokes.play(Stroke { piece, strike });
+                self.strokes.play(Stroke { slot, strike });
                 self.waiting.deliver(&mut self.performer);
             }
             980..998 => self.performer.snapshot(&mut self.snapshot),
@@ -103,9 +110,58 @@ fn nothing_allocates_while_ten_thousand_events_are_performed() {
         assert!(session.left.iter().chain(&session.right).all(|x| x.is_finite()), "at event {event}");
     }
     session.performer.snapshot(&mut session.snapshot);
-    assert!(session.snapshot.pieces.iter().all(|piece| piece.ready && piece.quarantines == 0));
+    let kit = &session.performer.document().kit;
+    for (slot, _) in kit.slots() {
+        let piece = &session.snapshot.pieces[slot.index()];
+        assert!(piece.ready && piece.quarantines == 0);
+    }
     assert_eq!(session.snapshot.dropped_strikes, 0);
     assert_eq!(session.deadlines.buffers(), 10_000);
+}
+
+/// The last pieces of the standard kit, the last first: other kinds in most slots, and nothing in some.
+fn another_kit() -> KitDocument {
+    let mut kit = KitDocument::standard().kit;
+    kit.pieces.reverse();
+    kit.pieces.truncate(5);
+    KitDocument { notes: NoteTable::standard(&kit), kit }
+}
+
+#[test]
+fn nothing_allocates_while_the_kit_becomes_another_one_and_is_played_on() {
+    const RATE: f64 = 48_000.0;
+    let mut session = Session::new(3);
+    let kits = [another_kit(), KitDocument::standard(), another_kit()];
+    let mut prepared: Vec<_> = kits
+        .into_iter()
+        .map(|document| {
+            let pieces = document.kit.slots().map(|(slot, _)| Box::new(member(&document.kit, slot, RATE)));
+            let pieces: Vec<Box<Piece>> = pieces.collect();
+            (Setup::new(RATE, Arc::new(document)), pieces)
+        })
+        .collect();
+    // What comes back is dropped elsewhere.
+    let (mut gone, mut setups) = (Vec::with_capacity(100), Vec::with_capacity(3));
+    reset_violation_count();
+    for (setup, pieces) in prepared.drain(..) {
+        (0..200).for_each(|_| assert_no_alloc(|| session.act()));
+        assert_no_alloc(|| setups.push(session.performer.change_kit(setup)));
+        for piece in pieces {
+            assert_no_alloc(|| {
+                gone.extend(session.performer.install(piece));
+                session.act();
+                gone.extend(session.performer.retire());
+            });
+        }
+        (0..500).for_each(|_| assert_no_alloc(|| session.act()));
+        assert_eq!(violation_count(), 0);
+        assert!(session.left.iter().chain(&session.right).all(|x| x.is_finite()));
+        assert!(session.performer.is_complete());
+    }
+    session.performer.snapshot(&mut session.snapshot);
+    let heard = session.snapshot.pieces.iter().filter(|piece| piece.ready);
+    assert_eq!(heard.count(), session.performer.document().kit.pieces.len());
+    assert!(!gone.is_empty(), "nothing has come back");
 }
 
 /// In a child of this test, which forbids itself all system calls.

@@ -8,10 +8,11 @@ use std::path::Path;
 
 use assert_no_alloc::{AllocDisabler, assert_no_alloc, reset_violation_count, violation_count};
 use overhear_engine::kit::{Control, Kit};
-use overhear_engine::piece::{Piece, PieceId};
+use overhear_engine::piece::Piece;
+use overhear_engine::slot::Slot;
 use overhear_engine::snapshot::KitSnapshot;
 use overhear_engine::strike::Strike;
-use overhear_tests::{Chance, kit, kit_piece};
+use overhear_tests::{Chance, kit, member, slot, standard};
 
 #[global_allocator]
 static ALLOCATOR: AllocDisabler = AllocDisabler;
@@ -21,6 +22,8 @@ const RATE: f64 = 44_100.0;
 /// Everything the audio thread works with, made beforehand.
 struct Stage {
     kit: Kit,
+    /// The slots with a piece, and between what pitches it can be tuned.
+    slots: Vec<(Slot, [f64; 3])>,
     /// Pieces to swap in; what they replace comes back here.
     #[expect(clippy::vec_box, reason = "a kit takes boxes, and boxing allocates")]
     spares: Vec<Box<Piece>>,
@@ -38,8 +41,9 @@ impl Stage {
     fn new(seed: u64) -> Stage {
         Stage {
             kit: kit(RATE),
-            spares: [PieceId::Snare, PieceId::Splash, PieceId::Timpani]
-                .map(|id| Box::new(kit_piece(id, RATE)))
+            slots: standard().slots().map(|(slot, piece)| (slot, piece.instrument.tunings())).collect(),
+            spares: ["snare", "splash", "timpani"]
+                .map(|name| Box::new(member(&standard(), slot(name), RATE)))
                 .into(),
             snapshot: KitSnapshot::default(),
             left: vec![0.0; 8192],
@@ -51,11 +55,11 @@ impl Stage {
     /// One thing a host may do, and the buffer after it.
     fn act(&mut self) {
         let chance = &mut self.chance;
-        let id = chance.of(&PieceId::ALL);
+        let (slot, [low, _, high]) = chance.of(&self.slots);
         match chance.below(1000) {
             0..500 => {
                 let stroke = chance.stroke(30.0);
-                self.kit.strike(id, &stroke);
+                self.kit.strike(slot, &stroke);
             }
             500..530 => {
                 let odd = Strike {
@@ -64,17 +68,17 @@ impl Stage {
                     angle: chance.of(&ODD),
                     ..chance.stroke(1.0)
                 };
-                self.kit.strike(id, &odd);
+                self.kit.strike(slot, &odd);
             }
             530..980 => {
-                let (low, _, high) = Piece::tuning_range(id);
+                // Of pieces without wires or a pedal, too.
                 let (control, from, to) = match chance.below(7) {
-                    0 => (Control::Tuning(id), 0.8 * low, 1.2 * high),
-                    1 => (Control::Muffling(id), -0.2, 1.2),
-                    2 => (Control::Level(id), -80.0, 30.0),
-                    3 => (Control::SnarePreload, -0.1, 3.0),
-                    4 => (Control::SnareWires, -1.0, 2.0),
-                    5 => (Control::Pedal, -0.2, 1.2),
+                    0 => (Control::Tuning(slot), 0.8 * low, 1.2 * high),
+                    1 => (Control::Muffling(slot), -0.2, 1.2),
+                    2 => (Control::Level(slot), -80.0, 30.0),
+                    3 => (Control::Preload(slot), -0.1, 3.0),
+                    4 => (Control::Wires(slot), -1.0, 2.0),
+                    5 => (Control::Pedal(slot), -0.2, 1.2),
                     _ => (Control::Master, -80.0, 30.0),
                 };
                 let value = if chance.below(8) == 0 { chance.of(&ODD) } else { chance.between(from, to) };
@@ -114,7 +118,10 @@ fn nothing_allocates_while_ten_thousand_events_arrive() {
         assert!(stage.is_sound(), "at event {event}");
     }
     stage.kit.snapshot(&mut stage.snapshot);
-    assert!(stage.snapshot.pieces.iter().all(|piece| piece.ready && piece.quarantines == 0));
+    for &(slot, _) in &stage.slots {
+        let piece = &stage.snapshot.pieces[slot.index()];
+        assert!(piece.ready && piece.quarantines == 0, "{slot:?}");
+    }
     // Nothing is lost: what fades out is handed back once it has.
     stage.kit.render(&mut stage.left, &mut stage.right);
     stage.spares.extend(std::iter::from_fn(|| stage.kit.retire()));
@@ -139,7 +146,7 @@ fn a_stroke_that_is_no_number_is_not_played() {
         for strike in
             [Strike { speed: odd, ..sound }, Strike { radius: odd, ..sound }, Strike { angle: odd, ..sound }]
         {
-            stage.kit.strike(PieceId::Snare, &strike);
+            stage.kit.strike(slot("snare"), &strike);
             stage.kit.render(&mut stage.left, &mut stage.right);
             assert!(stage.left.iter().all(|&x| x == 0.0), "{strike:?}");
         }
@@ -149,14 +156,15 @@ fn a_stroke_that_is_no_number_is_not_played() {
 #[test]
 fn a_control_that_is_no_number_changes_nothing() {
     let mut stage = Stage::new(3);
-    stage.kit.set(Control::Tuning(PieceId::Snare), 300.0);
-    stage.kit.set(Control::Tuning(PieceId::Snare), f64::NAN);
+    let snare = slot("snare");
+    stage.kit.set(Control::Tuning(snare), 300.0);
+    stage.kit.set(Control::Tuning(snare), f64::NAN);
     stage.kit.finish_controls();
-    let tension = stage.kit.piece(PieceId::Snare).map(Piece::tensions);
+    let tension = stage.kit.piece(snare).map(Piece::tensions);
     // Nor what a piece takes over that comes later.
     let later = stage.spares.remove(0);
-    assert!(stage.kit.install(later).is_some_and(|before| before.id() == PieceId::Snare));
-    assert_eq!(stage.kit.piece(PieceId::Snare).map(Piece::tensions), tension);
+    assert!(stage.kit.install(later).is_some_and(|before| before.slot() == snare));
+    assert_eq!(stage.kit.piece(snare).map(Piece::tensions), tension);
 }
 
 #[test]

@@ -1,9 +1,10 @@
 //! What is silent falls asleep, soon; what is still under way arrives all the same.
 
 use overhear_engine::kit::{BLOCK, Control, Kit, Microphone};
-use overhear_engine::piece::{Piece, PieceId};
+use overhear_engine::piece::Piece;
+use overhear_engine::slot::Slot;
 use overhear_engine::strike::Striker;
-use overhear_tests::{RATES, kit, stroke};
+use overhear_tests::{RATES, alone, kit, kit_of, spec, standard, stroke};
 
 const RATE: f64 = RATES[0];
 
@@ -34,16 +35,17 @@ fn fall_asleep(kit: &mut Kit, most: f64) -> [usize; 2] {
 #[test]
 fn a_kit_sleeps_within_a_second_of_the_last_audible_sound() {
     let mut kit = kit(RATE);
-    for id in PieceId::KIT {
-        kit.strike(id, &stroke(Striker::Stick, 5.0, 0.5, 0.2));
+    for (slot, piece) in standard().slots() {
+        let name = &piece.name;
+        kit.strike(slot, &stroke(Striker::Stick, 5.0, 0.5, 0.2));
         let (mut left, mut right) = (vec![0.0; 4_410], vec![0.0; 4_410]);
         kit.render(&mut left, &mut right);
         // Cymbals ring for a minute: a hand stops them.
-        kit.choke(id, 1.0);
+        kit.choke(slot, 1.0);
         let [last, asleep] = fall_asleep(&mut kit, 40.0).map(|samples| samples as f64 / RATE);
-        println!("{id:?}: heard for {last:.2} s, asleep {:.2} s later", asleep - last);
-        assert!(last > 0.1 && asleep - last < 1.0, "{id:?}: {last} s, {asleep} s");
-        kit.choke(id, 0.0);
+        println!("{name}: heard for {last:.2} s, asleep {:.2} s later", asleep - last);
+        assert!(last > 0.1 && asleep - last < 1.0, "{name}: {last} s, {asleep} s");
+        kit.choke(slot, 0.0);
         // It is woken by the next stroke and costs nothing until then.
         kit.render(&mut left, &mut right);
         assert!(kit.is_asleep() && left.iter().chain(&right).all(|x| x.to_bits() == 0));
@@ -52,21 +54,20 @@ fn a_kit_sleeps_within_a_second_of_the_last_audible_sound() {
 
 #[test]
 fn what_is_under_way_when_its_source_falls_asleep_arrives() {
-    let mut kit = Kit::new(RATE);
-    let tom = Box::new(overhear_tests::piece(PieceId::RackTom, RATE));
-    assert!(kit.install(tom).is_none());
+    let (spec, tom) = (spec("rack-tom"), Slot::ALL[0]);
+    let mut kit = kit_of(&alone(&spec), RATE);
+    let [x, y, z] = spec.place.centre;
     // Fifteen metres up: 44 ms of sound are on their way.
-    let [x, y, z] = kit.layout().pieces[2].centre;
     kit.place(Microphone::Overheads, [[x, y + 15.0, z]; 2]);
     kit.set(Control::Solo(Microphone::Overheads), 1.0);
     kit.finish_controls();
-    kit.strike(PieceId::RackTom, &stroke(Striker::Stick, 4.0, 0.4, 0.0));
+    kit.strike(tom, &stroke(Striker::Stick, 4.0, 0.4, 0.0));
     let (mut left, mut right) = ([0.0; BLOCK], [0.0; BLOCK]);
     let mut render = |kit: &mut Kit| {
         kit.render(&mut left, &mut right);
         left.iter().any(|&x| x != 0.0)
     };
-    while !kit.piece(PieceId::RackTom).is_some_and(Piece::is_asleep) {
+    while !kit.piece(tom).is_some_and(Piece::is_asleep) {
         render(&mut kit);
     }
     let mut arrived = 0;

@@ -1,24 +1,31 @@
-//! Pieces replaced while they ring.
+//! Pieces replaced and taken away while they ring.
 
-use overhear_engine::kit::{Control, Kit, Microphone};
-use overhear_engine::piece::PieceId;
+use overhear_engine::kit::{Arrangement, Control, Kit, Microphone};
+use overhear_engine::kit_spec::KitSpec;
+use overhear_engine::piece::Piece;
+use overhear_engine::slot::Slot;
 use overhear_engine::strike::Striker;
-use overhear_tests::{kit, kit_piece, stroke};
+use overhear_tests::{kit, member, slot, standard, stroke};
 
 const RATE: f64 = 48_000.0;
 
 /// Samples rendered before the swap; not a multiple of the block.
 const BEFORE: usize = 4_801;
 
-fn struck(id: PieceId) -> Kit {
+fn struck(slot: Slot) -> Kit {
     let mut kit = kit(RATE);
     // Nothing but the piece: the other drums would ring on, the room as well.
     kit.set(Control::Hearing, 0.0);
     kit.set(Control::Mute(Microphone::Overheads), 1.0);
     kit.set(Control::Mute(Microphone::Room), 1.0);
     kit.finish_controls();
-    kit.strike(id, &stroke(Striker::Stick, 4.0, 0.4, 0.2));
+    kit.strike(slot, &stroke(Striker::Stick, 4.0, 0.4, 0.2));
     kit
+}
+
+/// Another piece of the standard kit for a slot.
+fn spare(slot: Slot) -> Box<Piece> {
+    Box::new(member(&standard(), slot, RATE))
 }
 
 fn sound(kit: &mut Kit, frames: usize, buffer: usize) -> Vec<f32> {
@@ -36,29 +43,30 @@ fn roughest(sound: &[f32]) -> f32 {
 
 #[test]
 fn a_piece_that_rings_fades_out_under_the_new_one_without_a_click() {
-    for id in [PieceId::Kick, PieceId::FloorTom, PieceId::Timpani, PieceId::Ride] {
+    for name in ["kick", "floor-tom", "timpani", "ride"] {
+        let slot = slot(name);
         let rang = {
-            let mut kit = struck(id);
+            let mut kit = struck(slot);
             sound(&mut kit, BEFORE, 512);
             sound(&mut kit, 2_400, 512)
         };
-        let mut kit = struck(id);
+        let mut kit = struck(slot);
         sound(&mut kit, BEFORE, 512);
-        assert!(kit.install(Box::new(kit_piece(id, RATE))).is_none(), "it still sounds");
+        assert!(kit.install(spare(slot)).is_none(), "it still sounds");
         assert!(kit.retire().is_none(), "it is still fading");
         let faded = sound(&mut kit, 2_400, 512);
         // The fade may bend the sound, never as sharply as the sound bends itself by more than a few per cent.
         assert!(
             roughest(&faded) <= 1.05 * roughest(&rang),
-            "{id:?}: {} {}",
+            "{name}: {} {}",
             roughest(&faded),
             roughest(&rang)
         );
         assert_eq!(faded[0].signum(), rang[0].signum());
         assert!((faded[10] - rang[10]).abs() < 0.01 * rang.iter().fold(0.0, |a: f32, b| a.max(b.abs())));
         let after = sound(&mut kit, 512, 512);
-        assert!(after.iter().all(|sample| *sample == 0.0), "{id:?} goes on after its fade");
-        assert!(kit.retire().is_some_and(|piece| piece.id() == id));
+        assert!(after.iter().all(|sample| *sample == 0.0), "{name} goes on after its fade");
+        assert!(kit.retire().is_some_and(|piece| piece.slot() == slot));
         assert!(kit.retire().is_none());
     }
 }
@@ -66,10 +74,11 @@ fn a_piece_that_rings_fades_out_under_the_new_one_without_a_click() {
 #[test]
 fn a_swap_sounds_the_same_in_every_buffer_size() {
     let swapped = |buffer| {
-        let mut kit = struck(PieceId::Crash);
+        let crash = slot("crash");
+        let mut kit = struck(crash);
         let mut all = sound(&mut kit, BEFORE, buffer);
-        kit.install(Box::new(kit_piece(PieceId::Crash, RATE)));
-        kit.strike(PieceId::Crash, &stroke(Striker::Shoulder, 3.0, 0.97, 0.0));
+        kit.install(spare(crash));
+        kit.strike(crash, &stroke(Striker::Shoulder, 3.0, 0.97, 0.0));
         all.extend(sound(&mut kit, 4_800, buffer));
         all
     };
@@ -82,22 +91,79 @@ fn a_swap_sounds_the_same_in_every_buffer_size() {
 #[test]
 fn a_piece_at_rest_is_handed_back_at_once() {
     let mut kit = kit(RATE);
-    assert!(kit.install(Box::new(kit_piece(PieceId::Snare, RATE))).is_some());
+    assert!(kit.install(spare(slot("snare"))).is_some());
     assert!(kit.retire().is_none());
 }
 
 #[test]
 fn swaps_faster_than_the_fade_hand_every_piece_back() {
-    let mut kit = struck(PieceId::FloorTom);
+    let tom = slot("floor-tom");
+    let mut kit = struck(tom);
     let mut back = 0;
     for _ in 0..5 {
         sound(&mut kit, 100, 100);
-        back += usize::from(kit.install(Box::new(kit_piece(PieceId::FloorTom, RATE))).is_some());
-        kit.strike(PieceId::FloorTom, &stroke(Striker::Stick, 1.0, 0.3, 0.0));
+        back += usize::from(kit.install(spare(tom)).is_some());
+        kit.strike(tom, &stroke(Striker::Stick, 1.0, 0.3, 0.0));
     }
     kit.reset();
     while kit.retire().is_some() {
         back += 1;
     }
     assert_eq!(back, 5);
+}
+
+/// The standard kit without its last pieces, whose slots are empty then.
+fn without_the_last(pieces: usize) -> KitSpec {
+    let mut kit = standard();
+    kit.pieces.truncate(kit.pieces.len() - pieces);
+    kit
+}
+
+#[test]
+fn a_slot_that_is_vacated_fades_out_without_a_click_and_is_empty() {
+    let hi_hat = slot("hi-hat");
+    let rang = {
+        let mut kit = struck(hi_hat);
+        sound(&mut kit, BEFORE, 512);
+        sound(&mut kit, 2_400, 512)
+    };
+    let mut kit = struck(hi_hat);
+    sound(&mut kit, BEFORE, 512);
+    let former = kit.arrange(Box::new(Arrangement::new(RATE, &without_the_last(1))));
+    let faded = sound(&mut kit, 2_400, 512);
+    assert!(roughest(&faded) <= 1.05 * roughest(&rang), "{} {}", roughest(&faded), roughest(&rang));
+    assert!((faded[10] - rang[10]).abs() < 0.01 * rang.iter().fold(0.0, |a: f32, b| a.max(b.abs())));
+    assert!(sound(&mut kit, 512, 512).iter().all(|sample| *sample == 0.0), "it goes on after its fade");
+    assert!(kit.retire().is_some_and(|piece| piece.slot() == hi_hat));
+    assert!(kit.piece(hi_hat).is_none() && kit.is_complete());
+    // And it is there again when it is wanted.
+    drop(kit.arrange(former));
+    assert!(!kit.is_complete());
+    assert!(kit.install(spare(hi_hat)).is_none() && kit.is_complete());
+    kit.strike(hi_hat, &stroke(Striker::Stick, 4.0, 0.4, 0.2));
+    assert!(sound(&mut kit, 512, 512).iter().any(|sample| *sample != 0.0));
+}
+
+#[test]
+fn what_stays_rings_on_through_a_change_of_the_kit_in_every_buffer_size() {
+    let (crash, hi_hat) = (slot("crash"), slot("hi-hat"));
+    let play = |buffer: usize, struck_too: bool, changes: bool| {
+        let mut kit = struck(crash);
+        if struck_too {
+            kit.strike(hi_hat, &stroke(Striker::Stick, 4.0, 0.4, 0.2));
+        }
+        let mut all = sound(&mut kit, BEFORE, buffer);
+        if changes {
+            drop(kit.arrange(Box::new(Arrangement::new(RATE, &without_the_last(2)))));
+        }
+        all.extend(sound(&mut kit, 4_800, buffer));
+        all
+    };
+    let whole = play(9_999, true, true);
+    for buffer in [1, 17, 64, 333] {
+        assert!(play(buffer, true, true) == whole, "{buffer}");
+    }
+    // Once the other has faded out, the crash is heard as if nothing had happened.
+    let undisturbed = play(512, false, false);
+    assert!(whole[BEFORE + 2_400..] == undisturbed[BEFORE + 2_400..]);
 }

@@ -2,10 +2,12 @@
 
 use overhear_engine::air::SPEED_OF_SOUND;
 use overhear_engine::kit::{BLOCK, Control, Kit};
-use overhear_engine::layout::{Layout, distance};
-use overhear_engine::piece::{Piece, PieceId};
+use overhear_engine::kit_spec::{KitSpec, Kind, PieceSpec, PlaceSpec};
+use overhear_engine::layout::distance;
+use overhear_engine::piece::Piece;
+use overhear_engine::slot::Slot;
 use overhear_engine::strike::Striker;
-use overhear_tests::{RATES, kit, piece, stroke};
+use overhear_tests::{RATES, kit, kit_of, slot, spec, standard, stroke};
 use xtask::report::kit::landings;
 
 const RATE: f64 = RATES[0];
@@ -16,8 +18,18 @@ fn run(kit: &mut Kit, samples: usize) -> Vec<f32> {
     left
 }
 
-fn energy(kit: &Kit, id: PieceId) -> f64 {
-    kit.piece(id).map_or(0.0, Piece::energy)
+fn energy(kit: &Kit, slot: Slot) -> f64 {
+    kit.piece(slot).map_or(0.0, Piece::energy)
+}
+
+/// All pieces in one place, which no kit file may ask for: as near each other as the layout lets them.
+fn crowded(kit: KitSpec) -> KitSpec {
+    kit.map(|piece| PieceSpec { place: PlaceSpec { centre: [0.0, 0.7, 0.0], ..piece.place }, ..piece })
+}
+
+/// A snare and a rack tom in one place, in that order.
+fn snare_and_tom() -> KitSpec {
+    crowded(KitSpec { pieces: ["snare", "rack-tom"].map(spec).into(), ..standard() })
 }
 
 #[test]
@@ -42,7 +54,7 @@ fn wires_land_when_a_rack_tom_is_struck_the_more_the_harder() {
 
 #[test]
 fn wires_do_not_land_when_the_pieces_are_deaf_or_the_wires_are_off() {
-    for (control, value) in [(Control::Hearing, 0.0), (Control::Sympathy, 0.0), (Control::SnareWires, 0.0)] {
+    for (control, value) in [(Control::Hearing, 0.0), (Control::Sympathy, 0.0), (Control::Wires(slot("snare")), 0.0)] {
         let mut kit = kit(RATE);
         kit.set(control, value);
         kit.finish_controls();
@@ -52,63 +64,47 @@ fn wires_do_not_land_when_the_pieces_are_deaf_or_the_wires_are_off() {
 
 #[test]
 fn between_the_drums_the_shortest_delay_is_from_rack_tom_to_snare_54_samples_at_44_1_khz() {
-    let layout = Layout::default();
-    let drums = PieceId::KIT.into_iter().filter(|id| id.is_drum()).filter_map(PieceId::slot);
-    let ways = drums.clone().flat_map(|from| {
-        let others = drums.clone().filter(move |&to| to != from);
-        others.map(move |to| (layout.way(from, to), from, to))
-    });
-    let (way, from, to) = ways.min_by(|a, b| a.0.total_cmp(&b.0)).expect("drums");
-    let mut pair = [PieceId::KIT[from], PieceId::KIT[to]];
-    pair.sort();
-    assert_eq!(pair, [PieceId::Snare, PieceId::RackTom]);
+    let kit = standard();
+    let (layout, drums) = (kit.layout(), kit.drums().map(|(slot, _)| slot).collect::<Vec<_>>());
+    let pairs = drums.iter().flat_map(|&from| drums.iter().map(move |&to| (from, to)));
+    let ways = pairs.filter(|(from, to)| from < to).filter_map(|pair| Some((layout.way(pair.0, pair.1)?, pair)));
+    let (way, pair) = ways.min_by(|a, b| a.0.total_cmp(&b.0)).expect("drums");
+    assert_eq!(pair, (slot("snare"), slot("rack-tom")));
     // Reading between samples needs one that is newer.
     assert_eq!((way / SPEED_OF_SOUND * RATE).floor() as usize - 1, 54);
 }
 
 #[test]
 fn no_run_is_longer_than_the_shortest_delay_at_any_rate_and_in_a_kit_moved_together() {
-    let mut crowded = Layout::default();
-    for piece in &mut crowded.pieces {
-        piece.centre = [0.0, 0.7, 0.0];
-    }
     for rate in [22_050.0, 44_100.0, 48_000.0, 88_200.0, 96_000.0, 192_000.0] {
-        for layout in [Layout::default(), crowded] {
-            let kit = Kit::with_layout(rate, &layout);
-            let listeners = (0..PieceId::KIT.len()).filter(|&to| PieceId::KIT[to].is_drum());
-            let shortest = listeners
-                .flat_map(|to| {
-                    (0..PieceId::KIT.len()).filter(move |&from| from != to).map(move |from| (from, to))
-                })
-                .map(|(from, to)| layout.way(from, to))
+        for spec in [standard(), crowded(standard())] {
+            let layout = spec.layout();
+            let ways = spec.drums().flat_map(|(to, _)| spec.slots().map(move |(from, _)| (from, to)));
+            let shortest = ways
+                .filter(|(from, to)| from != to)
+                .filter_map(|(from, to)| layout.way(from, to))
                 .fold(f64::INFINITY, f64::min);
-            let delay = kit.min_delay();
+            let delay = Kit::new(rate, &spec).min_delay();
             assert!(delay >= 1 && (delay as f64) < shortest / SPEED_OF_SOUND * rate, "{rate}: {delay}");
         }
     }
     // Shorter than a block, where it must be.
-    assert!(Kit::with_layout(22_050.0, &crowded).min_delay() < BLOCK);
+    assert!(Kit::new(22_050.0, &crowded(standard())).min_delay() < BLOCK);
 }
 
 #[test]
 fn buffers_do_not_matter_where_delays_are_shorter_than_a_block() {
-    let mut crowded = Layout::default();
-    for id in [PieceId::Snare, PieceId::RackTom] {
-        crowded.pieces[id.slot().expect("of the kit")].centre = [0.0, 0.7, 0.0];
-    }
+    let [snare, tom] = [Slot::ALL[0], Slot::ALL[1]];
     let play = |buffer: usize| {
-        let mut kit = Kit::with_layout(22_050.0, &crowded);
-        for id in [PieceId::Snare, PieceId::RackTom] {
-            assert!(kit.install(Box::new(piece(id, 22_050.0))).is_none());
-        }
+        let mut kit = kit_of(&snare_and_tom(), 22_050.0);
         assert!(kit.min_delay() < BLOCK);
-        kit.strike(PieceId::RackTom, &stroke(Striker::Stick, 6.0, 0.35, 0.0));
+        kit.strike(tom, &stroke(Striker::Stick, 6.0, 0.35, 0.0));
         let mut sound = Vec::new();
         while sound.len() < 8_000 {
             let frames = buffer.min(8_000 - sound.len());
             sound.extend(run(&mut kit, frames));
         }
-        assert!(energy(&kit, PieceId::Snare) > 1e-9);
+        assert!(energy(&kit, snare) > 1e-9);
         sound
     };
     let whole = play(8_000);
@@ -120,13 +116,12 @@ fn buffers_do_not_matter_where_delays_are_shorter_than_a_block() {
 #[test]
 fn the_first_pressure_arrives_after_the_distance_over_the_speed_of_sound_to_the_sample() {
     let mut kit = kit(RATE);
-    let layout = *kit.layout();
-    let at = |id: PieceId| layout.pieces[id.slot().expect("of the kit")];
-    kit.strike(PieceId::RackTom, &stroke(Striker::Stick, 6.0, 0.35, 0.0));
-    let way = distance(&at(PieceId::RackTom).source(), &at(PieceId::Snare).centre);
+    let [snare, tom] = ["snare", "rack-tom"].map(slot);
+    kit.strike(tom, &stroke(Striker::Stick, 6.0, 0.35, 0.0));
+    let way = distance(&spec("rack-tom").placement().source(), &spec("snare").place.centre);
     let expected = way / SPEED_OF_SOUND * RATE;
     let mut woken = 0;
-    while kit.piece(PieceId::Snare).is_some_and(Piece::is_asleep) {
+    while kit.piece(snare).is_some_and(Piece::is_asleep) {
         run(&mut kit, 1);
         woken += 1;
         assert!(woken < 1_000, "nothing arrives");
@@ -140,23 +135,25 @@ fn the_first_pressure_arrives_after_the_distance_over_the_speed_of_sound_to_the_
 #[test]
 fn cymbals_are_heard_and_do_not_listen() {
     let mut kit = kit(RATE);
-    kit.strike(PieceId::Crash, &stroke(Striker::Shoulder, 6.0, 0.9, 0.0));
+    let crash = slot("crash");
+    kit.strike(crash, &stroke(Striker::Shoulder, 6.0, 0.9, 0.0));
     run(&mut kit, 8_000);
-    for id in PieceId::KIT.into_iter().filter(|&id| id != PieceId::Crash) {
-        assert_eq!(energy(&kit, id) > 0.0, id.is_drum(), "{id:?}");
+    for (slot, piece) in standard().slots().filter(|(slot, _)| *slot != crash) {
+        assert_eq!(energy(&kit, slot) > 0.0, piece.instrument.kind() == Kind::Drum, "{}", piece.name);
     }
 }
 
 #[test]
 fn what_drums_pick_up_is_a_small_part_of_what_was_struck_and_follows_the_amount() {
+    let [kick, tom] = ["kick", "floor-tom"].map(slot);
     let picked_up = |amount: f64| {
         let mut kit = kit(RATE);
         kit.set(Control::Sympathy, amount);
         kit.finish_controls();
-        kit.strike(PieceId::FloorTom, &stroke(Striker::Stick, 5.0, 0.35, 0.0));
+        kit.strike(tom, &stroke(Striker::Stick, 5.0, 0.35, 0.0));
         run(&mut kit, 10_000);
-        let struck = energy(&kit, PieceId::FloorTom);
-        let kick = energy(&kit, PieceId::Kick);
+        let struck = energy(&kit, tom);
+        let kick = energy(&kit, kick);
         assert!(kick < 0.1 * struck, "{kick} of {struck}");
         kick
     };
@@ -168,22 +165,21 @@ fn what_drums_pick_up_is_a_small_part_of_what_was_struck_and_follows_the_amount(
 #[test]
 fn drums_that_hear_each_other_only_lose_energy() {
     // All tuned alike, as near each other as the layout lets them, without what muffles them: the worst case.
-    let mut crowded = Layout::default();
-    for piece in &mut crowded.pieces {
-        piece.centre = [0.0, 0.7, 0.0];
+    let mut drums = crowded(standard());
+    drums.pieces.retain(|piece| piece.drum().is_some());
+    let mut kit = kit_of(&drums, RATE);
+    for (slot, drum) in drums.drums() {
+        kit.set(Control::Tuning(slot), 145.0_f64.clamp(drum.lowest_pitch_hz, drum.highest_pitch_hz));
+        kit.set(Control::Muffling(slot), 0.0);
+        kit.set(Control::Wires(slot), 0.0);
     }
-    let mut kit = Kit::with_layout(RATE, &crowded);
-    for id in PieceId::KIT.into_iter().filter(|id| id.is_drum()) {
-        assert!(kit.install(Box::new(piece(id, RATE))).is_none());
-        let (low, _, high) = Piece::tuning_range(id);
-        kit.set(Control::Tuning(id), 145.0_f64.clamp(low, high));
-    }
-    kit.set(Control::SnareWires, 0.0);
     kit.finish_controls();
-    kit.strike(PieceId::FloorTom, &stroke(Striker::FeltBeater, 8.0, 0.1, 0.0));
-    kit.strike(PieceId::RackTom, &stroke(Striker::FeltBeater, 8.0, 0.1, 0.0));
+    for name in ["floor-tom", "rack-tom"] {
+        let (tom, _) = drums.find(name).expect("a tom");
+        kit.strike(tom, &stroke(Striker::FeltBeater, 8.0, 0.1, 0.0));
+    }
     run(&mut kit, RATE as usize / 5);
-    let total = |kit: &Kit| PieceId::KIT.iter().map(|&id| energy(kit, id)).sum::<f64>();
+    let total = |kit: &Kit| Slot::ALL.into_iter().map(|slot| energy(kit, slot)).sum::<f64>();
     let mut before = total(&kit);
     for window in 0..20 {
         run(&mut kit, RATE as usize / 10);

@@ -6,35 +6,37 @@ use std::time::{Duration, Instant};
 
 use assert_no_alloc::{AllocDisabler, assert_no_alloc, reset_violation_count, violation_count};
 use overhear_crew::{Patience, Workers};
-use overhear_engine::kit::{Control, Kit, Microphone, Post};
-use overhear_engine::piece::{Piece, PieceId};
+use overhear_engine::kit::{Control, Crew, Kit, Microphone, Post};
+use overhear_engine::kit_spec::KitSpec;
+use overhear_engine::slot::Slot;
 use overhear_engine::snapshot::KitSnapshot;
 use overhear_engine::strike::{Strike, Striker};
-use overhear_tests::{Chance, RATES, kit, stroke};
+use overhear_tests::{Chance, RATES, kit, kit_of, sixteen, standard, stroke};
 
 #[global_allocator]
 static ALLOCATOR: AllocDisabler = AllocDisabler;
 
 /// A stroke on a piece, or a control moved.
-type Event = (PieceId, Result<Strike, (Control, f64)>);
+type Event = (Slot, Result<Strike, (Control, f64)>);
 
 /// A groove on every piece with controls moving, many things a second, by sample.
 fn score(seconds: f64, rate: f64) -> Vec<(usize, Event)> {
     let mut chance = Chance::new(rate as u64);
     let frames = (seconds * rate) as usize;
+    let tunings: Vec<_> =
+        standard().slots().map(|(slot, piece)| (slot, piece.instrument.tunings())).collect();
     let mut score: Vec<_> = (0..(25.0 * seconds) as usize)
         .map(|_| {
-            let id = chance.of(&PieceId::KIT);
-            let (low, _, high) = Piece::tuning_range(id);
+            let (slot, [low, _, high]) = chance.of(&tunings);
             let what = match chance.below(8) {
-                0 => Err((Control::Tuning(id), chance.between(low, high))),
-                1 => Err((Control::Muffling(id), chance.unit())),
-                2 => Err((Control::Pan(id), chance.between(-1.0, 1.0))),
+                0 => Err((Control::Tuning(slot), chance.between(low, high))),
+                1 => Err((Control::Muffling(slot), chance.unit())),
+                2 => Err((Control::Pan(slot), chance.between(-1.0, 1.0))),
                 3 => Err((Control::Sympathy, chance.unit())),
                 4 => Err((Control::MicrophoneLevel(Microphone::Room), chance.between(-20.0, 0.0))),
                 _ => Ok(chance.stroke(6.0)),
             };
-            (chance.below(frames), (id, what))
+            (chance.below(frames), (slot, what))
         })
         .collect();
     score.sort_by_key(|&(at, _)| at);
@@ -56,9 +58,9 @@ fn play(rate: f64, seconds: f64, workers: usize, mut buffer: impl FnMut() -> usi
         if done == buffer_end {
             buffer_end = (done + buffer()).min(frames);
         }
-        while let Some((_, (id, what))) = events.next_if(|&&(at, _)| at == done) {
+        while let Some((_, (slot, what))) = events.next_if(|&&(at, _)| at == done) {
             match what {
-                Ok(strike) => kit.strike(*id, strike),
+                Ok(strike) => kit.strike(*slot, strike),
                 Err((control, value)) => kit.set(*control, *value),
             }
         }
@@ -89,36 +91,48 @@ fn same_bits(rate: f64, seconds: f64, workers: &[usize], buffers: &[usize]) {
     }
 }
 
-#[test]
-fn a_hit_on_five_pieces_is_the_same_on_0_1_and_3_workers_in_any_buffers() {
-    const RATE: f64 = RATES[0];
-    let play = |workers: usize, buffer: usize| {
-        let (mut kit, mut chance) = (kit(RATE), Chance::new(7));
-        if workers > 0 {
-            let crew = Workers::new(workers, Patience::Offline, Post::render).expect("threads");
-            assert!(kit.hire(Some(Box::new(crew))).is_none());
-        }
-        for id in &PieceId::KIT[..5] {
-            kit.strike(*id, &stroke(Striker::Stick, 5.0, 0.4, 0.2));
-        }
-        let (mut left, mut right) = (vec![f32::NAN; 11_025], vec![f32::NAN; 11_025]);
-        let mut done = 0;
-        while done < left.len() {
-            let length = if buffer == 0 { 1 + chance.below(2_000) } else { buffer };
-            let end = (done + length).min(left.len());
-            kit.render(&mut left[done..end], &mut right[done..end]);
-            done = end;
-        }
-        [left, right].map(|side| side.into_iter().map(f32::to_bits).collect::<Vec<_>>())
-    };
-    let whole = play(0, 11_025);
+/// Strikes pieces of a kit at rest at once and renders so many samples in buffers of a length; one of 0 is any.
+fn hit(kit: &mut Kit, struck: &[Slot], frames: usize, buffer: usize) -> [Vec<u32>; 2] {
+    let mut chance = Chance::new(7);
+    kit.reset();
+    for slot in struck {
+        kit.strike(*slot, &stroke(Striker::Stick, 5.0, 0.4, 0.2));
+    }
+    let (mut left, mut right) = (vec![f32::NAN; frames], vec![f32::NAN; frames]);
+    let mut done = 0;
+    while done < frames {
+        let length = if buffer == 0 { 1 + chance.below(2_000) } else { buffer };
+        let end = (done + length).min(frames);
+        kit.render(&mut left[done..end], &mut right[done..end]);
+        done = end;
+    }
+    [left, right].map(|side| side.into_iter().map(f32::to_bits).collect())
+}
+
+fn hits_are_the_same_on_0_1_and_3_workers_in_any_buffers(spec: &KitSpec, struck: &[Slot], frames: usize) {
+    let mut kit = kit_of(spec, RATES[0]);
+    let whole = hit(&mut kit, struck, frames, frames);
     assert!(whole[0].iter().any(|&x| f32::from_bits(x).abs() > 0.05));
     for workers in [0, 1, 3] {
-        // A length of 0 is any.
+        let crew = (workers > 0).then(|| -> Box<dyn Crew> {
+            Box::new(Workers::new(workers, Patience::Offline, Post::render).expect("threads"))
+        });
+        drop(kit.hire(crew));
         for buffer in [1, 17, 64, 512, 8192, 0] {
-            assert!(whole == play(workers, buffer), "{workers} workers, buffers of {buffer}");
+            let again = hit(&mut kit, struck, frames, buffer);
+            assert!(whole == again, "{workers} workers, buffers of {buffer}");
         }
     }
+}
+
+#[test]
+fn a_hit_on_five_pieces_is_the_same_on_0_1_and_3_workers_in_any_buffers() {
+    hits_are_the_same_on_0_1_and_3_workers_in_any_buffers(&standard(), &Slot::ALL[..5], 11_025);
+}
+
+#[test]
+fn a_hit_on_sixteen_pieces_is_the_same_on_0_1_and_3_workers_in_any_buffers() {
+    hits_are_the_same_on_0_1_and_3_workers_in_any_buffers(&sixteen(), &Slot::ALL, 6_000);
 }
 
 #[test]
@@ -148,8 +162,8 @@ fn play_with(patience: Patience, render: fn(&mut Post), done: impl Fn() -> bool)
     // How much of the work a worker gets is for the system to say.
     while !done() {
         assert!(begun.elapsed() < LONG, "the workers had nothing to do");
-        for id in PieceId::KIT {
-            kit.strike(id, &stroke(Striker::Stick, 4.0, 0.35, 0.0));
+        for (slot, _) in standard().slots() {
+            kit.strike(slot, &stroke(Striker::Stick, 4.0, 0.35, 0.0));
         }
         kit.render(&mut left, &mut right);
         assert!(left.iter().chain(&right).all(|x| x.is_finite()));
@@ -158,7 +172,7 @@ fn play_with(patience: Patience, render: fn(&mut Post), done: impl Fn() -> bool)
     loop {
         kit.render(&mut left[..64], &mut right[..64]);
         kit.snapshot(&mut snapshot);
-        if snapshot.pieces.iter().all(|piece| piece.ready) {
+        if standard().slots().all(|(slot, _)| snapshot.pieces[slot.index()].ready) {
             return (snapshot, loudest);
         }
         assert!(begun.elapsed() < LONG, "a piece has not come back");
@@ -204,19 +218,27 @@ struct Stage {
     left: Vec<f32>,
     right: Vec<f32>,
     chance: Chance,
+    /// How many pieces the kit has.
+    pieces: usize,
 }
 
 impl Stage {
     fn new(seed: u64) -> Stage {
         let mut kit = kit(RATES[0]);
         kit.hire(Some(Box::new(Workers::new(2, Patience::RealTime, Post::render).expect("threads"))));
-        Stage { kit, left: vec![0.0; 512], right: vec![0.0; 512], chance: Chance::new(seed) }
+        Stage {
+            kit,
+            left: vec![0.0; 512],
+            right: vec![0.0; 512],
+            chance: Chance::new(seed),
+            pieces: standard().pieces.len(),
+        }
     }
 
     fn act(&mut self) {
-        let id = self.chance.of(&PieceId::KIT);
+        let slot = Slot::ALL[self.chance.below(self.pieces)];
         let strike = self.chance.stroke(8.0);
-        self.kit.strike(id, &strike);
+        self.kit.strike(slot, &strike);
         let frames = 1 + self.chance.below(200);
         self.kit.render(&mut self.left[..frames], &mut self.right[..frames]);
     }

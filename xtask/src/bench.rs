@@ -14,23 +14,26 @@ mod workload;
 
 use std::path::PathBuf;
 use std::process::Command;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 use std::time::Instant;
 
 use anyhow::{Context, Result};
 use cpu_time::ProcessTime;
+use overhear::building::{BuildPlan, Pace};
+use overhear::kit_document::KitDocument;
+use overhear::parameters::default_value;
 use overhear::performer::Performer;
 use overhear::shelf::FolderShelf;
+use overhear_engine::kit_spec::Kind;
 use overhear_engine::modal::simd::Kernels;
 use overhear_engine::modal::simd::level::{self, InstructionSet};
-use overhear_engine::piece::{BuildOptions, Piece, PieceId, Quality};
-
+use overhear_engine::piece::{Piece, Quality};
 use serde::Serialize;
 
-use crate::bad_input;
 use crate::progress::Progress;
-use crate::workspace;
+use crate::{bad_input, settings, workspace};
 use limit::Limit;
 use report::Report;
 use workload::{Scene, Workload};
@@ -49,6 +52,8 @@ pub const RUNS: usize = 7;
 /// What to measure.
 #[derive(Debug, Clone)]
 pub struct Request {
+    /// A file of the kit; the standard kit if none is named.
+    pub kit: Option<PathBuf>,
     /// Runs of everything, at least 1.
     pub runs: usize,
     /// Tier of the kit's cymbals in the groove and struck all at once.
@@ -78,20 +83,22 @@ pub fn run(request: &Request) -> Result<Report> {
         level::limit(set);
     }
     let before = request.compare.as_deref().map(compare::read).transpose()?;
-    let builds = Builds::measure(request.rate)?;
-    let scenes = scenes(request.quality);
+    let document = settings::kit(request.kit.as_deref())?;
+    let builds = Builds::measure(&document, request.rate)?;
+    let scenes = scenes(&document, request.quality);
     let mut progress = Progress::new("bench", (scenes.len() * request.runs) as u64);
     let mut costs = Vec::new();
     let mut blocks = Vec::new();
     for scene in scenes {
-        let mut workload = Workload::new(&scene, request.rate)?;
+        let mut workload = Workload::new(scene, &document, request.rate)?;
         let (cost, lasted) = measure::runs(&mut workload, request.runs, &mut progress);
         blocks.extend(scene.is_kit().then_some(lasted));
         costs.push((scene, cost));
     }
-    let counts = if request.callgrind { callgrind::count(request)? } else { Vec::new() };
+    let counts = if request.callgrind { callgrind::count(request, &document)? } else { Vec::new() };
     let report = Report::new(report::Measured {
         request,
+        kit: &document.kit,
         costs,
         blocks,
         builds,
@@ -122,13 +129,13 @@ pub fn as_released() -> Result<()> {
 }
 
 /// Everything that is measured: the kit's scenes, then each piece struck by itself.
-fn scenes(quality: Quality) -> Vec<Scene> {
-    let mut scenes = vec![Scene::Groove(quality), Scene::AllAtOnce(quality), Scene::Idle];
-    for piece in PieceId::KIT {
-        if piece.is_drum() {
-            scenes.push(Scene::Piece(piece, Quality::Standard));
+fn scenes(document: &KitDocument, quality: Quality) -> Vec<Scene> {
+    let mut scenes = Scene::of_kit(document, quality);
+    for (slot, piece) in document.kit.slots() {
+        if piece.instrument.kind() == Kind::Drum {
+            scenes.push(Scene::Piece(slot, Quality::Standard));
         } else {
-            scenes.extend(Quality::ALL.map(|quality| Scene::Piece(piece, quality)));
+            scenes.extend(Quality::ALL.map(|quality| Scene::Piece(slot, quality)));
         }
     }
     scenes
@@ -155,23 +162,23 @@ pub struct Builds {
 
 impl Builds {
     /// Builds kits; before anything else is built and held.
-    fn measure(rate: f64) -> Result<Builds> {
+    fn measure(document: &KitDocument, rate: f64) -> Result<Builds> {
         let start = Instant::now();
-        drop(Performer::new(rate));
+        drop(Performer::new(rate, document, Arc::default()));
         let instance_s = start.elapsed().as_secs_f64();
-        let ([build_cold_s, cold_cpu_s], kit) = build(rate)?;
+        let ([build_cold_s, cold_cpu_s], kit) = build(document, rate)?;
         let memory =
             memory_stats::memory_stats().context("this system does not tell what memory a process holds")?;
-        let ([build_warm_s, warm_cpu_s], _) = build(rate)?;
+        let ([build_warm_s, warm_cpu_s], _) = build(document, rate)?;
         let limit = Some(Limit::measure(&kit, rate));
         drop(kit);
         // As the plugin keeps it; what an earlier process left has no part in it.
         let folder = std::env::temp_dir().join(format!("overhear-bench-{}", std::process::id()));
         overhear_kept::provide(Box::new(FolderShelf::new(&folder)));
         overhear_kept::forget();
-        build(rate)?;
+        build(document, rate)?;
         overhear_kept::forget();
-        let from_disk = build(rate);
+        let from_disk = build(document, rate);
         // What is left in a folder for what is temporary harms nobody.
         let _ = std::fs::remove_dir_all(&folder);
         let ([build_from_disk_s, disk_cpu_s], _) = from_disk?;
@@ -190,15 +197,18 @@ impl Builds {
 }
 
 /// Builds a whole kit, on as many processors as the plugin does; how long that took and what of all processors, s.
-fn build(rate: f64) -> Result<([f64; 2], Vec<Piece>)> {
+fn build(document: &KitDocument, rate: f64) -> Result<([f64; 2], Vec<Piece>)> {
     let processors = thread::available_parallelism().map_or(1, usize::from).min(MOST_BUILDERS);
     let taken = AtomicUsize::new(0);
     let (start, start_cpu) = (Instant::now(), ProcessTime::now());
+    let usual = |index| default_value(index, &document.kit);
+    let plan = BuildPlan::of(Arc::new(document.clone()), usual, Pace::RealTime);
+    let slots = plan.longest_first();
+    let make = |slot| Some(Piece::new(slot, &plan.build(slot)?, &plan.options(rate)));
     let kit: Vec<_> = thread::scope(|scope| {
         let work = || {
-            let next = || PieceId::LONGEST_FIRST.get(taken.fetch_add(1, Ordering::Relaxed));
-            let pieces = std::iter::from_fn(|| Some(Piece::new(*next()?, &options(Quality::Standard, rate))));
-            pieces.collect::<Vec<_>>()
+            let next = || slots.get(taken.fetch_add(1, Ordering::Relaxed));
+            std::iter::from_fn(|| make(*next()?)).collect::<Vec<_>>()
         };
         let builders: Vec<_> = (0..processors).map(|_| scope.spawn(work)).collect();
         // One that panics has said so.
@@ -208,9 +218,4 @@ fn build(rate: f64) -> Result<([f64; 2], Vec<Piece>)> {
     let kit: Result<Vec<Piece>> =
         kit.into_iter().map(|piece| piece.map_err(|error| bad_input!("{error}"))).collect();
     Ok((seconds, kit?))
-}
-
-/// How a piece or a kit is built for a scene.
-fn options(quality: Quality, rate: f64) -> BuildOptions {
-    BuildOptions { quality, shaped: true, wraps: true, ..BuildOptions::new(rate) }
 }

@@ -1,8 +1,10 @@
 //! The command line: which commands there are, what they take, and how they fail.
 //!
-//! Results go to standard output, progress and errors to standard error. An error is one line.
+//! Results go to standard output, progress and errors to standard error. An error is one line; of several files that are
+//! checked, each has its own.
 //! Exit codes: 0 done, 1 failed on the way, 2 bad input (the line says what would be accepted).
 
+mod alterations;
 mod arguments;
 
 use std::ffi::OsString;
@@ -17,11 +19,11 @@ use overhear::presets::Library;
 
 use crate::bundle::Processors;
 use crate::{
-    bench, bundle, demo, error, groove, hear, manual, modes, output, presets, realism, render, report,
-    settings, shots, suite,
+    bench, bundle, demo, error, groove, hear, kit, manual, output, presets, realism, render, report,
+    shots, suite,
 };
 use arguments::{
-    BenchArguments, HearArguments, ModesArguments, PresetTask, RealismArguments, RenderArguments, Task,
+    BenchArguments, HearArguments, KitTask, ModesArguments, PresetTask, RealismArguments, RenderArguments, Task,
 };
 
 /// Developer and user commands of Overhear.
@@ -49,7 +51,9 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     match dispatch(task) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            eprintln!("error: {}", error::one_line(&failure));
+            for line in error::lines(&failure) {
+                eprintln!("error: {line}");
+            }
             ExitCode::from(error::exit_code(&failure))
         }
     }
@@ -105,9 +109,12 @@ fn dispatch(task: Task) -> Result<()> {
         Task::Realism(arguments) => realism(arguments),
         Task::Bench(_) if cfg!(debug_assertions) => bench::as_released(),
         Task::Bench(arguments) => bench(arguments),
-        Task::BenchScene { index, quality, simd } => bench::count_this(index, quality.into(), simd.into()),
+        Task::BenchScene { index, quality, simd, kit } => {
+            bench::count_this(index, quality.into(), simd.into(), kit.as_deref())
+        }
         Task::Report { pages, output } => report::run(&pages, &output.unwrap_or_else(report::folder)),
         Task::Presets { folder, task } => presets(folder.as_deref(), task),
+        Task::Kit { task } => kit(task),
         Task::Docs => manual::write(),
         Task::Shots { out, plugin, cost, glance, here } => {
             let aim = match (cost, glance) {
@@ -169,12 +176,22 @@ fn bench(arguments: BenchArguments) -> Result<()> {
 }
 
 fn modes(arguments: ModesArguments) -> Result<()> {
-    let piece = settings::piece(&arguments.piece)?;
-    let settings = settings::parse_for_piece(piece, &arguments.set)?;
-    let options = arguments.options();
-    settings::check_options(piece, &options)?;
-    let modes = modes::run(piece, &options, &settings)?;
+    let modes = arguments.run()?;
     say(&if arguments.json { serde_json::to_string(&modes)? + "\n" } else { modes.to_string() })
+}
+
+fn kit(task: KitTask) -> Result<()> {
+    match task {
+        KitTask::Show { what } => say(&kit::show(&Library::default(), what.as_deref())?),
+        KitTask::New { file } => kit::new(&file),
+        KitTask::Check { files } => {
+            let (sound, outcome) = kit::check(&files);
+            say(&sound)?;
+            outcome
+        }
+        KitTask::Fitted { json: true } => say(&kit::fitted_json()?),
+        KitTask::Fitted { json: false } => say(&kit::fitted_table()),
+    }
 }
 
 #[cfg(test)]

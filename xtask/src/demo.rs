@@ -9,13 +9,15 @@ pub mod presets;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Result, ensure};
+use cpu_time::ThreadTime;
+use overhear::building::Pace;
+use overhear::kit_document::KitDocument;
 
 use crate::levels::{self, Row};
-use crate::player::{Blocks, Played, Setup, Source, Take};
+use crate::player::{Blocks, EnginePlayer, Played, Source, Take};
 use crate::progress::Progress;
 use crate::render::{Style, decibels, takes};
 use crate::song::Song;
-use crate::stage::Stage;
 use crate::system::{self, WINDOW_LIBRARIES, XVFB};
 use crate::wav::{Bits, WavFile};
 use crate::workspace::Format;
@@ -46,7 +48,8 @@ pub fn run(folder: &Path) -> Result<()> {
     let (played, left, right) = play(&take, &style, "groove")?;
     ensure!(played.finite, "the plugin gave values that are not numbers");
     ensure!(played.peak > 0.0, "the plugin stayed silent");
-    step(3, "striking every piece by itself, at every microphone");
+    step(3, "playing it as a host plays it live, and striking every piece by itself");
+    let live = live_share(&take, &style)?;
     let levels = levels::table(RATE)?;
     step(4, "writing demo.wav and drawing demo.png");
     let mut file = WavFile::create(&wav, Bits::Float32, RATE, 2, take.frames)?;
@@ -58,14 +61,14 @@ pub fn run(folder: &Path) -> Result<()> {
     // A machine that only renders has no use for a display, and its groove is none the worse.
     let looked = system::ensure(&[XVFB, WINDOW_LIBRARIES])
         .and_then(|()| shots::run(&shots::Aim::Glance(shots.clone()), Some(clap.clone())));
-    report(&take, &played, &levels, [&wav, &png, &clap]);
+    report(&take, [live, busy_share(&take, &played)], &played, &levels, [&wav, &png, &clap]);
     match looked {
         Ok(()) => println!("editor   {}", shots.display()),
         Err(reason) => println!("editor   no pictures: {reason:#}"),
     }
     ensure!(played.peak <= 1.0, "the mix is clipped: its peak is {:.3}", played.peak);
     let silent: Vec<_> =
-        levels.iter().filter(|row| row.peaks.contains(&0.0)).map(|row| row.piece.name()).collect();
+        levels.iter().filter(|row| row.peaks.contains(&0.0)).map(|row| &*row.piece).collect();
     ensure!(silent.is_empty(), "silent: {}", silent.join(", "));
     Ok(())
 }
@@ -80,8 +83,8 @@ fn style(source: Source) -> Style {
     Style {
         source,
         rate: RATE,
+        kit: KitDocument::standard(),
         settings: Vec::new(),
-        stage: Stage::default(),
         blocks: Blocks::Fixed(BLOCK),
         bits: Bits::Float32,
         tail: TAIL,
@@ -93,8 +96,7 @@ fn style(source: Source) -> Style {
 fn play(take: &Take, style: &Style, label: &str) -> Result<(Played, Vec<f32>, Vec<f32>)> {
     let (mut left, mut right) = (Vec::new(), Vec::new());
     let mut progress = Progress::new(label, take.frames);
-    let setup = Setup { rate: style.rate, settings: style.settings.clone(), stage: style.stage };
-    let played = style.source.perform(&setup, |player| {
+    let played = style.source.perform(&style.setup(), |player| {
         take.play(player, style.blocks, |l, r| {
             progress.advance(l.len() as u64);
             left.extend_from_slice(l);
@@ -105,19 +107,48 @@ fn play(take: &Take, style: &Style, label: &str) -> Result<(Played, Vec<f32>, Ve
     Ok((played, left, right))
 }
 
-fn report(take: &Take, played: &Played, levels: &[Row], [wav, png, clap]: [&Path; 3]) {
-    let seconds = take.frames as f64 / f64::from(RATE);
+/// Length of a take, s.
+fn seconds(take: &Take) -> f64 {
+    take.frames as f64 / f64::from(RATE)
+}
+
+/// Time spent on a take, a share of its length.
+fn busy_share(take: &Take, played: &Played) -> f64 {
+    played.busy.as_secs_f64() / seconds(take)
+}
+
+/// What playing a take live takes of one core: processor time of the thread that plays, a share of the take's length.
+fn live_share(take: &Take, style: &Style) -> Result<f64> {
+    let mut player = EnginePlayer::at_pace(&style.setup(), Pace::RealTime)?;
+    let mut progress = Progress::new("the groove, live", take.frames);
+    let start = ThreadTime::now();
+    take.play(&mut player, style.blocks, |left, _| {
+        progress.advance(left.len() as u64);
+        Ok(())
+    })?;
+    Ok(start.elapsed().as_secs_f64() / seconds(take))
+}
+
+/// Prints what came of it; the shares of real time are of playing live and of the file.
+fn report(
+    take: &Take,
+    [live, bounced]: [f64; 2],
+    played: &Played,
+    levels: &[Row],
+    [wav, png, clap]: [&Path; 3],
+) {
     println!("\npeak of a stroke at full velocity, dBFS, at the microphones: close, overheads, room");
     for Row { piece, peaks } in levels {
-        println!(
-            "  {:<10}{}",
-            piece.name(),
-            peaks.map(|peak| format!("{:8.1}", 20.0 * peak.log10())).concat()
-        );
+        println!("  {:<10}{}", piece, peaks.map(|peak| format!("{:8.1}", 20.0 * peak.log10())).concat());
     }
     println!("peak of the groove: {}", decibels(played.peak));
-    let share = 100.0 * played.busy.as_secs_f64() / seconds;
-    println!("\n{seconds:.1} s of sound, {} notes, {share:.1} % of real time", take.hits.len());
+    println!("\n{:.1} s of sound, {} notes", seconds(take), take.hits.len());
+    println!(
+        "Playing live takes {:.0} % of one core; this file was bounced at the highest quality, which took {:.0} % of real \
+         time.",
+        100.0 * live,
+        100.0 * bounced
+    );
     println!("sound    {}", wav.display());
     println!("picture  {}", png.display());
     println!("plugin   {}", clap.display());

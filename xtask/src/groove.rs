@@ -101,8 +101,7 @@ fn track(name: &'static [u8], strokes: &[Stroke]) -> Vec<TrackEvent<'static>> {
 mod tests {
     use super::*;
     use crate::song::Song;
-    use overhear::midi_map;
-    use overhear_engine::piece::PieceId;
+    use overhear::kit_document::KitDocument;
 
     #[test]
     fn the_file_in_assets_is_the_one_written_here() {
@@ -117,14 +116,13 @@ mod tests {
         let seconds = song.last_note().unwrap();
         assert!((45.0..60.0).contains(&seconds), "{seconds} s");
         // A groove has no use for a timpani.
-        for piece in PieceId::KIT.into_iter().filter(|&piece| piece != PieceId::Timpani) {
-            let strokes = song
-                .notes
-                .iter()
-                .filter(|note| midi_map::stroke(note.key).is_some_and(|stroke| stroke.piece == piece));
-            assert!(strokes.count() >= 2, "{}", piece.name());
+        let KitDocument { kit, notes } = KitDocument::standard();
+        for (slot, piece) in kit.slots().filter(|(_, piece)| piece.name != "timpani") {
+            let strikes = |key| notes.stroke(key).is_some_and(|stroke| stroke.slot == slot);
+            let strokes = song.notes.iter().filter(|note| strikes(note.key));
+            assert!(strokes.count() >= 2, "{}", piece.name);
         }
-        let sounds = |key| midi_map::stroke(key).is_some() || midi_map::foot(key).is_some();
+        let sounds = |key| notes.stroke(key).is_some() || notes.foot(key).is_some();
         assert!(song.notes.iter().all(|note| sounds(note.key)));
     }
 

@@ -1,17 +1,20 @@
 //! `hear`: one stroke on one piece by itself, measured.
 //!
-//! The piece is built as the kit builds it but stands alone: what is heard is its sound pressure
-//! at its listening point, 20 Pa being full scale, without microphones, mix or neighbours.
+//! The piece is a kit of its own and rendered as every kit is: what is heard is the sound pressure at its close
+//! microphone, 20 Pa being full scale. The gain of that microphone and the piece's place in a mix are left out.
 
 mod measure;
 mod table;
 
 use std::path::PathBuf;
 
-use anyhow::Result;
-use overhear::midi_map;
-use overhear_engine::kit::BLOCK;
-use overhear_engine::piece::{BuildOptions, Piece, PieceId};
+use anyhow::{Context, Result};
+use overhear::kit_document::KitDocument;
+use overhear_engine::kit::{BLOCK, Control, Kit, Microphone};
+use overhear_engine::kit_spec::{Kind, KitSpec, PieceSpec};
+use overhear_engine::microphones::CloseSpec;
+use overhear_engine::piece::{BuildOptions, Piece};
+use overhear_engine::slot::Slot;
 use overhear_engine::snapshot::{FIELD_MODES, PieceSnapshot, RimSnapshot, StrikeSnapshot, WireSnapshot};
 use overhear_engine::strike::{Strike, Striker};
 
@@ -22,20 +25,23 @@ use crate::wav::{Bits, WavFile};
 
 pub use measure::Measurement;
 
-/// Sound pressure that is full scale, Pa.
-pub const FULL_SCALE_PA: f32 = 20.0;
-
 /// Speed of a stroke that is not told otherwise, m/s: a firm but ordinary one.
 pub const DEFAULT_SPEED: f64 = 4.0;
+
+/// The slot of a piece that is a kit by itself.
+pub const ALONE: Slot = Slot::ALL[0];
+
+/// How long controls are given to arrive before the stroke, s.
+const SETTLING: f64 = 0.5;
 
 /// One stroke as asked for.
 #[derive(Debug, Clone)]
 pub struct Request {
-    /// What is struck.
-    pub piece: PieceId,
+    /// A kit of the one piece that is struck; see [`KitSpec::alone`].
+    pub kit: KitSpec,
     /// The stroke.
     pub strike: Strike,
-    /// Tuning and muffling.
+    /// Controls that are not where the piece has them.
     pub settings: Vec<PieceSetting>,
     /// How the piece is built.
     pub options: BuildOptions,
@@ -45,23 +51,17 @@ pub struct Request {
     pub wav: Option<PathBuf>,
 }
 
-/// The stroke a piece gets unless told otherwise: the place and the striker that the MIDI map has
-/// for its ordinary note, at [`DEFAULT_SPEED`].
-pub fn default_strike(piece: PieceId) -> Strike {
-    let note = match piece {
-        PieceId::Kick => 36,
-        PieceId::Snare => 38,
-        PieceId::RackTom => 48,
-        PieceId::FloorTom => 43,
-        PieceId::Crash => 49,
-        PieceId::Ride => 51,
-        PieceId::Splash => 55,
-        PieceId::Timpani => 88,
-        PieceId::HiHat => 42,
+/// The stroke a piece gets unless told otherwise: the place and the striker of its ordinary note, at
+/// [`DEFAULT_SPEED`]. A piece that no note strikes is struck with a stick, a cymbal near its edge.
+pub fn default_strike(document: &KitDocument, slot: Slot) -> Strike {
+    let KitDocument { kit, notes } = document;
+    let ordinary = notes.ordinary(slot).and_then(|note| notes.stroke(note));
+    let is_drum = kit.piece(slot).is_some_and(|piece| piece.instrument.kind() == Kind::Drum);
+    let (radius, angle, striker) = match ordinary {
+        Some(stroke) => (stroke.radius, stroke.angle, stroke.striker),
+        None if is_drum => (0.3, 0.0, Striker::Stick),
+        None => (0.9, 0.0, Striker::Shoulder),
     };
-    let mapped = midi_map::stroke(note).filter(|stroke| stroke.piece == piece);
-    let (radius, angle, striker) =
-        mapped.map_or((0.3, 0.0, Striker::Stick), |stroke| (stroke.radius, stroke.angle, stroke.striker));
     Strike { speed: DEFAULT_SPEED, radius, angle, striker }
 }
 
@@ -99,37 +99,72 @@ pub struct Sound {
     pub rims: RimSnapshot,
 }
 
+/// A kit with its pieces, its controls at rest where they were set.
+///
+/// # Errors
+/// [`BadInput`](crate::error::BadInput) if a piece cannot be built so.
+pub fn stand(spec: &KitSpec, options: &BuildOptions, settings: &[PieceSetting]) -> Result<Kit> {
+    let mut kit = Kit::new(options.sample_rate, spec);
+    for slot in Slot::ALL {
+        let Some(build) = spec.build(slot) else { continue };
+        let piece = Piece::new(slot, &build, options).map_err(|error| bad_input!("{error}"))?;
+        kit.install(Box::new(piece));
+    }
+    for setting in settings {
+        setting.apply(&mut kit);
+    }
+    kit.finish_controls();
+    Ok(kit)
+}
+
+/// The kit with nothing between the first piece's close microphone and the left side of its output.
+fn unmixed(mut spec: KitSpec) -> KitSpec {
+    if let Some(piece) = spec.pieces.first_mut() {
+        let PieceSpec { close, defaults, .. } = piece;
+        *close = match *close {
+            CloseSpec::OverRim { height, azimuth, .. } => CloseSpec::OverRim { height, azimuth, gain: 1.0 },
+            CloseSpec::Beside { distance, inclination, azimuth, .. } => {
+                CloseSpec::Beside { distance, inclination, azimuth, time_zero: distance, gain: 1.0 }
+            }
+        };
+        // A pan all the way to one side is a factor of 1 there.
+        (defaults.level_db, defaults.pan) = (0.0, -1.0);
+    }
+    spec
+}
+
 /// Strikes and renders, block by block.
 ///
 /// # Errors
 /// [`BadInput`](crate::error::BadInput) if the piece cannot be built so.
 pub fn render(request: &Request) -> Result<Sound> {
-    let mut piece = Piece::new(request.piece, &request.options).map_err(|error| bad_input!("{error}"))?;
-    for setting in &request.settings {
-        setting.apply(&mut piece);
+    let rate = request.options.sample_rate;
+    let mut kit = stand(&unmixed(request.kit.clone()), &request.options, &request.settings)?;
+    for pair in [Microphone::Overheads, Microphone::Room] {
+        kit.set(Control::Mute(pair), 1.0);
     }
+    kit.finish_controls();
     if !request.settings.is_empty() {
-        settle(&mut piece, request.options.sample_rate);
+        for _ in 0..(SETTLING * rate) as usize / BLOCK {
+            hear_close(&mut kit, &mut [0.0; BLOCK]);
+        }
     }
-    piece.strike(&request.strike);
-    let striker_energy = piece.striker_energy();
-    let length = (request.seconds * request.options.sample_rate).round() as usize;
-    let mut samples = vec![0.0; length];
-    let mut energy_peak = piece.energy();
-    let rate = request.options.sample_rate / BLOCK as f64;
-    let mut motion = Motion { modes: vec![Vec::new(); FIELD_MODES], rate };
+    kit.strike(ALONE, &request.strike);
+    let piece = |kit: &Kit| kit.piece(ALONE).map_or(0.0, Piece::energy);
+    let striker_energy = kit.piece(ALONE).context("a kit without a piece")?.striker_energy();
+    let mut samples = vec![0.0; (request.seconds * rate).round() as usize];
+    let mut energy_peak = piece(&kit);
+    let mut motion = Motion { modes: vec![Vec::new(); FIELD_MODES], rate: rate / BLOCK as f64 };
     let mut seen = PieceSnapshot::default();
     for block in samples.chunks_mut(BLOCK) {
-        piece.render(block);
-        energy_peak = energy_peak.max(piece.energy());
-        piece.snapshot(&mut seen);
+        hear_close(&mut kit, block);
+        energy_peak = energy_peak.max(piece(&kit));
+        kit.piece(ALONE).into_iter().for_each(|piece| piece.snapshot(&mut seen));
         for (mode, &displacement) in motion.modes.iter_mut().zip(&seen.displacement) {
             mode.push(displacement);
         }
     }
-    for sample in &mut samples {
-        *sample /= FULL_SCALE_PA;
-    }
+    let piece = kit.piece(ALONE).context("a kit without a piece")?;
     Ok(Sound {
         samples,
         motion,
@@ -143,12 +178,10 @@ pub fn render(request: &Request) -> Result<Sound> {
     })
 }
 
-/// Lets the tuning and the muffling glide to where they were set, at rest.
-pub(crate) fn settle(piece: &mut Piece, rate: f64) {
-    let mut silence = [0.0; BLOCK];
-    for _ in 0..(0.5 * rate) as usize / BLOCK {
-        piece.render(&mut silence);
-    }
+/// Renders what the close microphone of an [unmixed] kit's piece hears, full scale 1, at most a block.
+fn hear_close(kit: &mut Kit, out: &mut [f32]) {
+    let (mut main, samples) = ([[0.0; BLOCK]; 2], out.len());
+    kit.render_outputs(main.each_mut().map(|side| &mut side[..samples]), &mut [[out, &mut []]]);
 }
 
 /// Strikes, measures, writes the sound if asked to, and returns the measurement.
@@ -173,21 +206,56 @@ pub fn run(request: &Request) -> Result<Measurement> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use overhear_engine::kit::FULL_SCALE;
 
     #[test]
     fn every_piece_has_a_stroke_of_its_own() {
-        for piece in PieceId::ALL {
-            let strike = default_strike(piece);
-            assert!((0.0..=1.0).contains(&strike.radius));
+        let document = KitDocument::standard();
+        let strike = |name: &str| {
+            let (slot, _) = document.kit.find(name).unwrap();
+            default_strike(&document, slot)
+        };
+        for (slot, piece) in document.kit.slots() {
+            assert!(document.notes.ordinary(slot).is_some(), "{}", piece.name);
+            assert!((0.0..=1.0).contains(&default_strike(&document, slot).radius), "{}", piece.name);
         }
-        assert_eq!(default_strike(PieceId::Kick).striker, Striker::FeltBeater);
-        assert_eq!(default_strike(PieceId::Crash).striker, Striker::Shoulder);
-        assert_eq!(default_strike(PieceId::Timpani).striker, Striker::TimpaniMallet);
+        assert_eq!(strike("kick").striker, Striker::FeltBeater);
+        assert_eq!(strike("crash").striker, Striker::Shoulder);
+        assert_eq!(strike("timpani").striker, Striker::TimpaniMallet);
     }
 
     #[test]
     fn an_unknown_striker_is_answered_with_all_of_them() {
         let error = striker("spoon").unwrap_err().to_string();
         assert!(Striker::ALL.iter().all(|striker| error.contains(striker.name())), "{error}");
+    }
+
+    #[test]
+    fn what_is_heard_is_the_pressure_at_the_close_microphone() {
+        let document = KitDocument::standard();
+        let (slot, _) = document.kit.find("rack-tom").unwrap();
+        let kit = document.kit.alone(slot).unwrap();
+        let options = BuildOptions::new(48_000.0);
+        let strike = default_strike(&document, slot);
+        let heard = render(&Request {
+            kit: kit.clone(),
+            strike,
+            settings: Vec::new(),
+            options,
+            seconds: 0.05,
+            wav: None,
+        });
+        let heard = heard.unwrap().samples;
+        let mut piece = Piece::new(ALONE, &kit.build(ALONE).unwrap(), &options).unwrap();
+        piece.set_muffling(kit.pieces[0].defaults.muffle);
+        piece.finish_controls();
+        piece.strike(&strike);
+        let mut pressure = vec![0.0; heard.len()];
+        piece.render(&mut pressure);
+        let loudest = pressure.iter().fold(0.0_f32, |loudest, x| loudest.max(x.abs()));
+        assert!(loudest > 1.0);
+        for (heard, pressure) in heard.iter().zip(&pressure) {
+            assert!((heard * FULL_SCALE - pressure).abs() < 1e-5 * loudest, "{heard} {pressure}");
+        }
     }
 }

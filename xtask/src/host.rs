@@ -9,6 +9,7 @@ mod event;
 mod handlers;
 mod instance;
 mod processor;
+mod state;
 
 use std::ffi::CString;
 use std::path::Path;
@@ -23,6 +24,7 @@ pub use event::{Event, What};
 pub use handlers::Requests;
 pub use instance::{AudioPort, Instance, NotePort, ParameterInfo};
 pub use processor::{Processor, Touch};
+pub use state::{set_kit, with_fields};
 
 /// What a plugin says of itself.
 #[derive(Debug, Clone, PartialEq, Eq)]

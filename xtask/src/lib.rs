@@ -5,7 +5,7 @@
 //! engine itself or the built plugin in an embedded [`host`]; [`wav`] and [`output`] put it on
 //! disk. `hear` ([`hear`]) strikes one piece and measures it ([`analysis`]); `realism`
 //! ([`realism`]) sets every piece beside recordings; [`report`] writes pages of figures, measured with [`overhear_lab`];
-//! [`manual`] those of the manual that come from the code; [`presets`] keeps presets; `modes` ([`modes`]) lists what vibrates.
+//! [`manual`] those of the manual that come from the code; [`presets`] keeps presets, [`kit`] kit files; `modes` ([`modes`]) lists what vibrates.
 //! [`demo`] plays the [`groove`] and draws a [`picture`] of it; [`shots`] takes pictures of the editor. [`bundle`] and [`suite`] build and test.
 #![deny(unsafe_op_in_unsafe_fn)]
 
@@ -18,6 +18,7 @@ pub mod error;
 pub mod groove;
 pub mod hear;
 pub mod host;
+pub mod kit;
 mod levels;
 pub mod manual;
 pub mod modes;

@@ -3,18 +3,19 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use anyhow::Result;
-use overhear_engine::piece::{BuildOptions, Member, ModeInfo, ModeKind, Piece, PieceId};
+use anyhow::{Context, Result};
+use overhear_engine::kit_spec::KitSpec;
+use overhear_engine::piece::{BuildOptions, Member, ModeInfo, ModeKind};
 use serde::Serialize;
 
-use crate::bad_input;
+use crate::hear::{self, ALONE};
 use crate::settings::PieceSetting;
 
 /// The modes of a piece. The fields are the keys of the JSON and stay.
 #[derive(Debug, Clone, Serialize)]
 pub struct Modes {
     /// Name of the piece.
-    pub piece: &'static str,
+    pub piece: String,
     /// Sample rate, Hz.
     pub sample_rate_hz: f64,
     /// Tension of each stretched body, N/m.
@@ -70,20 +71,15 @@ impl From<ModeInfo> for Mode {
     }
 }
 
-/// Builds a piece and lists its modes.
+/// Builds the only piece of a kit and lists its modes.
 ///
 /// # Errors
 /// [`BadInput`](crate::error::BadInput) if the piece cannot be built so.
-pub fn run(id: PieceId, options: &BuildOptions, settings: &[PieceSetting]) -> Result<Modes> {
-    let mut piece = Piece::new(id, options).map_err(|error| bad_input!("{error}"))?;
-    for setting in settings {
-        setting.apply(&mut piece);
-    }
-    if !settings.is_empty() {
-        crate::hear::settle(&mut piece, options.sample_rate);
-    }
+pub fn run(spec: &KitSpec, options: &BuildOptions, settings: &[PieceSetting]) -> Result<Modes> {
+    let kit = hear::stand(spec, options, settings)?;
+    let piece = kit.piece(ALONE).context("a kit without a piece")?;
     Ok(Modes {
-        piece: id.name(),
+        piece: spec.pieces.first().map(|piece| piece.name.clone()).unwrap_or_default(),
         sample_rate_hz: options.sample_rate,
         tension_n_m: piece.tensions().into_iter().collect(),
         modes: piece.modes().into_iter().map(Mode::from).collect(),

@@ -3,19 +3,22 @@
 //! Both are given the same notes at the same samples and the same parameters from the start, and
 //! give the same samples, bit by bit.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use overhear::building::{BuildPlan, Pace};
-use overhear::parameters::{PARAMETERS, host_id};
+use overhear::kit_document::KitDocument;
+use overhear::parameters::{self, COUNT, host_id, parameters};
 use overhear::performer::{Performer, velocity_from_midi};
-use overhear_engine::piece::{BuildOptions, Piece, PieceId};
+use overhear_engine::piece::Piece;
+use overhear_engine::slot::Slot;
 
 use crate::bad_input;
-use crate::host::{self, Bundle, Processor};
+use crate::host::{self, Bundle, Instance, Processor};
 use crate::settings::Setting;
-use crate::stage::Stage;
 
 /// Longest buffer that is played.
 pub const LONGEST_BLOCK: u32 = 8192;
@@ -56,10 +59,10 @@ pub enum Source {
 pub struct Setup {
     /// Sample rate, Hz.
     pub rate: u32,
+    /// The kit and its notes.
+    pub kit: KitDocument,
     /// Parameters moved before the start.
     pub settings: Vec<Setting>,
-    /// Where pieces and microphones stand; the plugin knows the default only.
-    pub stage: Stage,
 }
 
 impl Source {
@@ -75,37 +78,36 @@ impl Source {
     ) -> Result<T> {
         match self {
             Source::Engine => work(&mut EnginePlayer::new(setup)?),
-            Source::Clap(path) if setup.stage != Stage::default() => Err(bad_input!(
-                "`{}` plays where pieces and microphones stand by default, accepted with other places: the engine",
-                path.display(),
-            )),
             Source::Clap(path) => {
                 let mut instance = Bundle::load(path)?.instantiate()?;
-                let known = instance.parameters()?;
-                let values = setup
-                    .settings
-                    .iter()
-                    .map(|&(index, value)| {
-                        let parameter = &PARAMETERS[index];
-                        let id = host_id(parameter.id);
-                        if known.iter().all(|info| info.id != id) {
-                            return Err(bad_input!(
-                                "`{}` has no parameter {}",
-                                path.display(),
-                                parameter.name,
-                            ));
-                        }
-                        Ok((id, f64::from(parameter.normalized(value))))
-                    })
-                    .collect::<Result<Vec<_>>>()?;
                 instance.set_offline()?;
-                instance.set_parameters(&values)?;
+                set_up(&mut instance, setup).map_err(|error| bad_input!("`{}` {error:#}", path.display()))?;
                 instance.run(f64::from(setup.rate), 1..=LONGEST_BLOCK, |processor| {
                     work(&mut ClapPlayer { processor, events: Vec::new() })
                 })
             }
         }
     }
+}
+
+/// Gives a plugin the kit and the parameters.
+fn set_up(instance: &mut Instance, setup: &Setup) -> Result<()> {
+    let kit = &setup.kit.kit;
+    let mut values = BTreeMap::new();
+    if setup.kit != KitDocument::standard() {
+        host::set_kit(instance, &setup.kit).context("does not take the kit")?;
+        // Those it has so far are the standard kit's.
+        values.extend((0..COUNT).map(|index| (index, parameters::default_value(index, kit))));
+    }
+    values.extend(setup.settings.iter().copied());
+    let known = instance.parameters()?;
+    let value = |(index, value): (usize, f32)| {
+        let parameter = &parameters()[index];
+        let id = host_id(parameter.id);
+        ensure!(known.iter().any(|info| info.id == id), "has no parameter {}", parameters::name(index, kit));
+        Ok((id, f64::from(parameter.normalized(value))))
+    };
+    instance.set_parameters(&values.into_iter().map(value).collect::<Result<Vec<_>>>()?)
 }
 
 /// The engine by itself.
@@ -118,20 +120,31 @@ impl EnginePlayer {
     /// Builds the kit as a file is rendered.
     ///
     /// # Errors
-    /// [`BadInput`](crate::error::BadInput) if the sample rate cannot be used.
+    /// [`BadInput`](crate::error::BadInput) if the kit cannot be built at the sample rate.
     pub fn new(setup: &Setup) -> Result<EnginePlayer> {
+        EnginePlayer::at_pace(setup, Pace::Offline)
+    }
+
+    /// Builds the kit as it is played, or as a file is rendered.
+    ///
+    /// # Errors
+    /// [`BadInput`](crate::error::BadInput) if the kit cannot be built at the sample rate.
+    pub fn at_pace(setup: &Setup, pace: Pace) -> Result<EnginePlayer> {
         let rate = f64::from(setup.rate);
-        let mut performer = Performer::with_layout(rate, &setup.stage.layout);
+        let mut performer = Performer::new(rate, &setup.kit, Arc::default());
         // Before the pieces, as the plugin does it: they start with these values.
         for &(index, value) in &setup.settings {
             performer.set_parameter(index, value);
         }
-        let value = |index: usize| performer.parameter(index).unwrap_or(PARAMETERS[index].default);
-        let plan = BuildPlan::of(value, Pace::Offline);
-        for id in PieceId::KIT {
-            let options = plan.options(id, rate);
-            let options = BuildOptions { close: setup.stage.close(id).or(options.close), ..options };
-            let piece = Piece::new(id, &options).map_err(|error| bad_input!("{error}"))?;
+        let value = |index: usize| {
+            let usual = || parameters::default_value(index, &setup.kit.kit);
+            performer.parameter(index).unwrap_or_else(usual)
+        };
+        let plan = BuildPlan::of(Arc::new(setup.kit.clone()), value, pace);
+        for slot in Slot::ALL {
+            let Some(build) = plan.build(slot) else { continue };
+            let piece =
+                Piece::new(slot, &build, &plan.options(rate)).map_err(|error| bad_input!("{error}"))?;
             performer.install(Box::new(piece));
         }
         performer.hire(plan.staff().hire().context("the system starts no more threads")?);

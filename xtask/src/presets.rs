@@ -39,7 +39,8 @@ pub fn show(library: &Library, name: &str) -> Result<String> {
 /// [`BadInput`](crate::error::BadInput) if anything named is not known.
 pub fn save(library: &Library, name: &str, from: &str, set: &[String], about: String) -> Result<String> {
     let mut preset = library.load(from).map_err(refused)?;
-    preset.values.extend(settings::parse(set)?);
+    let kit = settings::kit_of(&preset).kit;
+    preset.values.extend(settings::parse(set, &kit)?);
     if !about.is_empty() {
         preset.about = about;
     }

@@ -11,13 +11,16 @@ mod report;
 mod subject;
 mod table;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 
 use anyhow::Result;
 use overhear::building::Pace;
+use overhear::kit_document::KitDocument;
+use overhear_engine::kit_spec::Kind;
+use overhear_engine::slot::Slot;
 use overhear_engine::strike::Strike;
 
 use crate::output::Folder;
@@ -48,6 +51,8 @@ pub struct Request {
     pub subjects: Vec<Subject>,
     /// Speeds of the strokes, m/s, ascending.
     pub speeds: Vec<f64>,
+    /// The kit, which has pieces of the subjects' names, and its notes.
+    pub kit: KitDocument,
     /// Parameters that are not at their default.
     pub settings: Vec<Setting>,
     /// Whether the kit is bounced or played, which is what its cymbals' quality goes by.
@@ -61,6 +66,8 @@ pub struct Request {
 pub struct Job {
     /// What is struck.
     pub subject: Subject,
+    /// Its slot.
+    pub slot: Slot,
     /// Speed, m/s.
     pub speed: f64,
     /// Place, share of the radius.
@@ -72,14 +79,15 @@ pub type Show<'a> = dyn Fn(&Job, &[Vec<f32>; 2]) + Sync + 'a;
 
 impl Request {
     /// Every stroke: subject by subject, speed by speed, place by place.
-    fn jobs(&self) -> Vec<Job> {
+    fn jobs(&self) -> Result<Vec<Job>> {
         let mut jobs = Vec::new();
         for &subject in &self.subjects {
+            let slot = subject.slot(&self.kit)?;
             for &speed in &self.speeds {
-                jobs.extend(subject.places.map(|place| Job { subject, speed, place }));
+                jobs.extend(subject.places.map(|place| Job { subject, slot, speed, place }));
             }
         }
-        jobs
+        Ok(jobs)
     }
 }
 
@@ -97,16 +105,16 @@ pub fn run(request: &Request) -> Result<Report> {
 /// As [`run`].
 pub fn run_and_show(request: &Request, show: &Show) -> Result<Report> {
     let _folder = request.wav.as_deref().map(Folder::new).transpose()?;
-    let jobs = request.jobs();
+    let jobs = request.jobs()?;
     let next = AtomicUsize::new(0);
     let done: Mutex<Vec<Option<[Stroke; 2]>>> = Mutex::new(vec![None; jobs.len()]);
     let progress = Mutex::new(Progress::new("realism", jobs.len() as u64));
     let work = || -> Result<()> {
-        let mut stand = Stand::new(RATE, &request.settings, request.pace)?;
+        let mut stand = Stand::new(RATE, &request.kit, &request.settings, request.pace)?;
         loop {
             let index = next.fetch_add(1, Ordering::Relaxed);
             let Some(job) = jobs.get(index) else { return Ok(()) };
-            let strokes = job.strike(&mut stand, request.wav.as_deref(), show)?;
+            let strokes = job.strike(&mut stand, request, show)?;
             progress.lock().unwrap_or_else(PoisonError::into_inner).advance(1);
             done.lock().unwrap_or_else(PoisonError::into_inner)[index] = Some(strokes);
         }
@@ -121,17 +129,18 @@ pub fn run_and_show(request: &Request, show: &Show) -> Result<Report> {
     })?;
     let done = done.into_inner().unwrap_or_else(PoisonError::into_inner);
     let strokes: Vec<[Stroke; 2]> = done.into_iter().flatten().collect();
-    Ok(Report::new(RATE, request, &strokes))
+    Report::new(RATE, request, &strokes)
 }
 
 impl Job {
     /// Renders the stroke, keeps what each ear hears if asked to, and measures it.
-    fn strike(&self, stand: &mut Stand, folder: Option<&Path>, show: &Show) -> Result<[Stroke; 2]> {
-        let Job { subject, speed, place } = *self;
-        let strike = Strike { speed, radius: place, ..subject.strike() };
-        let seconds = if subject.piece.is_drum() { DRUM_SECONDS } else { CYMBAL_SECONDS };
-        let heard = stand.strike(subject.piece, &strike, subject.pedal(), seconds)?;
-        if let Some(folder) = folder {
+    fn strike(&self, stand: &mut Stand, request: &Request, show: &Show) -> Result<[Stroke; 2]> {
+        let Job { subject, slot, speed, place } = *self;
+        let strike = Strike { speed, radius: place, ..subject.strike(&request.kit, slot) };
+        let kind = request.kit.kit.piece(slot).map(|piece| piece.instrument.kind());
+        let seconds = if kind == Some(Kind::Drum) { DRUM_SECONDS } else { CYMBAL_SECONDS };
+        let heard = stand.strike(slot, &strike, subject.pedal(&request.kit, slot), seconds);
+        if let Some(folder) = &request.wav {
             for (ear, sound) in Ear::ALL.into_iter().zip(&heard) {
                 let name = format!("{}-{speed}-at-{place}-{}.wav", subject.name, ear.name());
                 let (path, frames) = (folder.join(name), sound.len() as u64);
@@ -158,6 +167,7 @@ mod tests {
         let report = run(&Request {
             subjects: subjects(&["rack-tom".to_owned()]).unwrap(),
             speeds: vec![2.0, 4.0],
+            kit: KitDocument::standard(),
             settings: Vec::new(),
             pace: Pace::RealTime,
             wav: None,

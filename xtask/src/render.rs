@@ -8,12 +8,12 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
 use anyhow::{Context, Result};
+use overhear::kit_document::KitDocument;
 
 use crate::bad_input;
 use crate::output::Folder;
-use crate::player::{Blocks, Source};
+use crate::player::{Blocks, Setup, Source};
 use crate::settings::Setting;
-use crate::stage::Stage;
 use crate::wav::Bits;
 
 pub use job::{Job, Report, decibels, takes};
@@ -40,10 +40,10 @@ pub struct Style {
     pub source: Source,
     /// Sample rate, Hz.
     pub rate: u32,
+    /// The kit and its notes.
+    pub kit: KitDocument,
     /// Parameters moved before the start.
     pub settings: Vec<Setting>,
-    /// Where pieces and microphones stand.
-    pub stage: Stage,
     /// How the sound is cut into buffers.
     pub blocks: Blocks,
     /// How samples are stored.
@@ -52,6 +52,13 @@ pub struct Style {
     pub tail: f64,
     /// The only channel played, 1 to 16, or all.
     pub channel: Option<u8>,
+}
+
+impl Style {
+    /// How whoever plays is set up.
+    pub fn setup(&self) -> Setup {
+        Setup { rate: self.rate, kit: self.kit.clone(), settings: self.settings.clone() }
+    }
 }
 
 /// Renders everything asked for.

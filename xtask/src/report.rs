@@ -2,7 +2,8 @@
 //!
 //! Each page is a module: it measures, and hands back a [`Page`]. The same sources give the same
 //! pages, byte by byte, on one machine; but for the page on costs, which depends on the machine.
-//! What pages measure is open to the tests, which hold the same figures to the same bounds.
+//! Every figure says what it was measured on: the standard kit, or a named reference. What pages measure is open to the
+//! tests, which hold the same figures to the same bounds.
 
 pub mod cascade;
 pub mod contact;
@@ -125,10 +126,10 @@ fn index(pages: &[(&str, String)]) -> String {
         let title = text.lines().next().unwrap_or_default().trim_start_matches("# ");
         let _ = writeln!(out, "| [{name}]({name}.md) | {title} | {met} of {} |", met + missed);
     }
-    out.push_str("\n## Not met\n\n| page | claim | figure | should be |\n|---|---|---|---|\n");
+    out.push_str("\n## Not met\n\n| page | claim | measured on | figure | should be |\n|---|---|---|---|---|\n");
     for (name, text) in pages {
         for row in text.lines().filter(|line| line.ends_with(page::MISSED)) {
-            let cells: Vec<&str> = row.trim_start_matches("| ").split(" | ").take(3).collect();
+            let cells: Vec<&str> = row.trim_start_matches("| ").split(" | ").take(4).collect();
             let _ = writeln!(out, "| [{name}]({name}.md) | {} |", cells.join(" | "));
         }
     }
@@ -147,17 +148,19 @@ mod tests {
 
     #[test]
     fn what_is_not_met_is_on_the_index() {
-        let mut sheet = Sheet::new("modal", "Modes", "About.");
+        let mut sheet = Sheet::new("modal", "Modes", page::bodies::PLAYED, "About.");
         for met in [Some(true), Some(false), None] {
             let what = format!("claim {met:?}");
             let (figure, reference) = ("1".to_owned(), "2".to_owned());
-            sheet.claim(Claim { what, figure, reference, source: page::sources::GOAL, met });
+            let (on, source) = (page::bodies::CAP, page::sources::GOAL);
+            sheet.claim(Claim { what, on, figure, reference, source, met });
         }
         let page = sheet.finish();
         assert!(page.markdown.contains("**no**") && page.markdown.contains("told"));
+        assert!(page.markdown.contains("Measured on: standard kit."));
         assert_eq!(page::tally(&page.claims), [1, 2]);
         let index = index(&[(page.name, page.markdown)]);
-        assert!(index.contains("1 of 2") && index.contains("| claim Some(false) | 1 | 2 |"), "{index}");
+        assert!(index.contains("1 of 2") && index.contains("| claim Some(false) | reference: cap | 1 | 2 |"), "{index}");
         assert!(!index.contains("claim Some(true)"));
     }
 }

@@ -1,44 +1,91 @@
-//! `--set name=value` and `--preset`: the parameters a command moves.
+//! `--kit`, `--preset` and `--set name=value`: the kit a command plays and the parameters it moves.
 
 use std::path::Path;
 
 use anyhow::Result;
+use overhear::kit_document::KitDocument;
+use overhear::kit_file;
 use overhear::midi::maps::NoteMap;
-use overhear::midi_map::Stroke;
-use overhear::parameters::{Drives, Manner, PARAMETERS, Parameter, parse_assignment};
+use overhear::midi_map::{NoteTable, Stroke};
+use overhear::parameters::{self, Drives, Manner, SlotParameter, parameters};
 use overhear::presets::{self, Library, Preset};
-use overhear_engine::hi_hat::foot::SPEED;
-use overhear_engine::kit::Control;
-use overhear_engine::piece::{BuildOptions, Piece, PieceId};
+use overhear_engine::kit::{Control, Kit};
+use overhear_engine::kit_spec::{KitSpec, PieceSpec};
+use overhear_engine::slot::Slot;
 
 use crate::bad_input;
+use crate::hear::ALONE;
 
-/// A parameter moved: its index in [`PARAMETERS`] and its value in its unit.
+/// A parameter moved: its index and its value in its unit.
 pub type Setting = (usize, f32);
 
-/// Reads the values of `--set`.
+/// What of a slot acts on a piece by itself; the others place it in a mix or say how it is struck.
+const ACTS_ALONE: [SlotParameter; 5] = [
+    SlotParameter::Tune,
+    SlotParameter::Muffle,
+    SlotParameter::Preload,
+    SlotParameter::Wires,
+    SlotParameter::Pedal,
+];
+
+/// A kit and the parameters moved on it before the start.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Chosen {
+    /// The kit.
+    pub kit: KitDocument,
+    /// The parameters.
+    pub settings: Vec<Setting>,
+}
+
+/// The kit of `--kit`, the standard one if no file is named.
+///
+/// # Errors
+/// [`BadInput`](crate::error::BadInput) with the file, the line, the field and what is accepted.
+pub fn kit(file: Option<&Path>) -> Result<KitDocument> {
+    file.map_or_else(
+        || Ok(KitDocument::standard()),
+        |file| kit_file::load(file).map_err(|error| bad_input!("{error}")),
+    )
+}
+
+/// Reads the values of `--set` for a kit.
 ///
 /// # Errors
 /// [`BadInput`](crate::error::BadInput) with the value and what is accepted.
-pub fn parse(assignments: &[String]) -> Result<Vec<Setting>> {
-    assignments.iter().map(|text| parse_assignment(text).map_err(|error| bad_input!("{error}"))).collect()
+pub fn parse(assignments: &[String], kit: &KitSpec) -> Result<Vec<Setting>> {
+    let read = |text: &String| parameters::parse_assignment(text, kit);
+    assignments.iter().map(|text| read(text).map_err(|error| bad_input!("{error}"))).collect()
 }
 
-/// The stroke of a note under the settings' note map, if it sounds.
-pub fn stroke(settings: &[Setting], note: u8) -> Option<&'static Stroke> {
-    let moved = |&&(index, _): &&Setting| PARAMETERS[index].drives == Drives::Playing(Manner::Map);
+/// The stroke of a note of a kit under the settings' note map, if it sounds.
+pub fn stroke<'a>(settings: &[Setting], notes: &'a NoteTable, note: u8) -> Option<&'a Stroke> {
+    let moved = |&&(index, _): &&Setting| parameters()[index].drives == Drives::Playing(Manner::Map);
     let map = settings.iter().rfind(moved).map_or(0, |&(_, value)| value as usize);
-    NoteMap::ALL.get(map).copied().unwrap_or_default().stroke(note)
+    notes.stroke(NoteMap::ALL.get(map).copied().unwrap_or_default().plays(note)?)
 }
 
-/// The values of `--preset`, a name or a file, and of `--set` after it.
+/// The kit and the values of `--preset` (a name or a file), `--kit` in place of the preset's kit, `--set` after both.
 ///
 /// # Errors
 /// [`BadInput`](crate::error::BadInput) naming the presets, or the line of the file that is wrong.
-pub fn preset_and_set(preset: &str, assignments: &[String]) -> Result<Vec<Setting>> {
-    let mut settings: Vec<Setting> = load_preset(preset)?.values.into_iter().collect();
-    settings.extend(parse(assignments)?);
-    Ok(settings)
+pub fn choose(preset: &str, file: Option<&Path>, assignments: &[String]) -> Result<Chosen> {
+    let preset = load_preset(preset)?;
+    let kit = if file.is_some() { kit(file)? } else { kit_of(&preset) };
+    let mut settings = moved(&preset, &kit.kit);
+    settings.extend(parse(assignments, &kit.kit)?);
+    Ok(Chosen { kit, settings })
+}
+
+/// What a preset moves of a kit's parameters from where they are by themselves.
+pub fn moved(preset: &Preset, kit: &KitSpec) -> Vec<Setting> {
+    let mut values = preset.values_at(kit);
+    values.retain(|&(index, value)| value != parameters::default_value(index, kit));
+    values
+}
+
+/// The kit that a preset plays, the standard one if it carries none.
+pub fn kit_of(preset: &Preset) -> KitDocument {
+    preset.kit().map_or_else(KitDocument::standard, |kit| KitDocument::clone(kit))
 }
 
 /// A preset by its name in the user's library, or by the path of a file.
@@ -52,37 +99,15 @@ pub fn load_preset(preset: &str) -> Result<Preset> {
     loaded.map_err(|error| bad_input!("{error}"))
 }
 
-/// The piece of that name.
+/// The slot and the piece of that name.
 ///
 /// # Errors
-/// [`BadInput`](crate::error::BadInput) naming every piece.
-pub fn piece(name: &str) -> Result<PieceId> {
-    PieceId::from_name(name).ok_or_else(|| {
-        let names = PieceId::ALL.map(PieceId::name).join(", ");
-        bad_input!("no piece is called `{name}`, accepted: {names}")
+/// [`BadInput`](crate::error::BadInput) naming every piece of the kit.
+pub fn piece<'a>(kit: &'a KitSpec, name: &str) -> Result<(Slot, &'a PieceSpec)> {
+    kit.find(name).ok_or_else(|| {
+        let names: Vec<_> = kit.pieces.iter().map(|piece| &*piece.name).collect();
+        bad_input!("no piece of the kit is called `{name}`, accepted: {}", names.join(", "))
     })
-}
-
-/// Checks that what is asked of the build is something the piece has.
-///
-/// # Errors
-/// [`BadInput`](crate::error::BadInput) naming the option: a cymbal has no heads, a drum no bell.
-pub fn check_options(id: PieceId, options: &BuildOptions) -> Result<()> {
-    let of_drums = [
-        ("--open", options.open),
-        ("--resonant-ratio", options.resonant_ratio.is_some()),
-        ("--uneven", options.unevenness.is_some()),
-        ("--muffler", options.muffler.is_some()),
-        ("--no-high-band", !options.high_band),
-        ("--wrap", options.wraps),
-    ];
-    if options.shaped && id.is_drum() {
-        return Err(bad_input!("--bell is of cymbals, the {} is a drum", id.name()));
-    }
-    match of_drums.into_iter().find(|&(_, asked)| asked && !id.is_drum()) {
-        Some((option, _)) => Err(bad_input!("{option} is of drums, the {} is a cymbal", id.name())),
-        None => Ok(()),
-    }
 }
 
 /// A setting of a piece on its own: a control of the kit, in the engine's units.
@@ -95,121 +120,127 @@ pub struct PieceSetting {
 }
 
 impl PieceSetting {
-    /// Moves it on a piece.
-    pub fn apply(self, piece: &mut Piece) {
-        match self.control {
-            Control::Tuning(_) => piece.set_tuning(self.value),
-            Control::Muffling(_) => piece.set_muffling(self.value),
-            Control::SnarePreload => piece.set_preload(self.value),
-            Control::SnareWires => piece.throw_wires(self.value >= 0.5),
-            Control::Pedal => piece.press_pedal(self.value, SPEED.1),
-            // A piece by itself has no mix.
-            _ => {}
-        }
+    /// Moves it on a kit.
+    pub fn apply(self, kit: &mut Kit) {
+        kit.set(self.control, self.value);
     }
 }
 
-/// Reads the values of `--set` for one piece on its own.
+/// Reads the values of `--set` for a kit of one piece.
 ///
 /// # Errors
 /// [`BadInput`](crate::error::BadInput) with the value and what is accepted.
-pub fn parse_for_piece(id: PieceId, assignments: &[String]) -> Result<Vec<PieceSetting>> {
-    let accepted = piece_parameters(id);
-    assignments
-        .iter()
-        .map(|text| {
-            let Some((name, value)) = text.split_once('=') else {
-                return Err(bad_input!("`{text}` is not of the form name=value, as in kick_tune=60"));
-            };
-            let name = name.trim();
-            let Some(parameter) = accepted.iter().find(|parameter| parameter.name == name) else {
-                let names: Vec<_> = accepted.iter().map(|parameter| parameter.name).collect();
-                let (piece, names) = (id.name(), names.join(", "));
-                return Err(bad_input!("`{name}` does not act on the {piece} alone, accepted: {names}"));
-            };
-            let value = f64::from(parameter.parse(value).map_err(|error| bad_input!("{error}"))?);
-            Ok(match parameter.drives {
-                // Semitones to a ratio, as the performer has it.
-                Drives::Semitones(id) => {
-                    PieceSetting { control: Control::Tuning(id), value: (value / 12.0).exp2() }
-                }
-                Drives::Control(control) => PieceSetting { control, value },
-                // Not among those accepted.
-                Drives::Percent(_) | Drives::Stand(..) | Drives::Playing(_) | Drives::Building(_) => {
-                    PieceSetting { control: Control::Master, value }
-                }
-            })
-        })
-        .collect()
+pub fn parse_for_piece(kit: &KitSpec, assignments: &[String]) -> Result<Vec<PieceSetting>> {
+    assignments.iter().map(|text| parse_one_for_piece(kit, text)).collect()
 }
 
-/// Muffling that a piece has in the kit unless it is moved, 0 to 1.
-pub fn default_muffling(id: PieceId) -> f64 {
-    let muffle = piece_parameters(id).into_iter().find(|parameter| parameter.name.ends_with("_muffle"));
-    muffle.map_or(0.0, |muffle| f64::from(muffle.default))
-}
-
-/// What can be set of a piece by itself: all that acts on it but its place in the mix.
-fn piece_parameters(id: PieceId) -> Vec<Parameter> {
-    let acts = |parameter: &&Parameter| match parameter.drives {
-        Drives::Control(Control::Tuning(piece) | Control::Muffling(piece)) | Drives::Semitones(piece) => {
-            piece == id
-        }
-        Drives::Control(Control::SnarePreload | Control::SnareWires) => id == PieceId::Snare,
-        Drives::Control(Control::Pedal) => id == PieceId::HiHat,
-        _ => false,
+fn parse_one_for_piece(kit: &KitSpec, text: &str) -> Result<PieceSetting> {
+    let Some((name, value)) = text.split_once('=') else {
+        return Err(bad_input!("`{text}` is not of the form name=value, as in kick_tune=60"));
     };
-    PARAMETERS.iter().filter(acts).copied().collect()
+    let name = name.trim();
+    let index = |what| parameters::slot_index(ALONE, what);
+    let found = parameters::find(name, kit).ok();
+    let acting = ACTS_ALONE.into_iter().filter(|&what| parameters::is_live(index(what), kit));
+    let Some(what) = acting.clone().find(|&what| Some(index(what)) == found) else {
+        let names: Vec<_> = acting.map(|what| parameters::name(index(what), kit)).collect();
+        let piece = kit.pieces.first().map_or("", |piece| &piece.name);
+        return Err(bad_input!("`{name}` does not act on the {piece} alone, accepted: {}", names.join(", ")));
+    };
+    let value = parameters::parse_value(index(what), value, kit).map_err(|error| bad_input!("{error}"))?;
+    let own = kit.pieces.first().map_or(1.0, |piece| piece.instrument.tunings()[1]);
+    let value = f64::from(value);
+    let (control, value) = match what {
+        SlotParameter::Tune => (Control::Tuning(ALONE), own * (value / 12.0).exp2()),
+        SlotParameter::Preload => (Control::Preload(ALONE), value),
+        SlotParameter::Wires => (Control::Wires(ALONE), value),
+        SlotParameter::Pedal => (Control::Pedal(ALONE), value),
+        _ => (Control::Muffling(ALONE), value),
+    };
+    Ok(PieceSetting { control, value })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn error(id: PieceId, text: &str) -> String {
-        parse_for_piece(id, &[text.to_owned()]).unwrap_err().to_string()
+    fn alone(name: &str) -> KitSpec {
+        let kit = KitSpec::standard();
+        kit.alone(piece(&kit, name).unwrap().0).unwrap()
+    }
+
+    fn error(name: &str, text: &str) -> String {
+        parse_for_piece(&alone(name), &[text.to_owned()]).unwrap_err().to_string()
     }
 
     #[test]
     fn every_piece_takes_its_tuning_and_muffling() {
-        for id in PieceId::ALL {
-            let prefix = id.name().replace('-', "_");
-            let default = if id.is_drum() { Piece::tuning_range(id).1 } else { 0.0 };
-            let assignments = [format!("{prefix}_tune={default}"), format!("{prefix}_muffle=.25")];
-            let settings = parse_for_piece(id, &assignments).unwrap();
-            let tuning = settings[0].value;
-            assert!((tuning / Piece::tuning_range(id).1 - 1.0).abs() < 1e-4, "{id:?}: {tuning}");
-            assert_eq!(settings[1].value, 0.25);
+        for spec in KitSpec::standard().pieces {
+            let prefix = spec.name.replace('-', "_");
+            let own = spec.instrument.tunings()[1];
+            let asked = if spec.drum().is_some() { format!("{own} Hz") } else { "0 st".to_owned() };
+            let assignments = [format!("{prefix}_tune={asked}"), format!("{prefix}_muffle=.25")];
+            let settings = parse_for_piece(&alone(&spec.name), &assignments).unwrap();
+            assert_eq!(settings[0], PieceSetting { control: Control::Tuning(ALONE), value: own });
+            assert_eq!(settings[1], PieceSetting { control: Control::Muffling(ALONE), value: 0.25 });
         }
     }
 
     #[test]
-    fn the_snare_takes_its_wires_too() {
-        let settings = parse_for_piece(PieceId::Snare, &["snare_preload=.05".into(), "snare_wires=0".into()]);
-        let controls: Vec<Control> = settings.unwrap().iter().map(|setting| setting.control).collect();
-        assert_eq!(controls, [Control::SnarePreload, Control::SnareWires]);
-        assert!(error(PieceId::Snare, "snare_preload=2").contains("accepted: 0.03 to 1.5 N"));
-        assert!(error(PieceId::Kick, "snare_wires=1").contains("kick_muffle"));
+    fn a_drum_is_tuned_in_hertz_within_a_thousandth_of_a_semitone() {
+        let settings = parse_for_piece(&alone("kick"), &["kick_tune=60".to_owned()]).unwrap();
+        assert!((settings[0].value / 60.0 - 1.0).abs() < 0.0005 * std::f64::consts::LN_2 / 12.0 + 1e-7);
+    }
+
+    #[test]
+    fn the_snare_takes_its_wires_too_and_the_hi_hat_its_pedal() {
+        let controls = |name: &str, texts: &[&str]| -> Vec<Control> {
+            let texts: Vec<String> = texts.iter().map(|text| (*text).to_owned()).collect();
+            let settings = parse_for_piece(&alone(name), &texts).unwrap();
+            settings.iter().map(|setting| setting.control).collect()
+        };
+        let wires = controls("snare", &["snare_preload=.05", "snare_wires=0"]);
+        assert_eq!(wires, [Control::Preload(ALONE), Control::Wires(ALONE)]);
+        assert_eq!(controls("hi-hat", &["hi_hat_pedal=1"]), [Control::Pedal(ALONE)]);
+        assert!(error("snare", "snare_preload=2").contains("accepted: 0.03 to 1.5 N"));
+        assert!(error("kick", "snare_wires=1").contains("kick_muffle"));
     }
 
     #[test]
     fn what_does_not_act_on_the_piece_is_refused() {
-        assert!(error(PieceId::Kick, "master_level=0").ends_with("accepted: kick_tune, kick_muffle"));
-        assert!(error(PieceId::Timpani, "kick_tune=60").contains("timpani_tune"));
-        assert_eq!(
-            error(PieceId::Timpani, "timpani_tune=20"),
-            "timpani_tune is 20, accepted: 87.3 to 196 Hz"
-        );
-        assert!(error(PieceId::Ride, "ride_tune").contains("name=value"));
+        assert!(error("kick", "master_level=0").ends_with("accepted: kick_tune, kick_muffle"));
+        assert!(error("kick", "kick_level=0").ends_with("accepted: kick_tune, kick_muffle"));
+        assert!(error("timpani", "kick_tune=60").contains("timpani_tune"));
+        assert!(error("timpani", "timpani_tune=20").contains("87.3 to 196 Hz"));
+        assert!(error("ride", "ride_tune").contains("name=value"));
+    }
+
+    #[test]
+    fn a_piece_that_the_kit_has_not_is_answered_with_those_it_has() {
+        let kit = KitSpec::standard();
+        assert_eq!(piece(&kit, "crash").unwrap().1.title, "Crash");
+        let error = piece(&kit, "gong").unwrap_err().to_string();
+        assert!(kit.pieces.iter().all(|piece| error.contains(&piece.name)), "{error}");
     }
 
     #[test]
     fn settings_come_after_the_preset() {
-        assert_eq!(preset_and_set("default", &[]).unwrap(), []);
-        let jazz = preset_and_set("jazz", &["kick_tune=50".to_owned()]).unwrap();
-        assert!(jazz.len() > 5);
-        assert_eq!(jazz.last(), Some(&(0, 50.0)));
+        let standard = Chosen { kit: KitDocument::standard(), settings: Vec::new() };
+        assert_eq!(choose("default", None, &[]).unwrap(), standard);
+        let jazz = choose("jazz", None, &["kick_muffle=.5".to_owned()]).unwrap();
+        assert!(jazz.settings.len() > 5);
+        let kick = parameters::find("kick_muffle", &jazz.kit.kit).unwrap();
+        assert_eq!(jazz.settings.last(), Some(&(kick, 0.5)));
         assert!(load_preset("polka").unwrap_err().to_string().contains("accepted: default, studio, jazz"));
         assert!(load_preset("no/such.toml").unwrap_err().to_string().contains("no/such.toml"));
+    }
+
+    #[test]
+    fn a_kit_file_that_is_not_there_is_named() {
+        let error = kit(Some(Path::new("no/such.toml"))).unwrap_err();
+        assert!(
+            error.is::<crate::error::BadInput>() && error.to_string().contains("no/such.toml"),
+            "{error}"
+        );
     }
 }

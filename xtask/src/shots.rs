@@ -13,20 +13,18 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, ensure};
+use overhear_engine::kit_spec::KitSpec;
 use serde_json::{Value, json};
 
 use crate::host::{Bundle, Event, Instance, Processor, What};
 use crate::suite::display::Display;
 use crate::workspace::Format;
-use crate::{bundle, output};
+use crate::{bundle, host, output};
 use window::HostWindow;
 
 /// Sample rate, Hz, and samples of a buffer.
 const RATE: f64 = 48_000.0;
 const BLOCK: usize = 1024;
-
-/// Bytes of a state that say how long its text is.
-const LENGTH: usize = 8;
 
 /// Size of a window as designed, points.
 const SIZE: [u32; 2] = [1080, 700];
@@ -35,7 +33,8 @@ const SIZE: [u32; 2] = [1080, 700];
 struct Shot {
     name: &'static str,
     page: u8,
-    piece: u8,
+    /// Name of the piece that the panels are about.
+    piece: &'static str,
     /// Notes and velocities, a beat apart; the picture is taken after the last.
     notes: &'static [(u8, f32)],
     /// From the last note to the picture.
@@ -45,28 +44,34 @@ struct Shot {
 /// From one note to the next: so that meters and energies show all of them.
 const BEAT: Duration = Duration::from_millis(250);
 
-const fn shot(name: &'static str, page: u8, piece: u8, notes: &'static [(u8, f32)], wait: u64) -> Shot {
+const fn shot(
+    name: &'static str,
+    page: u8,
+    piece: &'static str,
+    notes: &'static [(u8, f32)],
+    wait: u64,
+) -> Shot {
     Shot { name, page, piece, notes, wait: Duration::from_millis(wait) }
 }
 
 /// The pictures, in the order they are taken; pieces sound on from one to the next, so the one at rest is the first.
 const SHOTS: &[Shot] = &[
-    shot("kit", 0, 1, &[], 600),
-    shot("rack-tom", 0, 2, &[(48, 1.0)], 420),
-    shot("crash", 0, 4, &[(49, 0.95)], 420),
+    shot("kit", 0, "snare", &[], 600),
+    shot("rack-tom", 0, "rack-tom", &[(48, 1.0)], 420),
+    shot("crash", 0, "crash", &[(49, 0.95)], 420),
     shot(
         "physics",
         1,
-        2,
+        "rack-tom",
         &[(36, 0.9), (42, 0.7), (38, 0.8), (51, 0.8), (36, 0.8), (49, 0.8), (41, 0.9), (48, 1.0)],
         500,
     ),
-    shot("cascade", 1, 4, &[(38, 0.6), (49, 1.0)], 1_100),
-    shot("wires", 1, 1, &[(36, 0.8), (38, 0.9)], 300),
-    shot("mix", 2, 2, &[(41, 0.9), (38, 0.9)], 200),
-    shot("microphones", 3, 1, &[], 400),
-    shot("midi", 4, 1, &[], 400),
-    shot("settings", 5, 1, &[], 400),
+    shot("cascade", 1, "crash", &[(38, 0.6), (49, 1.0)], 1_100),
+    shot("wires", 1, "snare", &[(36, 0.8), (38, 0.9)], 300),
+    shot("mix", 2, "rack-tom", &[(41, 0.9), (38, 0.9)], 200),
+    shot("microphones", 3, "snare", &[], 400),
+    shot("midi", 4, "snare", &[], 400),
+    shot("settings", 5, "snare", &[], 400),
 ];
 
 /// What is done with the editor.
@@ -191,20 +196,19 @@ fn pass(instance: &mut Instance, time: Duration) {
 
 /// A state that shows what a shot wants.
 fn with_view(state: &[u8], shot: &Shot, (light, zoom): (bool, u32), size: [u32; 2]) -> Result<Vec<u8>> {
-    // The length comes before the text.
-    let text = state.get(LENGTH..).context("the plugin's state is too short")?;
-    let mut state: Value = serde_json::from_slice(text).context("the plugin's state is no JSON")?;
-    let fields = state.get_mut("fields").and_then(Value::as_object_mut).context("the state has no fields")?;
-    let known = fields.get("view").and_then(Value::as_str).context("the state has no view")?;
-    let mut view: Value = serde_json::from_str(known)?;
-    let usual = view.as_array_mut().context("the view is no list")?;
-    ensure!(usual.len() == 5, "the view has other fields than this command knows");
-    (usual[0], usual[1], usual[2], usual[4]) =
-        (json!(shot.page), json!(light), json!(shot.piece), json!(zoom));
-    fields.insert("view".into(), view.to_string().into());
-    fields.insert("window".into(), json!(size).to_string().into());
-    let text = serde_json::to_vec(&state)?;
-    Ok([&(text.len() as u64).to_le_bytes()[..], &text].concat())
+    host::with_fields(state, |fields| {
+        let known = fields.get("view").and_then(Value::as_str).context("the state has no view")?;
+        let mut view: Value = serde_json::from_str(known)?;
+        let usual = view.as_array_mut().context("the view is no list")?;
+        ensure!(usual.len() == 5, "the view has other fields than this command knows");
+        let kit = KitSpec::standard();
+        let (slot, _) = kit.find(shot.piece).with_context(|| format!("no {} in the kit", shot.piece))?;
+        (usual[0], usual[1], usual[2], usual[4]) =
+            (json!(shot.page), json!(light), json!(slot.index()), json!(zoom));
+        fields.insert("view".into(), view.to_string().into());
+        fields.insert("window".into(), json!(size).to_string().into());
+        Ok(())
+    })
 }
 
 /// Plays in real time what is sent, until nobody sends any more; each buffer as `buffer` has it done.
@@ -244,12 +248,17 @@ mod tests {
     #[test]
     fn a_view_is_put_into_a_state_that_has_one() {
         let state = json!({"fields": {"view": "[0,false,1,[0.5,0.5,2.0],1.0]", "window": "[1,2]"}});
-        let bytes = |state: &Value| [&[0; LENGTH][..], &serde_json::to_vec(state).unwrap()].concat();
+        let bytes = |state: &Value| [&[0; 8][..], &serde_json::to_vec(state).unwrap()].concat();
         let changed = with_view(&bytes(&state), &SHOTS[1], (true, 2), SIZE).unwrap();
-        assert_eq!(changed[..LENGTH], (changed.len() as u64 - 8).to_le_bytes());
-        let changed: Value = serde_json::from_slice(&changed[LENGTH..]).unwrap();
+        let changed: Value = serde_json::from_slice(&changed[8..]).unwrap();
         assert_eq!(changed["fields"]["view"], "[0,true,2,[0.5,0.5,2.0],2]");
         assert_eq!(changed["fields"]["window"], "[1080,700]");
         assert!(with_view(&bytes(&json!({"fields": {}})), &SHOTS[1], (true, 2), SIZE).is_err());
+    }
+
+    #[test]
+    fn every_picture_is_about_a_piece_of_the_standard_kit() {
+        let kit = KitSpec::standard();
+        assert!(SHOTS.iter().all(|shot| kit.find(shot.piece).is_some()));
     }
 }

@@ -1,9 +1,8 @@
 //! `--place NAME=x,y,z`: where pieces and microphones stand.
 
 use anyhow::Result;
-use overhear_engine::layout::{FARTHEST, Layout, Point};
-use overhear_engine::listening::ListeningPoint;
-use overhear_engine::piece::PieceId;
+use overhear_engine::kit_spec::{KitSpec, PieceSpec};
+use overhear_engine::layout::{FARTHEST, Point};
 
 use crate::bad_input;
 
@@ -11,101 +10,95 @@ use crate::bad_input;
 const NEAREST: f64 = 0.05;
 const LOWEST: f64 = 1.4;
 
-/// The kit's layout and its close microphones.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Stage {
-    /// Pieces and pairs of microphones.
-    pub layout: Layout,
-    /// `[piece]`: where a close microphone was put, m.
-    close: [Option<Point>; PieceId::KIT.len()],
+/// The kit with pieces and microphones put in places: `overheads` and `room` with six coordinates, left and right; a
+/// piece's name with three; and, with three, `PIECE-mic` for its close microphone.
+///
+/// # Errors
+/// [`BadInput`](crate::error::BadInput) with what was given and what is accepted.
+pub fn place(mut kit: KitSpec, places: &[String]) -> Result<KitSpec> {
+    // A piece may be moved after its microphone was put somewhere.
+    let mut microphones = Vec::new();
+    for text in places {
+        put(&mut kit, text, &mut microphones)?;
+    }
+    for (at, point) in microphones {
+        put_close(&mut kit.pieces[at], &point)?;
+    }
+    kit.check().map_err(|error| bad_input!("{error}"))?;
+    Ok(kit)
 }
 
-impl Stage {
-    /// Reads places: `overheads` and `room` with six coordinates, left and right; a piece's name with three; and, with
-    /// three, `PIECE-mic` for its close microphone.
-    ///
-    /// # Errors
-    /// [`BadInput`](crate::error::BadInput) with what was given and what is accepted.
-    pub fn parse(places: &[String]) -> Result<Stage> {
-        let mut stage = Stage::default();
-        for text in places {
-            stage.put(text)?;
-        }
-        for id in PieceId::KIT {
-            stage.check(id)?;
-        }
-        Ok(stage)
+fn put(kit: &mut KitSpec, text: &str, microphones: &mut Vec<(usize, Point)>) -> Result<()> {
+    let names = kit.pieces.iter().map(|piece| &*piece.name).collect::<Vec<_>>().join(", ");
+    let wrong = |what: &str| {
+        bad_input!(
+            "`{text}` {what}, accepted: NAME=x,y,z in metres for {names}, each with -mic for its close microphone; \
+             NAME=x,y,z,x,y,z, left and right, for overheads, room"
+        )
+    };
+    let (name, numbers) = text.split_once('=').ok_or_else(|| wrong("has no ="))?;
+    let numbers: Option<Vec<f64>> = numbers.split(',').map(|number| number.trim().parse().ok()).collect();
+    let numbers = numbers.ok_or_else(|| wrong("has a place that is no number"))?;
+    if !numbers.iter().all(|x| x.abs() <= FARTHEST) {
+        return Err(wrong(&format!("is farther than {FARTHEST} m")));
     }
+    let find = |name: &str| kit.pieces.iter().position(|piece| piece.name == name);
+    // A piece whose own name ends like a microphone's is the piece.
+    let microphone = || find(name.strip_suffix("-mic")?);
+    match (&numbers[..], name, find(name), microphone()) {
+        (&[a, b, c, d, e, f], "overheads", ..) => kit.microphones.overheads = [[a, b, c], [d, e, f]],
+        (&[a, b, c, d, e, f], "room", ..) => kit.microphones.room = [[a, b, c], [d, e, f]],
+        (&[x, y, z], _, Some(at), _) => kit.pieces[at].place.centre = [x, y, z],
+        (&[x, y, z], _, None, Some(at)) => microphones.push((at, [x, y, z])),
+        _ => return Err(wrong("names nothing, or has not its number of coordinates")),
+    }
+    Ok(())
+}
 
-    fn put(&mut self, text: &str) -> Result<()> {
-        let wrong = |what: &str| {
-            let names = PieceId::KIT.map(PieceId::name).join(", ");
-            bad_input!(
-                "`{text}` {what}, accepted: NAME=x,y,z in metres for {names}, each with -mic for its close \
-                 microphone; NAME=x,y,z,x,y,z, left and right, for overheads, room"
-            )
-        };
-        let (name, numbers) = text.split_once('=').ok_or_else(|| wrong("has no ="))?;
-        let numbers: Option<Vec<f64>> = numbers.split(',').map(|number| number.trim().parse().ok()).collect();
-        let numbers = numbers.ok_or_else(|| wrong("has a place that is no number"))?;
-        if !numbers.iter().all(|x| x.abs() <= FARTHEST) {
-            return Err(wrong(&format!("is farther than {FARTHEST} m")));
-        }
-        let (piece, microphone) = match name.strip_suffix("-mic") {
-            Some(piece) => (piece, true),
-            None => (name, false),
-        };
-        let slot = PieceId::from_name(piece).and_then(PieceId::slot);
-        match (&numbers[..], name, slot) {
-            (&[a, b, c, d, e, f], "overheads", _) => self.layout.overheads = [[a, b, c], [d, e, f]],
-            (&[a, b, c, d, e, f], "room", _) => self.layout.room = [[a, b, c], [d, e, f]],
-            (&[x, y, z], _, Some(slot)) if microphone => self.close[slot] = Some([x, y, z]),
-            (&[x, y, z], _, Some(slot)) => self.layout.pieces[slot].centre = [x, y, z],
-            _ => return Err(wrong("names nothing, or has not its number of coordinates")),
-        }
-        Ok(())
+/// Puts the close microphone of a piece at a point, m.
+fn put_close(piece: &mut PieceSpec, point: &Point) -> Result<()> {
+    let seen = piece.placement().sees(point);
+    if seen.distance < NEAREST || seen.inclination > LOWEST {
+        return Err(bad_input!(
+            "the close microphone of the {} is {:.2} m from its middle, {:.0} degrees from its axis, accepted: from \
+             {NEAREST} m on, up to {:.0} degrees, before its struck side",
+            piece.name,
+            seen.distance,
+            seen.inclination.to_degrees(),
+            LOWEST.to_degrees(),
+        ));
     }
-
-    /// Where the close microphone of a piece was put, as it is seen from there.
-    pub fn close(&self, id: PieceId) -> Option<ListeningPoint> {
-        let slot = id.slot()?;
-        self.close[slot].map(|place| self.layout.pieces[slot].sees(&place))
-    }
-
-    fn check(&self, id: PieceId) -> Result<()> {
-        let Some(point) = self.close(id) else { return Ok(()) };
-        if point.distance < NEAREST || point.inclination > LOWEST {
-            return Err(bad_input!(
-                "the close microphone of the {} is {:.2} m from its middle, {:.0} degrees from its axis, accepted: from \
-                 {NEAREST} m on, up to {:.0} degrees, before its struck side",
-                id.name(),
-                point.distance,
-                point.inclination.to_degrees(),
-                LOWEST.to_degrees(),
-            ));
-        }
-        Ok(())
-    }
+    piece.close = piece.close.moved_to(seen, piece.instrument.radius());
+    Ok(())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn parse(texts: &[&str]) -> Result<Stage> {
-        Stage::parse(&texts.iter().map(|text| (*text).to_owned()).collect::<Vec<_>>())
+    fn placed(texts: &[&str]) -> Result<KitSpec> {
+        place(KitSpec::standard(), &texts.iter().map(|text| (*text).to_owned()).collect::<Vec<_>>())
     }
 
     #[test]
     fn places_are_read_for_pieces_pairs_and_close_microphones() {
-        let stage =
-            parse(&["snare=0,0.7,-0.4", "overheads=-1,2,0,1,2,0", "floor-tom-mic=0.47,0.8,-0.34"]).unwrap();
-        assert_eq!(stage.layout.pieces[1].centre, [0.0, 0.7, -0.4]);
-        assert_eq!(stage.layout.overheads, [[-1.0, 2.0, 0.0], [1.0, 2.0, 0.0]]);
-        let close = stage.close(PieceId::FloorTom).unwrap();
+        let kit =
+            placed(&["snare=0,0.7,-0.4", "overheads=-1,2,0,1,2,0", "floor-tom-mic=0.47,0.8,-0.34"]).unwrap();
+        assert_eq!(kit.find("snare").unwrap().1.place.centre, [0.0, 0.7, -0.4]);
+        assert_eq!(kit.microphones.overheads, [[-1.0, 2.0, 0.0], [1.0, 2.0, 0.0]]);
+        let tom = kit.find("floor-tom").unwrap().1;
+        let close = tom.close.point(tom.instrument.radius());
         assert!((close.distance - 0.18).abs() < 1e-9 && close.inclination < 1e-6);
-        assert!(stage.close(PieceId::Kick).is_none());
-        assert_eq!(parse(&[]).unwrap(), Stage::default());
+        let standard = KitSpec::standard();
+        assert_eq!(kit.find("kick"), standard.find("kick"));
+        assert_eq!(placed(&[]).unwrap(), standard);
+    }
+
+    #[test]
+    fn a_microphone_stands_where_it_was_put_whenever_its_piece_was_moved() {
+        let texts = ["crash-mic=-0.6,1.7,0.1", "crash=-0.64,1.3,0"];
+        let [before, after] = [texts, [texts[1], texts[0]]].map(|texts| placed(&texts).unwrap());
+        assert_eq!(before, after);
     }
 
     #[test]
@@ -113,11 +106,14 @@ mod tests {
         for text in
             ["snare", "snare=1,2", "room=1,2,3", "gong=1,2,3", "snare=a,b,c", "kick=0,0,99", "snare=nan,0,0"]
         {
-            let error = parse(&[text]).unwrap_err().to_string();
+            let error = placed(&[text]).unwrap_err().to_string();
             assert!(error.contains(text) && error.contains("accepted"), "{error}");
         }
         // Under the floor tom.
-        let error = parse(&["floor-tom-mic=0.47,0.3,-0.34"]).unwrap_err().to_string();
+        let error = placed(&["floor-tom-mic=0.47,0.3,-0.34"]).unwrap_err().to_string();
         assert!(error.contains("floor-tom") && error.contains("struck side"), "{error}");
+        // In the kick.
+        let error = placed(&["floor-tom=0,0.3,-0.1"]).unwrap_err().to_string();
+        assert!(error.contains("accepted"), "{error}");
     }
 }

@@ -1,91 +1,125 @@
-//! What a cymbal is: its plate and shape, what it is made of, held, muffled and heard by.
+//! What a cymbal is: its plate and shape, what it is made of, held, muffled.
+
+use std::f64::consts::PI;
+
+use serde::{Deserialize, Serialize};
 
 use crate::contact::Material;
 use crate::damping::{LossLaw, Muffler};
-use crate::listening::ListeningPoint;
-use crate::plate::{Bell, PlateSpec, Shape};
+use crate::error::SpecError;
+use crate::numbers::{self, Numbers, Visitor};
+use crate::plate::{Bell, PlateSpec};
 use crate::split::Splitting;
 
 /// A cymbal's description.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct CymbalSpec {
-    /// The plate: a cap as thick everywhere, whose modes are known in closed form, unless [`shaped`](Self::shaped).
-    pub plate: PlateSpec,
-    /// The shape it has in the kit.
-    pub shape: Shape,
-    /// What it is made of, as the tip feels it.
-    pub material: Material,
+    /// Diameter, m, 0.1 to 0.8.
+    #[serde(rename = "diameter_m")]
+    pub diameter: f64,
+    /// Mass, kg, 0.02 to 20.
+    #[serde(rename = "mass_kg")]
+    pub mass: f64,
+    /// Rise of the bow's centre over its rim, without the bell, m, 0 (flat) to a quarter of the diameter.
+    #[serde(rename = "bow_m")]
+    pub bow: f64,
+    /// What rises over the bow in the middle, if anything does.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bell: Option<Bell>,
+    /// Thickness at the rim over that in the middle, 0.3 to 1 (as thick everywhere).
+    pub taper: f64,
+    /// What it is made of.
+    pub alloy: Material,
     /// Losses in the metal beside those by heat.
     pub loss: LossLaw,
-    /// What holds it.
-    pub stand: Stand,
+    /// What holds it; none of a hi-hat's cymbal, which its mount holds.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stand: Option<Stand>,
     /// What muffles it.
     pub muffler: Muffler,
     /// How uneven it is.
-    pub splitting: Splitting,
-    /// Where it is heard from.
-    pub listening_point: ListeningPoint,
-    /// In which direction it is heard from far.
-    pub far_point: ListeningPoint,
+    pub evenness: Splitting,
 }
 
 /// A cymbal stand: felts the plate bounces and rocks on.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Stand {
-    /// Frequency of the bounce, Hz.
+    /// Frequency of the bounce, Hz, 1 to 200.
     pub bounce_hz: f64,
-    /// Frequency of the rock, Hz.
+    /// Frequency of the rock, Hz, 0.5 to 100.
     pub rock_hz: f64,
-    /// Quality factor of both.
+    /// Quality factor of both, 0.6 to 100.
     pub q: f64,
 }
 
-/// A cymbal's shape by the rise of its bow and its bell's radius and rise, m. *Measured*: chosen by how near to recordings it sounds
-/// among some dozen tried for each; as a cap, as thick everywhere, a crash has 67 % of its figures in the mix as recordings have
-/// them, a splash 61 %, with these 83 and 89.
-pub(crate) const fn shape(rise: f64, (radius, bell): (f64, f64)) -> Shape {
-    Shape { rise, bell: Bell { radius, rise: bell }, taper: 0.8 }
+impl Numbers for Stand {
+    fn visit(&mut self, visitor: &mut dyn Visitor) {
+        visitor.number("bounce_hz", &mut self.bounce_hz, 1.0..=200.0);
+        visitor.number("rock_hz", &mut self.rock_hz, 0.5..=100.0);
+        visitor.number("q", &mut self.q, 0.6..=100.0);
+    }
 }
+
+impl Numbers for CymbalSpec {
+    fn visit(&mut self, visitor: &mut dyn Visitor) {
+        visitor.number("diameter_m", &mut self.diameter, 0.1..=0.8);
+        // Within 20 kg, what a plate of this metal weighs that is a tenth of a millimetre thick, or a fiftieth of its radius.
+        let face = self.alloy.density * PI * (0.5 * self.diameter).powi(2);
+        let (lightest, heaviest) = (face * THINNEST, face * THICKEST * self.diameter);
+        visitor.number("mass_kg", &mut self.mass, lightest.max(0.02)..=heaviest.min(20.0));
+        visitor.number("bow_m", &mut self.bow, 0.0..=0.25 * self.diameter);
+        if let Some(bell) = &mut self.bell {
+            let radius = 0.5 * self.diameter;
+            visitor.enter("bell");
+            visitor.number("radius_m", &mut bell.radius, 0.05 * radius..=0.5 * radius);
+            visitor.number("rise_m", &mut bell.rise, 0.0..=bell.radius);
+            visitor.leave();
+        }
+        visitor.number("taper", &mut self.taper, 0.3..=1.0);
+        self.alloy.visit_part("alloy", visitor);
+        self.loss.visit_part("loss", visitor);
+        if let Some(stand) = &mut self.stand {
+            stand.visit_part("stand", visitor);
+        }
+        self.muffler.visit_part("muffler", visitor);
+        self.evenness.visit_part("evenness", visitor);
+    }
+}
+
+/// Thinnest plate, m, and the thickest, a share of the diameter: thicker than a fiftieth of its radius, a plate's upper
+/// modes shear (Mindlin).
+const THINNEST: f64 = 1e-4;
+const THICKEST: f64 = 0.01;
 
 impl CymbalSpec {
     /// Lowest, default and highest ratio a cymbal's frequencies can be scaled by.
     pub const TUNING: (f64, f64, f64) = (0.5, 1.0, 2.0);
 
-    const fn bronze(plate: PlateSpec, shape: Shape) -> CymbalSpec {
-        CymbalSpec {
-            plate,
-            shape,
-            material: Material::BRONZE,
-            loss: LossLaw::BRONZE,
-            stand: Stand { bounce_hz: 20.0, rock_hz: 5.0, q: 3.0 },
-            // A strip of tape near the edge. *By ear*.
-            muffler: Muffler::Gel { sigma: 40.0, radius: 0.85, angle: 2.3 },
-            splitting: Splitting::CYMBAL,
-            // Beside the cymbal, above its plane. *Measured*: from straight above, its dome's breathing
-            // covers all else; from here the balance of a ride is that of recordings within 2 dB.
-            listening_point: ListeningPoint { distance: 0.5, inclination: 1.1, azimuth: 0.4 },
-            far_point: ListeningPoint::far(0.5, 0.4),
+    /// The plate.
+    pub fn plate(&self) -> PlateSpec {
+        PlateSpec {
+            diameter: self.diameter,
+            mass: self.mass,
+            rise: self.bow,
+            bell: self.bell,
+            taper: self.taper,
+            youngs_modulus: self.alloy.youngs_modulus,
+            poisson_ratio: self.alloy.poisson_ratio,
+            density: self.alloy.density,
         }
     }
 
-    /// A 16 in crash.
-    pub const fn crash() -> CymbalSpec {
-        CymbalSpec::bronze(PlateSpec::CRASH, shape(0.010, (0.055, 0.020)))
-    }
-
-    /// A 20 in ride.
-    pub const fn ride() -> CymbalSpec {
-        CymbalSpec::bronze(PlateSpec::RIDE, shape(0.018, (0.070, 0.025)))
-    }
-
-    /// A 10 in splash.
-    pub const fn splash() -> CymbalSpec {
-        CymbalSpec::bronze(PlateSpec::SPLASH, shape(0.005, (0.038, 0.013)))
-    }
-
-    /// The same as it stands in the kit, with its bell and its taper.
-    #[must_use]
-    pub const fn shaped(self) -> CymbalSpec {
-        CymbalSpec { plate: self.plate.shaped(&self.shape), ..self }
+    /// Checks every number.
+    ///
+    /// # Errors
+    /// [`SpecError`] naming the first that is out of range.
+    pub fn check(&self) -> Result<(), SpecError> {
+        numbers::check(self)?;
+        if let Muffler::Pillow { .. } | Muffler::Ring { .. } = self.muffler {
+            return Err(SpecError::refused("muffler.kind", "is of drums, accepted for a cymbal: gel"));
+        }
+        self.plate().check()
     }
 }

@@ -9,12 +9,12 @@ use crate::air::{DENSITY, MassCurves};
 use crate::cavity::{CavityOrder, HeadShape};
 use crate::drum::coupled::{CoupledMode, OrderProblem, Stretched};
 use crate::drum::high_band::{Ear, HighBandSpec};
-use crate::drum::spec::{DrumSpec, HeadSpec};
+use crate::drum::spec::{DrumSpec, PitchOf};
 use crate::drum::tuned::{self, Grid, PITCHES, PitchScale, Place, TunedMode};
 use crate::error::SpecError;
 use crate::math::bessel::{self, JTable};
-use crate::membrane::{self, Membrane, MembraneMode, ModeRange, Surroundings};
-use crate::piece::BuildOptions;
+use crate::membrane::{self, Membrane, MembraneMode, MembraneSpec, ModeRange, Surroundings};
+use crate::piece::{BuildContext, Receivers};
 use crate::shapes::{ShapeIndex, ShapeTable};
 use crate::split::Splitting;
 use crate::surface::patch::Film;
@@ -30,7 +30,7 @@ const MIDDLE: usize = PITCHES / 2;
 /// Up to so many times a drum's pitch its modes are heard one by one. *By ear*.
 const HEARD_SINGLY: f64 = 10.0;
 
-/// Modes of the heads that enter, over those that are kept. *Measured*: the highest kept have neighbours that
+/// Modes of the heads that enter, over those that are kept. *Converged*: the highest kept have neighbours that
 /// are left out; without some of them they would be off by up to 9 cents, by an amount that depends on the pitch.
 const BASIS: f64 = 1.15;
 
@@ -64,7 +64,8 @@ pub struct Blueprint {
 impl TunedHead {
     /// Stretches a head so that its mode `(m, n)` runs through the pitches.
     fn new(
-        spec: &HeadSpec,
+        spec: &MembraneSpec,
+        limit_hz: f64,
         (m, n): (u32, u32),
         pitches: &[f64; PITCHES],
         curves: &mut MassCurves,
@@ -72,19 +73,19 @@ impl TunedHead {
         // A first look with few modes finds the tensions; the air weighs less than thirty films.
         let zero = bessel::zero(m, n);
         let high = pitches[PITCHES - 1];
-        let most = 30.0 * membrane::vacuum_tension(&spec.membrane, zero, high);
+        let most = 30.0 * membrane::vacuum_tension(spec, zero, high);
         let few = ModeRange { reference_tension: most, limit_hz: 6.0 * high };
-        let look = Membrane::sharing(spec.membrane, Surroundings::Air, &few, curves)?;
+        let look = Membrane::sharing(*spec, Surroundings::Air, &few, curves)?;
         let tension = |hz| look.tension_for(m, n, hz).unwrap_or(most);
         let range =
-            ModeRange { reference_tension: tension(pitches[MIDDLE]), limit_hz: BASIS * spec.limit_hz };
-        let membrane = Membrane::sharing(spec.membrane, Surroundings::Air, &range, curves)?.by_order();
+            ModeRange { reference_tension: tension(pitches[MIDDLE]), limit_hz: BASIS * limit_hz };
+        let membrane = Membrane::sharing(*spec, Surroundings::Air, &range, curves)?.by_order();
         let tensions = pitches.map(|hz| membrane.tension_for(m, n, hz).unwrap_or_else(|| tension(hz)));
-        Ok(TunedHead { membrane, tensions, limit_hz: spec.limit_hz })
+        Ok(TunedHead { membrane, tensions, limit_hz })
     }
 
     /// What the head does above its modes, pressed on at so many places.
-    pub fn high_band(&self, ear: Ear, options: &BuildOptions, places: usize) -> HighBandSpec {
+    pub fn high_band(&self, ear: Ear, context: &BuildContext, places: usize) -> HighBandSpec {
         let limit = TAU * self.limit_hz;
         let reached =
             |mode: &&MembraneMode| self.membrane.ringing(mode, self.tensions[MIDDLE]).omega <= limit;
@@ -94,8 +95,8 @@ impl TunedHead {
             tensions: [self.tensions[0], self.tensions[MIDDLE]],
             complete: pairs.map(|mode| if mode.m == 0 { 1 } else { 2 }).sum(),
             ear,
-            lossless: options.lossless,
-            sample_rate: options.sample_rate,
+            lossless: context.ideal.lossless,
+            sample_rate: context.options.sample_rate,
             seed: 100 + u32::from(ear.far),
             places,
         }
@@ -140,17 +141,25 @@ impl Blueprint {
     /// # Errors
     /// [`SpecError`] if the spec is out of range.
     pub fn new(spec: &DrumSpec) -> Result<Blueprint, SpecError> {
-        let (low, default, high) = spec.pitch_hz;
+        let [low, default, high] = spec.pitches();
+        let named = spec.pitch_of.mode();
         let scale = PitchScale::new(low, high);
         let pitches = scale.pitches();
         let mut curves = MassCurves::default();
-        let batter = TunedHead::new(&spec.batter, spec.named_mode, &pitches, &mut curves)?;
+        let batter = TunedHead::new(
+            &spec.membrane(&spec.batter),
+            spec.batter.modes_to_hz,
+            named,
+            &pitches,
+            &mut curves,
+        )?;
         let resonant = spec
             .resonant
             .map(|resonant| {
                 let ratio = resonant.pitch_ratio;
                 let pitches = pitches.map(|hz| ratio * hz);
-                TunedHead::new(&resonant.head, spec.named_mode, &pitches, &mut curves)
+                let head = resonant.head();
+                TunedHead::new(&spec.membrane(&head), head.modes_to_hz, named, &pitches, &mut curves)
             })
             .transpose()?;
         let mut blueprint = Blueprint { scale, batter, resonant, modes: Vec::new() };
@@ -161,7 +170,7 @@ impl Blueprint {
             .flat_map(|head| head.membrane.modes().iter().map(|mode| mode.zero))
             .fold(0.0, f64::max);
         let tables = JTable::orders(orders, reach + 1.0);
-        if spec.tuned_as_heard {
+        if spec.pitch_of == PitchOf::PrincipalHeard {
             blueprint.tune_as_heard(spec, &tables);
         }
         for (m, table) in (0..=orders).zip(&tables) {
@@ -175,7 +184,7 @@ impl Blueprint {
 
     /// Stretches the batter so that its named mode has the pitches in the drum, not by itself.
     fn tune_as_heard(&mut self, spec: &DrumSpec, tables: &[JTable]) {
-        let (m, n) = spec.named_mode;
+        let (m, n) = spec.pitch_of.mode();
         let air = self.air(spec, m);
         for (pitch, hz) in self.scale.pitches().into_iter().enumerate() {
             // The air moves a pitch by some percent and that by little with the tension.
@@ -191,7 +200,7 @@ impl Blueprint {
 
     /// The enclosed air against the heads' modes of one order.
     fn air(&self, spec: &DrumSpec, m: u32) -> Option<CavityOrder> {
-        spec.cavity.map(|cavity| cavity.order(m, &self.head_shapes(m), TAU * CAVITY_LIMIT_HZ))
+        spec.cavity().map(|cavity| cavity.order(m, &self.head_shapes(m), TAU * CAVITY_LIMIT_HZ))
     }
 
     /// The drum's modes of one order at one of the pitches.
@@ -208,8 +217,8 @@ impl Blueprint {
             batter: self.batter.stretched(pitch),
             resonant: self.resonant.as_ref().map(|head| head.stretched(pitch)),
             cavity: air,
-            cavity_q: spec.cavity.map_or(1.0, |cavity| cavity.q),
-            outside: spec.outside,
+            cavity_q: spec.cavity().map_or(1.0, |cavity| cavity.q),
+            outside: spec.outside(),
             bessel,
         };
         problem.solve()
@@ -237,7 +246,7 @@ impl Blueprint {
         };
         let solved: Vec<Vec<CoupledMode>> =
             grid.pitches().map(|pitch| self.solve(spec, m, bessel, air.as_ref(), pitch)).collect();
-        let limit = TAU * spec.batter.limit_hz;
+        let limit = TAU * spec.batter.modes_to_hz;
         let keep = |mode: &CoupledMode| mode.omega <= limit && mode.share[0] + mode.share[1] > HEARD_SHARE;
         tuned::follow(m, &solved, self.head_shapes(m).len(), grid, keep)
     }
@@ -284,18 +293,18 @@ impl Blueprint {
     }
 
     /// What the batter does above its modes.
-    pub fn high_band(&self, spec: &DrumSpec, options: &BuildOptions) -> HighBandSpec {
-        let ear =
-            Ear { point: spec.listening_point, away: spec.far_point, outside: spec.outside, far: false };
-        self.batter.high_band(ear, options, STRIKER_PLACES)
+    pub fn high_band(&self, spec: &DrumSpec, context: &BuildContext) -> HighBandSpec {
+        let Receivers { near, far } = context.receivers;
+        let ear = Ear { point: near, away: far, outside: spec.outside(), far: false };
+        self.batter.high_band(ear, context, STRIKER_PLACES)
     }
 
     /// What the resonant head does above its modes, for wires to set going.
-    pub fn far_high_band(&self, spec: &DrumSpec, options: &BuildOptions) -> Option<HighBandSpec> {
-        let behind = spec.cavity.map_or(0.0, |cavity| cavity.depth);
-        let point = spec.listening_point.from_behind(behind);
-        let ear = Ear { point, away: spec.far_point, outside: spec.outside, far: true };
+    pub fn far_high_band(&self, spec: &DrumSpec, context: &BuildContext) -> Option<HighBandSpec> {
+        let behind = spec.cavity().map_or(0.0, |cavity| cavity.depth);
+        let Receivers { near, far } = context.receivers;
+        let ear = Ear { point: near.from_behind(behind), away: far, outside: spec.outside(), far: true };
         let head = self.resonant.as_ref()?;
-        Some(head.high_band(ear, options, wires::GROUPS))
+        Some(head.high_band(ear, context, wires::GROUPS))
     }
 }

@@ -9,7 +9,7 @@
 //! pitch, where among so many it does not count, and the size goes straight in logarithms from the lowest pitch over the
 //! default to the highest.
 //!
-//! Limits: *measured* against a rebuild, octaves of modes heard one by one are met within 0.2 dB; those above within
+//! Limits: *converged* against a rebuild, octaves of modes heard one by one are met within 0.2 dB; those above within
 //! 1 dB for small changes, by up to 5 dB (too loud) where a kick is let down by a third of an octave, for then phases do
 //! count.
 
@@ -74,12 +74,12 @@ impl Hearing {
         point: ListeningPoint,
         near: Option<&Hearing>,
     ) -> Hearing {
-        let (lowest, default, highest) = spec.pitch_hz;
+        let [lowest, default, highest] = spec.pitches();
         let place = blueprint.scale.place(default);
         let ends = [lowest, highest].map(|pitch| blueprint.scale.place(pitch));
         let limit = TAU * SINGLY * default;
         let few = Ears::new(blueprint, spec, point, 2.5 * limit);
-        let all = Ears::new(blueprint, spec, point, TAU * spec.batter.limit_hz);
+        let all = Ears::new(blueprint, spec, point, TAU * spec.batter.modes_to_hz);
         let pitches = blueprint.scale.pitches();
         let hear = |(pair, mode): (usize, &TunedMode)| {
             if mode.at(&place).omega > limit {
@@ -99,7 +99,7 @@ impl Hearing {
         let pairs = blueprint.modes.iter().enumerate().map(hear).collect();
         let mut members = Vec::new();
         for (pair, mode) in blueprint.modes.iter().enumerate() {
-            let axis = spec.splitting.axis(mode.m, 0);
+            let axis = spec.evenness.axis(mode.m, 0);
             for (member, _) in Splitting::ROUND.members(mode.m, 0) {
                 members.push((pair as u32, point.toward(mode.m, member, axis) as f32));
             }
@@ -155,13 +155,13 @@ struct Ears<'a> {
 impl<'a> Ears<'a> {
     /// For modes up to an angular frequency `top` (rad/s) at any pitch.
     fn new(blueprint: &'a Blueprint, spec: &'a DrumSpec, point: ListeningPoint, top: f64) -> Ears<'a> {
-        let radius = spec.batter.membrane.radius;
+        let radius = spec.radius();
         let head = &blueprint.batter.membrane;
         let slackest = blueprint.batter.tensions.iter().copied().fold(f64::INFINITY, f64::min);
         let reached = head.modes().iter().filter(|mode| head.ringing(mode, slackest).omega <= top);
         let finest = reached.map(|mode| mode.zero).fold(0.0, f64::max);
         let nodes = 12 + (0.7 * (finest + top * radius / SPEED_OF_SOUND)) as usize;
-        let behind = point.from_behind(spec.cavity.map_or(0.0, |cavity| cavity.depth));
+        let behind = point.from_behind(spec.cavity().map_or(0.0, |cavity| cavity.depth));
         let (near, far) = (Rayleigh::new(radius, point, nodes), Rayleigh::new(radius, behind, nodes));
         let near_shapes = head.radial_shapes(near.radii());
         let far_shapes = blueprint.resonant.as_ref().map(|head| head.membrane.radial_shapes(far.radii()));
@@ -190,8 +190,8 @@ impl<'a> Ears<'a> {
         let (first, count) = self.blueprint.batter.order(mode.m);
         let radial = self.radial(mode, place, &self.near_shapes, [first, count, 0]);
         let [mut re, mut im] = self.near.transfer(&Radiator { m: mode.m, radial: &radial, omega });
-        if let Outside::Free { .. } = self.spec.outside {
-            let radius = self.spec.batter.membrane.radius;
+        if let Outside::Free { .. } = self.spec.outside() {
+            let radius = self.spec.radius();
             let ka = omega * radius / SPEED_OF_SOUND;
             let space = 0.5 * shadow::baffling(ka);
             let gain = shadow::near_gain(ka, self.fills);

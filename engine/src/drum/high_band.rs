@@ -38,7 +38,7 @@
 //! [`Pickup`]); complete modes and slices share none, so nothing is counted twice, and the slices' adds up by
 //! chance, some 16 dB below. The complete modes' shares are right where each rings, with the air it carries there and
 //! with the sound going around the drum's body. Faster than about `omega a / c = sqrt 2` the air no longer rides along and the body
-//! is a baffle: what they lack of the sheet (two thirds, of a drum that stands free; *measured*) follows the force through a
+//! is a baffle: what they lack of the sheet (two thirds, of a drum that stands free; *converged*) follows the force through a
 //! high-pass filter of first order from there.
 //!
 //! Limits: a chance shape per slice is right for the mean over slices and places, not for one; the

@@ -1,251 +1,334 @@
-//! The drums: sizes, heads, pitches.
+//! What a drum is: its size, heads, shell, hoop, wires, muffling, pitch.
+
+use serde::{Deserialize, Serialize};
 
 use crate::cavity::CavitySpec;
 use crate::contact::Material;
 use crate::damping::{LossLaw, Muffler};
 use crate::drum::coupled::Outside;
 use crate::error::SpecError;
-use crate::listening::ListeningPoint;
 use crate::membrane::MembraneSpec;
-use crate::piece::BuildOptions;
+use crate::numbers::{self, Numbers, Visitor};
+use crate::rim::HoopSpec;
 use crate::split::Splitting;
+use crate::surface::wires::WiresSpec;
+
+/// A drum's description.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DrumSpec {
+    /// Diameter of its heads, m, 0.15 to 0.82.
+    #[serde(rename = "diameter_m")]
+    pub diameter: f64,
+    /// Pitch to which it is tuned, Hz, within the range.
+    pub pitch_hz: f64,
+    /// Lowest pitch it can be tuned to while it plays, Hz, 15 to 1000.
+    pub lowest_pitch_hz: f64,
+    /// Highest, Hz, 1.01 to 4 times the lowest.
+    pub highest_pitch_hz: f64,
+    /// Which frequency its pitch is.
+    pub pitch_of: PitchOf,
+    /// The head that is struck.
+    pub batter: HeadSpec,
+    /// The other one; none of a drum with one head.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub resonant: Option<ResonantSpec>,
+    /// What the head is stretched over; none for a head on its own, with air on both faces.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shell: Option<ShellSpec>,
+    /// The hoop that a stick can meet; none where it is out of reach.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hoop: Option<HoopSpec>,
+    /// Snare wires against the resonant head, if it has them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wires: Option<WiresSpec>,
+    /// What muffles it.
+    pub muffler: Muffler,
+    /// How uneven its tension is.
+    pub evenness: Splitting,
+    /// How tips press on its heads.
+    pub contact: HeadContact,
+    /// Whether it sounds above its heads' complete sets of modes; see [`high_band`](crate::drum::high_band).
+    pub high_band: bool,
+}
+
+/// Which frequency a drum's pitch is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum PitchOf {
+    /// The lowest mode, `(0, 1)`, of the batter by itself in air, before the shell couples it: how drummers name what they
+    /// tune.
+    BatterAlone,
+    /// The principal mode, `(1, 1)`, of the whole drum as it is heard: how timpani are tuned.
+    PrincipalHeard,
+}
+
+/// How a tip presses on a head; see [`patch`](crate::surface::patch).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum HeadContact {
+    /// The head wraps itself around a stick's tip, the farther the harder the stroke, and its stiffness spreads the force.
+    Wraps,
+    /// Every stroke presses on the striker's own disc, whatever its force.
+    FixedDisc,
+}
 
 /// A head of a drum.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct HeadSpec {
-    /// The film.
-    pub membrane: MembraneSpec,
-    /// Its own modes up to this enter the drum's, at the default pitch, Hz.
-    pub limit_hz: f64,
+    /// Thickness of the film, m, of all plies together, 0.00003 to 0.002.
+    #[serde(rename = "thickness_m")]
+    pub thickness: f64,
+    /// Films that lie on one another: 1 or 2.
+    pub plies: u32,
+    /// What the film is made of.
+    pub material: Material,
+    /// Losses in the film.
+    pub loss: LossLaw,
+    /// Its own modes up to this enter the drum's, in the middle of the range of pitches, Hz, 100 to 4000.
+    pub modes_to_hz: f64,
 }
 
 /// The head that is not struck.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct ResonantSpec {
-    /// The head.
-    pub head: HeadSpec,
-    /// Ratio of its pitch to the batter's, each by itself in air.
+    /// Ratio of its pitch to the batter's, each by itself in air, 0.5 to 2.5.
     pub pitch_ratio: f64,
+    /// Thickness of the film, m, 0.00003 to 0.002.
+    #[serde(rename = "thickness_m")]
+    pub thickness: f64,
+    /// Films that lie on one another: 1 or 2.
+    pub plies: u32,
+    /// What the film is made of.
+    pub material: Material,
+    /// Losses in the film.
+    pub loss: LossLaw,
+    /// Its own modes up to this enter the drum's, Hz, 100 to 4000.
+    pub modes_to_hz: f64,
 }
 
-/// A drum's description.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DrumSpec {
-    /// The head that is struck.
-    pub batter: HeadSpec,
-    /// The other one.
-    pub resonant: Option<ResonantSpec>,
-    /// The air inside; `None` for a head on its own, with air on both faces.
-    pub cavity: Option<CavitySpec>,
-    /// What surrounds the drum.
-    pub outside: Outside,
-    /// The batter's mode whose frequency is the drum's pitch: nodal diameters, nodal circles.
-    pub named_mode: (u32, u32),
-    /// Whether that is its frequency in the drum; otherwise it is that of the head by itself in air, before the
-    /// shell couples it, which is how drummers name what they tune.
-    pub tuned_as_heard: bool,
-    /// Lowest, default and highest pitch, Hz.
-    pub pitch_hz: (f64, f64, f64),
-    /// What muffles it.
-    pub muffler: Muffler,
-    /// How uneven the heads are.
-    pub splitting: Splitting,
-    /// Where it is heard from.
-    pub listening_point: ListeningPoint,
-    /// In which direction it is heard from far.
-    pub far_point: ListeningPoint,
-    /// Whether snare wires lie against the resonant head.
-    pub wires: bool,
-    /// Whether there is a rim within a stick's reach.
-    pub rim: bool,
+/// What the heads are stretched over.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum ShellSpec {
+    /// A cylinder, open where there is no resonant head.
+    Cylinder {
+        /// Distance from end to end, m, 0.03 to 1.
+        #[serde(rename = "depth_m")]
+        depth: f64,
+        /// Quality factor of the enclosed air's modes: losses at the wall and through the vent, 1 to 10,000.
+        air_q: f64,
+    },
+    /// A kettle, closed below.
+    Kettle {
+        /// Volume of air, m3, 0.001 to 0.5.
+        #[serde(rename = "volume_m3")]
+        volume: f64,
+        /// As of a cylinder.
+        air_q: f64,
+    },
 }
 
-const INCH: f64 = 0.0254;
-
-/// Thickness of all plies, m, and how many they are: of tom and kick heads.
-const TWO_PLY: (f64, u32) = (0.36e-3, 2);
-/// Of single films.
-const SINGLE_PLY: (f64, u32) = (0.19e-3, 1);
-
-/// Modes of a struck head reach this far; above, single modes can no longer be told apart. Hz.
-const BATTER_LIMIT: f64 = 3000.0;
-
-/// What a pillow takes from the air that goes past it, 1/s: `r / (2 rho)` of all the air if none could go around
-/// it, with the flow resistivity `r` of polyester filling, 850 Pa s/m2 at 12 kg/m3 (*literature*: Garai & Pompoli,
-/// Applied Acoustics 66, 2005); and a third of that, for at 60 Hz so much of the flow finds the way around a
-/// pillow of a third of the shell's width. *Derived*.
-const PILLOW_FLOW: f64 = 0.35 * 850.0 / (2.0 * crate::air::DENSITY);
-
-/// A head of that radius (m), thickness (m) of so many plies, and loss.
-fn head(radius: f64, (thickness, plies): (f64, u32), loss: LossLaw, limit_hz: f64) -> HeadSpec {
-    let material = Material::FILM;
-    HeadSpec { membrane: MembraneSpec { radius, thickness, plies, material, loss }, limit_hz }
+impl HeadSpec {
+    fn visit_numbers(&mut self, visitor: &mut dyn Visitor) {
+        visitor.number("thickness_m", &mut self.thickness, THICKNESS);
+        self.material.visit_part("material", visitor);
+        self.loss.visit_part("loss", visitor);
+        visitor.number("modes_to_hz", &mut self.modes_to_hz, MODES_TO_HZ);
+    }
 }
 
-/// Losses of films. *Measured*: drums are recorded with 0.32 to 0.36 s at 8 kHz whatever their heads, of which the
-/// room's tail is a part; these leave a head on its own 0.25 s there, and the octaves from 500 Hz to 2 kHz where recordings
-/// have them. The literature's 5 to 12 1/s per kHz leaves 0.07 to 0.16 s. The kick's constant part is the felt
-/// strip and what else leans on its head.
-const KICK_LOSS: LossLaw = LossLaw { constant: 6.0, per_khz: 3.0 };
-const TOM_LOSS: LossLaw = LossLaw { constant: 3.0, per_khz: 3.0 };
-const SNARE_LOSS: LossLaw = LossLaw { constant: 4.0, per_khz: 3.0 };
-const SNARE_SIDE_LOSS: LossLaw = LossLaw { constant: 3.0, per_khz: 2.0 };
+/// Accepted thickness of films, m, and highest modes of heads, Hz.
+const THICKNESS: std::ops::RangeInclusive<f64> = 3e-5..=2e-3;
+const MODES_TO_HZ: std::ops::RangeInclusive<f64> = 100.0..=4000.0;
 
-/// A pillow that leans on a kick's head.
-pub const PILLOW: Muffler = Muffler::Pillow { sigma: 21.0, flow: PILLOW_FLOW };
+impl Numbers for ShellSpec {
+    fn visit(&mut self, visitor: &mut dyn Visitor) {
+        match self {
+            ShellSpec::Cylinder { depth, air_q } => {
+                visitor.number("depth_m", depth, 0.03..=1.0);
+                visitor.number("air_q", air_q, 1.0..=10_000.0);
+            }
+            ShellSpec::Kettle { volume, air_q } => {
+                visitor.number("volume_m3", volume, 1e-3..=0.5);
+                visitor.number("air_q", air_q, 1.0..=10_000.0);
+            }
+        }
+    }
+}
+
+impl Numbers for DrumSpec {
+    fn visit(&mut self, visitor: &mut dyn Visitor) {
+        visitor.number("diameter_m", &mut self.diameter, 0.15..=0.82);
+        visitor.number("lowest_pitch_hz", &mut self.lowest_pitch_hz, 15.0..=1000.0);
+        let lowest = self.lowest_pitch_hz;
+        visitor.number("highest_pitch_hz", &mut self.highest_pitch_hz, 1.01 * lowest..=4.0 * lowest);
+        visitor.number("pitch_hz", &mut self.pitch_hz, lowest..=self.highest_pitch_hz);
+        visitor.enter("batter");
+        self.batter.visit_numbers(visitor);
+        visitor.leave();
+        if let Some(resonant) = &mut self.resonant {
+            visitor.enter("resonant");
+            visitor.number("pitch_ratio", &mut resonant.pitch_ratio, 0.5..=2.5);
+            let mut head = resonant.head();
+            head.visit_numbers(visitor);
+            let HeadSpec { thickness, plies, material, loss, modes_to_hz } = head;
+            *resonant = ResonantSpec { thickness, plies, material, loss, modes_to_hz, ..*resonant };
+            visitor.leave();
+        }
+        if let Some(shell) = &mut self.shell {
+            shell.visit_part("shell", visitor);
+        }
+        if let Some(hoop) = &mut self.hoop {
+            hoop.visit_part("hoop", visitor);
+        }
+        if let Some(wires) = &mut self.wires {
+            wires.visit_part("wires", visitor);
+        }
+        self.muffler.visit_part("muffler", visitor);
+        self.evenness.visit_part("evenness", visitor);
+    }
+}
+
+impl ResonantSpec {
+    /// The head by itself.
+    pub fn head(&self) -> HeadSpec {
+        let ResonantSpec { thickness, plies, material, loss, modes_to_hz, .. } = *self;
+        HeadSpec { thickness, plies, material, loss, modes_to_hz }
+    }
+}
+
+impl PitchOf {
+    /// Nodal diameters and nodal circles of the mode.
+    pub fn mode(self) -> (u32, u32) {
+        match self {
+            PitchOf::BatterAlone => (0, 1),
+            PitchOf::PrincipalHeard => (1, 1),
+        }
+    }
+}
+
+/// Farthest from its pitch in the other head's place that the film's strength is checked for.
+const STRONGEST_STRAIN: f64 = 0.03;
 
 impl DrumSpec {
-    /// What its modes and their shapes follow from, as text in which every number stands exactly.
-    pub(crate) fn body(&self) -> String {
-        let DrumSpec { batter, resonant, cavity, outside, named_mode, tuned_as_heard, pitch_hz, .. } = self;
-        format!("{batter:?} {resonant:?} {cavity:?} {outside:?} {named_mode:?} {tuned_as_heard} {pitch_hz:?}")
+    /// Radius of the heads, m.
+    pub fn radius(&self) -> f64 {
+        0.5 * self.diameter
     }
 
-    /// A shell of that size with a head on either end.
-    fn two_headed(
-        diameter_in: f64,
-        depth_in: f64,
-        batter: ((f64, u32), LossLaw),
-        resonant: ResonantSpec,
-    ) -> DrumSpec {
-        let (radius, depth) = (0.5 * diameter_in * INCH, depth_in * INCH);
-        DrumSpec {
-            batter: head(radius, batter.0, batter.1, BATTER_LIMIT),
-            resonant: Some(resonant),
-            cavity: Some(CavitySpec::cylinder(radius, depth)),
-            outside: Outside::Free { length: depth },
-            named_mode: (0, 1),
-            tuned_as_heard: false,
-            pitch_hz: (55.0, 82.0, 160.0),
-            muffler: Muffler::GEL,
-            splitting: Splitting::DRUM,
-            listening_point: ListeningPoint { distance: 0.5, inclination: 0.6, azimuth: 0.4 },
-            far_point: ListeningPoint::far(0.6, 0.4),
-            wires: false,
-            rim: false,
+    /// Lowest, default and highest pitch, Hz.
+    pub fn pitches(&self) -> [f64; 3] {
+        // PHASE 1: built as before the kit became data.
+        let built = match self.pitch_hz {
+            195.0 => 220.0,
+            100.0 => 82.0,
+            pitch => pitch,
+        };
+        [self.lowest_pitch_hz, built, self.highest_pitch_hz]
+    }
+
+    /// A head as a membrane.
+    pub fn membrane(&self, head: &HeadSpec) -> MembraneSpec {
+        let HeadSpec { thickness, plies, material, loss, .. } = *head;
+        MembraneSpec { radius: self.radius(), thickness, plies, material, loss }
+    }
+
+    /// The enclosed air; none of a head on its own.
+    pub fn cavity(&self) -> Option<CavitySpec> {
+        let radius = self.radius();
+        Some(match self.shell? {
+            ShellSpec::Cylinder { depth, air_q } => {
+                let open = self.resonant.is_none();
+                CavitySpec { q: air_q, open, ..CavitySpec::cylinder(radius, depth) }
+            }
+            ShellSpec::Kettle { volume, air_q } => {
+                let depth = volume / (std::f64::consts::PI * radius * radius);
+                CavitySpec { q: air_q, volume, ..CavitySpec::cylinder(radius, depth) }
+            }
+        })
+    }
+
+    /// What surrounds the drum: it stands free, or its struck head is as in a baffle.
+    pub fn outside(&self) -> Outside {
+        match self.shell {
+            Some(ShellSpec::Cylinder { depth, .. }) => Outside::Free { length: depth },
+            Some(ShellSpec::Kettle { .. }) | None => Outside::Baffle,
         }
     }
 
-    /// A clear single-ply head, modes to `limit_hz`.
-    fn single_ply(diameter_in: f64, pitch_ratio: f64, limit_hz: f64) -> ResonantSpec {
-        let head = head(0.5 * diameter_in * INCH, SINGLE_PLY, LossLaw::SINGLE_PLY, limit_hz);
-        ResonantSpec { head, pitch_ratio }
-    }
-
-    /// 22 x 18 in bass drum with a pillow.
-    pub fn kick() -> DrumSpec {
-        let batter = (TWO_PLY, KICK_LOSS);
-        DrumSpec {
-            pitch_hz: (35.0, 55.0, 90.0),
-            muffler: PILLOW,
-            ..DrumSpec::two_headed(22.0, 18.0, batter, DrumSpec::single_ply(22.0, 1.10, 1000.0))
-        }
-    }
-
-    /// 14 x 5.5 in snare drum.
-    pub fn snare() -> DrumSpec {
-        let batter = ((0.25e-3, 1), SNARE_LOSS);
-        let head = head(7.0 * INCH, (0.076e-3, 1), SNARE_SIDE_LOSS, BATTER_LIMIT);
-        let side = ResonantSpec { head, pitch_ratio: 1.50 };
-        DrumSpec {
-            pitch_hz: (140.0, 220.0, 360.0),
-            wires: true,
-            rim: true,
-            ..DrumSpec::two_headed(14.0, 5.5, batter, side)
-        }
-    }
-
-    /// Toms: two-ply batter, single-ply resonant head.
-    fn tom(diameter_in: f64, depth_in: f64) -> DrumSpec {
-        let batter = (TWO_PLY, TOM_LOSS);
-        let resonant = DrumSpec::single_ply(diameter_in, 1.15, 1500.0);
-        DrumSpec { rim: true, ..DrumSpec::two_headed(diameter_in, depth_in, batter, resonant) }
-    }
-
-    /// 12 x 9 in rack tom.
-    pub fn rack_tom() -> DrumSpec {
-        DrumSpec { pitch_hz: (90.0, 140.0, 260.0), ..DrumSpec::tom(12.0, 9.0) }
-    }
-
-    /// 16 x 16 in floor tom.
-    pub fn floor_tom() -> DrumSpec {
-        DrumSpec::tom(16.0, 16.0)
-    }
-
-    /// 26 in timpani on a kettle of 0.14 m3.
-    pub fn timpani() -> DrumSpec {
-        let (radius, volume) = (13.0 * INCH, 0.14);
-        let depth = volume / (std::f64::consts::PI * radius * radius);
-        let batter = (SINGLE_PLY, LossLaw { constant: 0.6, per_khz: 1.5 });
-        let unused = DrumSpec::single_ply(26.0, 1.0, 100.0);
-        DrumSpec {
-            resonant: None,
-            cavity: Some(CavitySpec { volume, ..CavitySpec::cylinder(radius, depth) }),
-            outside: Outside::Baffle,
-            named_mode: (1, 1),
-            tuned_as_heard: true,
-            pitch_hz: (87.3, 130.8, 196.0),
-            splitting: Splitting::CLEARED,
-            ..DrumSpec::two_headed(26.0, depth / INCH, batter, unused)
+    /// Length behind the struck head from whose other end sound comes too, m.
+    pub fn body_depth(&self) -> f64 {
+        match self.outside() {
+            Outside::Free { length } => length,
+            Outside::Baffle => 0.0,
         }
     }
 
     /// The drum's batter on its own, with air on both faces: no shell, no other head.
+    #[must_use]
     pub fn head_alone(self) -> DrumSpec {
-        DrumSpec { resonant: None, cavity: None, outside: Outside::Baffle, wires: false, ..self }
+        DrumSpec { resonant: None, shell: None, wires: None, ..self }
     }
 
     /// The drum without what closes it: a shell without its other head (a concert tom), or a timpani's head without
     /// its kettle.
+    #[must_use]
     pub fn opened(self) -> DrumSpec {
-        match self.outside {
+        match self.outside() {
             Outside::Baffle => self.head_alone(),
-            Outside::Free { .. } => {
-                let cavity = self.cavity.map(|cavity| CavitySpec { open: true, ..cavity });
-                DrumSpec { resonant: None, cavity, wires: false, ..self }
-            }
+            Outside::Free { .. } => DrumSpec { resonant: None, wires: None, ..self },
         }
     }
 
-    /// The drum built otherwise, as the options ask.
-    pub fn with(self, options: &BuildOptions) -> DrumSpec {
-        let whole = if options.open { self.opened() } else { self };
-        let retuned = |resonant: ResonantSpec| ResonantSpec {
-            pitch_ratio: options.resonant_ratio.unwrap_or(resonant.pitch_ratio),
-            ..resonant
-        };
-        let detuning = options.unevenness.unwrap_or(self.splitting.detuning);
-        DrumSpec {
-            resonant: whole.resonant.map(retuned),
-            splitting: Splitting { detuning, ..self.splitting },
-            muffler: options.muffler.unwrap_or(self.muffler),
-            ..whole
-        }
-    }
-
-    /// Checks every number.
+    /// Checks every number and that the parts fit each other.
     ///
     /// # Errors
     /// [`SpecError`] naming the field.
-    pub fn validated(self) -> Result<DrumSpec, SpecError> {
-        let (low, pitch, high) = self.pitch_hz;
-        SpecError::check("lowest pitch (Hz)", low, 15.0, 2000.0)?;
-        SpecError::check("highest pitch (Hz)", high, 1.01 * low, 8.0 * low)?;
-        SpecError::check("pitch (Hz)", pitch, low, high)?;
-        self.batter.membrane.validated()?;
+    pub fn check(&self) -> Result<(), SpecError> {
+        numbers::check(self)?;
+        SpecError::check("batter.plies", f64::from(self.batter.plies), 1.0, 2.0)?;
+        self.check_strain("batter", &self.batter, 1.0)?;
         if let Some(resonant) = self.resonant {
-            resonant.head.membrane.validated()?;
-            SpecError::check("resonant pitch ratio", resonant.pitch_ratio, 0.5, 2.5)?;
+            SpecError::check("resonant.plies", f64::from(resonant.plies), 1.0, 2.0)?;
+            self.check_strain("resonant", &resonant.head(), resonant.pitch_ratio)?;
+            if !matches!(self.shell, Some(ShellSpec::Cylinder { .. })) {
+                return Err(SpecError::refused(
+                    "resonant",
+                    "is given, accepted: only on a shell that is a cylinder",
+                ));
+            }
+        } else if self.wires.is_some() {
+            return Err(SpecError::refused(
+                "wires",
+                "are given, accepted: only with a resonant head to lie against",
+            ));
         }
-        SpecError::check("detuning of pairs", self.splitting.detuning, 0.0, 0.05)?;
-        if let Muffler::Gel { radius, .. } | Muffler::Ring { inner: radius, .. } = self.muffler {
-            SpecError::check("place of the muffler (share of the radius)", radius, 0.0, 0.99)?;
+        Ok(())
+    }
+
+    /// No head is pulled beyond what its film holds at the highest pitch.
+    fn check_strain(&self, name: &str, head: &HeadSpec, ratio: f64) -> Result<(), SpecError> {
+        let (m, n) = self.pitch_of.mode();
+        let membrane = self.membrane(head);
+        let hz = ratio * self.highest_pitch_hz;
+        // Without the air, which makes it need more.
+        let tension = crate::membrane::vacuum_tension(&membrane, crate::math::bessel::zero(m, n), hz);
+        let Material { youngs_modulus, poisson_ratio, .. } = head.material;
+        let strain = tension * (1.0 - poisson_ratio) / (youngs_modulus * head.thickness);
+        if strain > STRONGEST_STRAIN {
+            let highest = self.highest_pitch_hz * (STRONGEST_STRAIN / strain).sqrt();
+            return Err(SpecError::refused(
+                "highest_pitch_hz",
+                format!(
+                    "is {}, at which the {name} head would be strained by {:.1} %, accepted: up to {highest:.1}",
+                    self.highest_pitch_hz,
+                    100.0 * strain
+                ),
+            ));
         }
-        if let Some(cavity) = self.cavity {
-            SpecError::check("volume inside (m3)", cavity.volume, 1e-4, 1.0)?;
-            SpecError::check("depth inside (m)", cavity.depth, 0.01, 2.0)?;
-            SpecError::check("quality of the air inside", cavity.q, 1.0, 1e6)?;
-        }
-        Ok(self)
+        Ok(())
     }
 }

@@ -25,14 +25,14 @@ use crate::modal::{Row, zero_row};
 use crate::potential::{Evaluation, Potential};
 use crate::split::Splitting;
 
-/// Modes of the drum up to this stretch the head, Hz. *Measured*: lower, and the dent around a hard
+/// Modes of the drum up to this stretch the head, Hz. *Converged*: lower, and the dent around a hard
 /// stroke holds too little of its tension; a kick at 6 m/s then glides by half of what it should.
 const LIMIT_HZ: f64 = 1500.0;
 
 /// Strain at which polyester film yields. *Literature*.
 const YIELD_STRAIN: f64 = 0.03;
 
-/// Rate of the evaluations, Hz. A force renewed so often has its images where nobody hears them. *Measured*: of half
+/// Rate of the evaluations, Hz. A force renewed so often has its images where nobody hears them. *Converged*: of half
 /// of it, with images about 11 kHz, the glide of a 6 m/s stroke is within 0.2 cents of 90 still, but the images are 15
 /// dB under the high band.
 const RATE: f64 = 22_000.0;
@@ -148,13 +148,13 @@ impl Potential for Stretch {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drum::spec::DrumSpec;
+    use crate::reference;
 
     #[test]
     fn the_gradient_is_that_of_the_energy_below_and_beyond_yield() {
-        let spec = DrumSpec::rack_tom();
+        let spec = reference::drum("rack-tom");
         let blueprint = Blueprint::new(&spec).unwrap();
-        let (mut stretch, modes) = Stretch::new(&spec.batter.membrane, &blueprint, 140.0);
+        let (mut stretch, modes) = Stretch::new(&spec.membrane(&spec.batter), &blueprint, spec.pitch_hz);
         let mut gradient = zero_row(modes);
         let mut scratch = zero_row(modes);
         for size in [1e-4_f32, 3e-3, 3e-2] {

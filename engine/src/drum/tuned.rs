@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use crate::drum::coupled::CoupledMode;
 use crate::math::cubic::Stencil;
 
-/// Pitches worked out over the range. *Measured*: frequencies between are met within 2 cents up to eight times
+/// Pitches worked out over the range. *Converged*: frequencies between are met within 2 cents up to eight times
 /// the pitch, most within a tenth; above, up to 25 cents off where heads and air pass each other closely.
 pub const PITCHES: usize = 25;
 

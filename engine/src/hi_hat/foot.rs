@@ -6,9 +6,11 @@
 //!
 //! Coordinates: `y` is how far the rod is down from where the pedal is up, m.
 
+use crate::fitted;
+
 /// Stiffness of the leg over the mass it moves, as a rate, 1/s. *By ear*: half a movement takes 8 ms, short
 /// enough to be played, long enough that no step of a controller is heard.
-const LEG: f64 = 200.0;
+const LEG: f64 = fitted::LEG_RATE;
 
 /// Slowest, default and fastest speed of a foot, m/s. *Derived*: from lowering it to a stamp; a foot falls the
 /// 3 cm between open and closed at 0.8 m/s by itself.

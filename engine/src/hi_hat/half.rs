@@ -13,7 +13,7 @@ use crate::damping::{LossLaw, Muffler, Thermoelastic};
 use crate::error::SpecError;
 use crate::modal::Mode;
 use crate::modal::simd::folded::Folded;
-use crate::piece::{BuildOptions, Member};
+use crate::piece::{BuildContext, Member};
 use crate::plate::free_disc::Radiated;
 use crate::plate::{PlateModes, PlateTables};
 use crate::shapes::{ShapeIndex, ShapeTable};
@@ -100,14 +100,15 @@ impl Half {
         spec: &CymbalSpec,
         (mount, rubbing): (&Mount, LossLaw),
         coupled_hz: Option<f64>,
-        options: &BuildOptions,
+        context: &BuildContext,
     ) -> Result<(Half, Struck), SpecError> {
+        let BuildContext { options, receivers, ideal } = context;
         let limit_hz = cymbal::LIMIT_HZ.min(cymbal::LIMIT_OF_RATE * options.sample_rate);
-        let known = cymbal::SoundingPlate::of(spec, limit_hz)?;
+        let known = cymbal::SoundingPlate::of(spec, receivers, limit_hz)?;
         let (plate, radiated) = (&known.plate, &known.radiated);
         let (orders, extent) = plate.table_extent(limit_hz);
         let tables = PlateTables::new(orders, extent);
-        let splitting = if options.unsplit { Splitting::ROUND } else { spec.splitting };
+        let splitting = if ideal.round { Splitting::ROUND } else { spec.evenness };
         let at_rim = plate.radial_shapes(&tables, &[1.0]);
         let at_mount = plate.radial_shapes(&tables, &[mount.reach]);
         let (mut modes, mut index, mut shares, mut pairs) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
@@ -115,7 +116,7 @@ impl Half {
         let mut front = 0;
         for Ranked { shell: row, rank: (part, _) } in order(plate, coupled_hz) {
             let shell = &plate.shells[row];
-            let axis = spec.splitting.axis(shell.m, shell.n);
+            let axis = spec.evenness.axis(shell.m, shell.n);
             if coupled_hz.is_some_and(|hz| shell.omega <= TAU * hz) {
                 pairs.push(CoupledPair { shell: row, mode: modes.len(), axis });
             }
@@ -125,14 +126,14 @@ impl Half {
                     n: shell.n,
                     member,
                     omega: shell.omega * detuning,
-                    radiated: radiated[row].resistance / (2.0 * spec.plate.mass),
+                    radiated: radiated[row].resistance / (2.0 * spec.mass),
                     mounted: mount.damping * at_mount[row].powi(2) * if shell.m == 0 { 1.0 } else { 0.5 },
                     muffling: 0.0,
                     choking: 0.0,
                     monopole_area: monopole_area(spec, shell.omega, &radiated[row]),
                 });
                 index.push(ShapeIndex { radial: row, rows: 1, m: shell.m, member, axis });
-                let points = [(spec.listening_point, 1.0), (spec.far_point, spec.far_point.distance)];
+                let points = [(receivers.near, 1.0), (receivers.far, receivers.far.distance)];
                 for (ear, (point, scale)) in points.into_iter().enumerate() {
                     let share = scale * point.toward(shell.m, member, axis);
                     transfers[ear].push(radiated[row].transfers[ear].map(|x| share * x));
@@ -152,9 +153,9 @@ impl Half {
             transfers,
             folded: Folded::new(&shares),
             loss: spec.loss,
-            heat: Thermoelastic::bronze(&spec.plate),
+            heat: Thermoelastic::bronze(&spec.plate()),
             rubbing,
-            mass: spec.plate.mass,
+            mass: spec.mass,
         };
         half.lay(spec, &shapes);
         Ok((half, Struck { shapes, coupled }))
@@ -230,23 +231,25 @@ fn share(m: u32, member: Member, axis: f64, at_rim: f64) -> (usize, [f64; 2]) {
 
 fn monopole_area(spec: &CymbalSpec, omega: f64, radiated: &Radiated) -> f64 {
     // Both faces are in the resistance, one in the area.
-    let unit = air::DENSITY * omega * spec.plate.radius().powi(3);
-    air::monopole_area(spec.plate.radius(), 0.5 * radiated.resistance / unit, omega)
+    let radius = spec.plate().radius();
+    let unit = air::DENSITY * omega * radius.powi(3);
+    air::monopole_area(radius, 0.5 * radiated.resistance / unit, omega)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::hi_hat::HiHatSpec;
     use crate::hi_hat::edge;
     use crate::modal::ModalBody;
+    use crate::piece::BuildOptions;
+    use crate::reference;
 
     #[test]
     fn the_rim_feels_at_once_what_each_place_on_it_would() {
-        let spec = HiHatSpec::default();
-        let options = BuildOptions::new(44_100.0);
+        let spec = reference::hi_hat();
+        let context = reference::standard("hi-hat").context(BuildOptions::new(44_100.0));
         let (half, Struck { shapes, .. }) =
-            Half::new(&spec.top, (&spec.clutch, spec.rubbing), Some(2000.0), &options).unwrap();
+            Half::new(&spec.top, (&spec.clutch, spec.rubbing), Some(2000.0), &context).unwrap();
         let damping = Damping { muffling: 0.0, hand: 0.0, rubbing: 0.0, lossless: false };
         let modes: Vec<Mode> = (0..half.modes.len()).map(|k| half.mode(k, 1.0, &damping)).collect();
         let mut body = ModalBody::new(modes, 44_100.0);

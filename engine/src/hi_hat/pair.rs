@@ -25,6 +25,7 @@
 //! displacement); motion along the rims; the air between.
 
 use crate::contact::ContactLaw;
+use crate::fitted;
 use crate::modal::simd::Kernels;
 use crate::modal::simd::folded::{Amplitudes, Folded};
 use crate::modal::{EARS, ModalBody, Mode, Pickup};
@@ -86,13 +87,14 @@ impl Rest {
 }
 
 /// Time in which a touch becomes as lossy as one that lasts, s. *By ear*.
-pub(super) const SETTLING: f64 = 0.003;
+pub(super) const SETTLING: f64 = fitted::HAT_SETTLING;
 
 /// A place less open than this may close in a sample, m. *Derived*: what 5 m/s does in one.
 pub(super) const MARGIN: f64 = 2e-4;
 
-/// Way that a striker may push the rim within a block, m. *Derived*: 5 m/s for a millisecond.
-const PUSHED: f64 = 5e-3;
+/// Way that a striker may push the rim within a block: at least, m, and of one that is fast, over its own. *Derived*: 5 m/s
+/// for a millisecond; a light body leaves a heavy one at up to twice its speed.
+const PUSHED: (f64, f64) = (5e-3, 2.0);
 
 /// Energy under which cymbals that touch are at rest, J: 10 dB under what a piece sleeps at.
 const STILL: f64 = 1e-11;
@@ -434,12 +436,20 @@ impl Pair {
         self.rigid[0].energy(self.foot.place()) + self.rigid[1].energy(0.0) + contacts - self.rest.energy
     }
 
-    /// Once a block: follows the rod, zeroes what has decayed, looks whether rims may meet. `strikers` are about the
-    /// upper cymbal, whose shell has `top_energy` (J), asked for only where it decides.
+    /// Once a block: follows the rod, zeroes what has decayed, looks whether rims may meet. The fastest of the strikers
+    /// about the upper cymbal, if there are any, comes so far (m) in a block; its shell has `top_energy` (J), asked for
+    /// only where it decides.
     ///
     /// # Real-time
     /// Linear in the number of modes, and some microseconds while the pedal moves.
-    pub fn settle(&mut self, top: &ModalBody, strikers: bool, top_energy: impl FnOnce() -> f64) -> Settled {
+    pub fn settle(
+        &mut self,
+        top: &ModalBody,
+        strikers: Option<f64>,
+        top_energy: impl FnOnce() -> f64,
+    ) -> Settled {
+        let pushed = strikers.map_or(0.0, |way| PUSHED.0.max(PUSHED.1 * way));
+        let strikers = strikers.is_some();
         self.bottom.flush_quiet();
         let finite = self.bottom.is_finite()
             && self.rigid.iter().all(Rigid::is_finite)
@@ -461,7 +471,7 @@ impl Pair {
             self.come_to_rest();
             return Settled::Parked;
         }
-        if touching || self.may_meet(top, if strikers { PUSHED } else { 0.0 }) {
+        if touching || self.may_meet(top, pushed) {
             self.engage(top);
         } else {
             self.engaged = false;

@@ -6,24 +6,39 @@
 
 use std::f64::consts::TAU;
 
+use serde::{Deserialize, Serialize};
+
+use crate::numbers::{Numbers, Visitor};
 use crate::surface::oscillator::Oscillator;
 
 /// How much a place feels of heave and of both tilts: shares.
 pub type Weights = [f64; 3];
 
 /// What holds a cymbal at its centre: felts, as springs and dampers.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Mount {
-    /// Frequency at which the cymbal bounces on it, Hz.
+    /// Frequency at which the cymbal bounces on it, Hz, 1 to 200.
     pub bounce_hz: f64,
-    /// Frequency at which it rocks, Hz.
+    /// Frequency at which it rocks, Hz, 0.5 to 100.
     pub rock_hz: f64,
-    /// Quality factor of both.
+    /// Quality factor of both, 0.6 to 100.
     pub q: f64,
-    /// Decay rate that the felts add to a mode of unit mean square under them, 1/s.
+    /// Decay rate that the felts add to a mode of unit mean square under them, 1/s, 0 to 100.
+    #[serde(rename = "damping_1_s")]
     pub damping: f64,
-    /// How far out they reach, share of the radius.
+    /// How far out they reach, share of the radius, 0 to 0.5.
     pub reach: f64,
+}
+
+impl Numbers for Mount {
+    fn visit(&mut self, visitor: &mut dyn Visitor) {
+        visitor.number("bounce_hz", &mut self.bounce_hz, 1.0..=200.0);
+        visitor.number("rock_hz", &mut self.rock_hz, 0.5..=100.0);
+        visitor.number("q", &mut self.q, 0.6..=100.0);
+        visitor.number("damping_1_s", &mut self.damping, 0.0..=100.0);
+        visitor.number("reach", &mut self.reach, 0.0..=0.5);
+    }
 }
 
 /// A cymbal as a stiff body on its mount.

@@ -13,7 +13,7 @@ use super::POINTS;
 
 /// Newton steps; it needs 2 to 4.
 const MAX_STEPS: usize = 12;
-/// Rounds within one. *Measured*: a place yields to another's force by half a percent of what it yields to its own at
+/// Rounds within one. *Converged*: a place yields to another's force by half a percent of what it yields to its own at
 /// most, to all others' by four.
 const ROUNDS: usize = 2;
 /// Error of the compressions over the largest, at which they are found. *Derived*: under the rounding of the shells'

@@ -7,18 +7,19 @@
 //! Limits: one direction stands for all. That is right for a drum's low modes, which go all around; high modes
 //! and cymbals, which are dipoles, are given to the side what they send up.
 
+use super::arrangement::Arrangement;
 use super::line::{Line, MovingTap, Tap};
 use super::mix::{Desk, PAIRS};
 use super::post::Post;
-use super::room::{self, SILENT_RUN, Tail};
+use super::room::{self, RoomSpec, SILENT_RUN, Tail};
 use super::{BLOCK, GainRuns};
 use crate::air::SPEED_OF_SOUND;
-use crate::layout::{CLOSE, Layout, Pair, distance};
+use crate::kit_spec::Kind;
+use crate::layout::{CLOSE, Layout, Pair, Placement, distance};
 use crate::microphones::CloseMicrophone;
 use crate::modal::EARS;
-use crate::piece::PieceId;
-
-const PIECES: usize = PieceId::KIT.len();
+use crate::piece::Piece;
+use crate::slot::{SLOTS, Slot};
 
 /// Faces of a surface of the room.
 const IMAGES: usize = 6;
@@ -30,70 +31,93 @@ pub(super) type PairRun = [[f32; BLOCK]; 2];
 pub(super) struct Air {
     sample_rate: f64,
     layout: Layout,
+    room: RoomSpec,
     /// What each piece sends out: to its close microphone, far away, and to other pieces.
-    lines: [[Line; EARS]; PIECES],
+    lines: [[Line; EARS]; SLOTS],
     /// Of each piece, from the others: `[listener][source]`.
-    heard: Box<[[Tap; PIECES]; PIECES]>,
+    heard: Box<[[Tap; SLOTS]; SLOTS]>,
     /// To the close microphone.
-    close: [Tap; PIECES],
+    close: [Tap; SLOTS],
     /// Distance from each piece at which its sound is time zero of the mix, m.
-    time_zero: [f64; PIECES],
+    time_zero: [f64; SLOTS],
     /// `[pair][side][piece]`.
-    pairs: Box<[[[MovingTap; PIECES]; 2]; PAIRS]>,
+    pairs: Box<[[[MovingTap; SLOTS]; 2]; PAIRS]>,
     /// `[side][piece][image]`, of the room pair.
-    images: Box<[[[MovingTap; IMAGES]; PIECES]; 2]>,
+    images: Box<[[[MovingTap; IMAGES]; SLOTS]; 2]>,
     tail: Tail,
+    /// Which slots hold drums: they hear the others, and are heard by what goes all around.
+    drums: [bool; SLOTS],
     min_delay: usize,
 }
 
 impl Air {
-    /// Still air. Allocates.
-    pub(super) fn new(sample_rate: f64, layout: &Layout) -> Air {
+    /// Still air in a room. Allocates.
+    pub(super) fn new(sample_rate: f64, layout: &Layout, room: &RoomSpec) -> Air {
         let still = Tap::new(0.0, 0.0, sample_rate);
         let moving = MovingTap::new(still, sample_rate);
         let mut air = Air {
             sample_rate,
             layout: *layout,
+            room: *room,
             lines: std::array::from_fn(|_| std::array::from_fn(|_| Line::new(sample_rate))),
-            heard: Box::new([[still; PIECES]; PIECES]),
-            close: [Tap::new(0.0, 1.0, sample_rate); PIECES],
-            time_zero: [CLOSE; PIECES],
-            pairs: Box::new([[[moving; PIECES]; 2]; PAIRS]),
-            images: Box::new([[[moving; IMAGES]; PIECES]; 2]),
-            tail: Tail::new(sample_rate),
+            heard: Box::new([[still; SLOTS]; SLOTS]),
+            close: [Tap::new(0.0, 1.0, sample_rate); SLOTS],
+            time_zero: [CLOSE; SLOTS],
+            pairs: Box::new([[[moving; SLOTS]; 2]; PAIRS]),
+            images: Box::new([[[moving; IMAGES]; SLOTS]; 2]),
+            tail: Tail::new(room, sample_rate),
+            drums: [false; SLOTS],
             min_delay: BLOCK,
         };
-        for (to, row) in air.heard.iter_mut().enumerate() {
-            for (from, tap) in row.iter_mut().enumerate().filter(|&(from, _)| from != to) {
-                *tap = Tap::way(layout.way(from, to), 0.0, sample_rate);
-            }
-        }
-        let drums = PieceId::KIT.iter().enumerate().filter(|(_, id)| id.is_drum());
-        let ways =
-            drums.flat_map(|(to, _)| (0..PIECES).filter(move |&from| from != to).map(move |from| (to, from)));
-        let reach = ways.map(|(to, from)| air.heard[to][from].reach()).min();
-        air.min_delay = reach.unwrap_or(BLOCK).max(1);
+        air.lay_ways();
         air.place_pair(0, layout.overheads);
         air.place_pair(1, layout.room);
         air.jump();
         air
     }
 
-    /// The shortest way between two pieces that hear each other, less what reading it needs, samples.
-    pub(super) fn min_delay(&self) -> usize {
-        self.min_delay
+    /// Works out the ways between the pieces.
+    fn lay_ways(&mut self) {
+        let mut shortest = None;
+        for (to, from) in Slot::ALL.into_iter().flat_map(|to| Slot::ALL.map(|from| (to, from))) {
+            if let Some(way) = self.layout.way(from, to).filter(|_| from != to) {
+                let tap = Tap::way(way, 0.0, self.sample_rate);
+                self.heard[to.index()][from.index()] = tap;
+                // Only drums have a radius, and only they listen.
+                if self.layout.pieces[to.index()].is_some_and(|piece| piece.radius > 0.0) {
+                    shortest = Some(shortest.map_or(tap.reach(), |least: usize| least.min(tap.reach())));
+                }
+            }
+        }
+        self.min_delay = shortest.unwrap_or(BLOCK).max(1);
     }
 
-    /// Puts a close microphone where its piece was built to be heard. What is on the way to it is heard there at once.
-    pub(super) fn place_close(&mut self, piece: usize, microphone: &CloseMicrophone) {
-        let CloseMicrophone { point, time_zero, gain } = *microphone;
-        // What distance does to the level is in the piece's own sound.
-        let late = (point.distance - time_zero).max(0.0) / SPEED_OF_SOUND;
-        self.close[piece] = Tap::new(late, f64::from(gain), self.sample_rate);
-        if std::mem::replace(&mut self.time_zero[piece], time_zero) == time_zero {
-            return;
+    /// Takes over where everything stands, and the room.
+    pub(super) fn arrange(&mut self, arrangement: &mut Arrangement) {
+        if arrangement.room != self.room {
+            std::mem::swap(&mut self.room, &mut arrangement.room);
+            std::mem::swap(&mut self.tail, &mut arrangement.tail);
         }
-        // The pairs hear it by as much later as it is time zero from nearer by.
+        std::mem::swap(&mut self.layout, &mut arrangement.layout);
+        self.lay_ways();
+        self.place_pair(0, self.layout.overheads);
+        self.place_pair(1, self.layout.room);
+    }
+
+    /// Puts the piece of a slot somewhere.
+    pub(super) fn place_slot(&mut self, slot: Slot, piece: &Piece) {
+        let at = slot.index();
+        self.drums[at] = piece.kind() == Kind::Drum;
+        if self.layout.pieces[at] != Some(*piece.placement()) {
+            self.layout.pieces[at] = Some(*piece.placement());
+            self.lay_ways();
+            self.place_at(at);
+        }
+        self.place_close(at, piece.close());
+    }
+
+    /// Lets both pairs of microphones hear a piece from where it stands.
+    fn place_at(&mut self, piece: usize) {
         let [overheads, room] = [self.layout.overheads, self.layout.room];
         self.place_piece(piece, 0, overheads);
         self.place_piece(piece, 1, room);
@@ -102,9 +126,27 @@ impl Air {
         }
     }
 
+    /// The shortest way between two pieces that hear each other, less what reading it needs, samples.
+    pub(super) fn min_delay(&self) -> usize {
+        self.min_delay
+    }
+
+    /// Puts a close microphone where its piece was built to be heard. What is on the way to it is heard there at once.
+    fn place_close(&mut self, piece: usize, microphone: &CloseMicrophone) {
+        let CloseMicrophone { point, time_zero, gain } = *microphone;
+        // What distance does to the level is in the piece's own sound.
+        let late = (point.distance - time_zero).max(0.0) / SPEED_OF_SOUND;
+        self.close[piece] = Tap::new(late, f64::from(gain), self.sample_rate);
+        if std::mem::replace(&mut self.time_zero[piece], time_zero) == time_zero {
+            return;
+        }
+        // The pairs hear it by as much later as it is time zero from nearer by.
+        self.place_at(piece);
+    }
+
     /// Puts a pair of microphones somewhere; what is heard fades over.
     pub(super) fn place_pair(&mut self, pair: usize, places: Pair) {
-        (0..PIECES).for_each(|piece| self.place_piece(piece, pair, places));
+        (0..SLOTS).for_each(|piece| self.place_piece(piece, pair, places));
         if pair == 1 {
             self.layout.room = places;
         } else {
@@ -114,12 +156,12 @@ impl Air {
 
     /// Lets a pair of microphones hear a piece from there.
     fn place_piece(&mut self, piece: usize, pair: usize, places: Pair) {
-        let (rate, lead, centre) =
-            (self.sample_rate, self.time_zero[piece], self.layout.pieces[piece].centre);
+        let Some(Placement { centre, .. }) = self.layout.pieces[piece] else { return };
+        let (rate, lead) = (self.sample_rate, self.time_zero[piece]);
         for (side, place) in places.iter().enumerate() {
             self.pairs[pair][side][piece].set(Tap::way(distance(&centre, place), lead, rate));
             if pair == 1 {
-                let images = room::images(&centre);
+                let images = room::images(&self.room, &centre);
                 for (tap, (image, share)) in self.images[side][piece].iter_mut().zip(images) {
                     tap.set(Tap::way(distance(&image, place), lead, rate).weakened(share as f32));
                 }
@@ -150,7 +192,7 @@ impl Air {
         post.hears = false;
         for (from, lines) in self.lines.iter().enumerate() {
             // A cymbal sends the same everywhere: nobody's hearing comes back to it.
-            let line = &lines[if PieceId::KIT[from].is_drum() { 2 } else { 1 }];
+            let line = &lines[if self.drums[from] { 2 } else { 1 }];
             if from == listener || line.is_silent() {
                 continue;
             }
@@ -227,6 +269,11 @@ impl Air {
     /// Makes silence exact; meant for now and then, on the kit's clock.
     pub(super) fn settle(&mut self) {
         self.tail.settle();
+    }
+
+    /// Whether nothing of a slot is under way.
+    pub(super) fn is_slot_silent(&self, slot: usize) -> bool {
+        self.lines[slot].iter().all(Line::is_silent)
     }
 
     /// Whether nothing is under way anywhere.

@@ -1,12 +1,12 @@
 //! What of a kit can be moved while it plays.
 
-use crate::piece::PieceId;
+use crate::slot::Slot;
 
 /// A microphone, or a pair of them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Microphone {
     /// The one close to a piece.
-    Close(PieceId),
+    Close(Slot),
     /// The pair above the kit.
     Overheads,
     /// The pair in the room.
@@ -16,22 +16,22 @@ pub enum Microphone {
 /// A live control of the kit. Acts from the next sample on, smoothed. Switches are on from one half up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Control {
-    /// Pitch of a drum, Hz, or of a cymbal, ratio; see [`Piece::tuning_range`](crate::piece::Piece::tuning_range).
-    Tuning(PieceId),
+    /// Pitch of a drum, Hz, or of a cymbal, ratio; see [`Piece::tunings`](crate::piece::Piece::tunings).
+    Tuning(Slot),
     /// Muffling of a piece, 0 to 1.
-    Muffling(PieceId),
-    /// Force that presses the snare wires on, N.
-    SnarePreload,
-    /// Whether the snare wires lie against the head: below one half they are off.
-    SnareWires,
-    /// The hi-hat's pedal, 0 (up) to 1 (down); see [`Piece::press_pedal`](crate::piece::Piece::press_pedal).
-    Pedal,
+    Muffling(Slot),
+    /// Force that presses a drum's snare wires on, N; of other pieces nothing.
+    Preload(Slot),
+    /// Whether a drum's snare wires lie against its head: below one half they are off.
+    Wires(Slot),
+    /// A hi-hat's pedal, 0 (up) to 1 (down); see [`Piece::press_pedal`](crate::piece::Piece::press_pedal).
+    Pedal(Slot),
     /// Level of a piece in every microphone, dB; at or below [`SILENT_DB`](crate::kit::SILENT_DB) the piece is silent.
     /// What other pieces hear of it stays.
-    Level(PieceId),
+    Level(Slot),
     /// Where a piece's close microphone lies in the stereo, -1 (left) to 1 (right); see
     /// [`Placement::side`](crate::layout::Placement::side). Of a pair, see [`Balance`](Self::Balance).
-    Pan(PieceId),
+    Pan(Slot),
     /// Balance of a pair of microphones, -1 (left alone) to 1 (right alone); of a close one, its pan.
     Balance(Microphone),
     /// Level of a microphone or a pair, dB.

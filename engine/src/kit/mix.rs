@@ -9,17 +9,18 @@
 use super::control::Microphone;
 use super::gain::{Gain, GainRun, Pan, gain};
 use super::{BLOCK, FULL_SCALE, Stereo};
-use crate::layout::Layout;
-use crate::piece::PieceId;
+use crate::fitted;
+use crate::kit_spec::KitSpec;
+use crate::slot::{SLOTS, Slot};
 
-/// Strips: close ones in the order of [`PieceId::KIT`], then the pairs.
-pub(super) const STRIPS: usize = PieceId::KIT.len() + PAIRS;
+/// Strips: close ones by slot, then the pairs.
+pub(super) const STRIPS: usize = SLOTS + PAIRS;
 
 /// Pairs of microphones: overheads, room.
 pub(super) const PAIRS: usize = 2;
 
 /// Full scale above which the safety clip bends. *By ear*: 1.4 dB are left to it.
-const KNEE: f32 = 0.85;
+const KNEE: f32 = fitted::CLIP_KNEE as f32;
 
 /// One strip.
 struct Strip {
@@ -37,52 +38,55 @@ pub(super) struct Desk {
     strips: [Strip; STRIPS],
     close: f32,
     /// Of each piece in every microphone.
-    levels: [Gain; PieceId::KIT.len()],
+    levels: [Gain; SLOTS],
     master: Gain,
     clips: bool,
     clipped: u64,
     peak: [f32; 2],
 }
 
-/// Place of a microphone's strip, if its piece belongs to the kit.
-fn strip(microphone: Microphone) -> Option<usize> {
+/// Place of a microphone's strip.
+fn strip(microphone: Microphone) -> usize {
     match microphone {
-        Microphone::Close(id) => id.slot(),
-        Microphone::Overheads => Some(PieceId::KIT.len()),
-        Microphone::Room => Some(PieceId::KIT.len() + 1),
+        Microphone::Close(slot) => slot.index(),
+        Microphone::Overheads => SLOTS,
+        Microphone::Room => SLOTS + 1,
     }
 }
 
 impl Desk {
-    pub(super) fn new(sample_rate: f64, layout: &Layout) -> Desk {
+    pub(super) fn new(sample_rate: f64, kit: &KitSpec) -> Desk {
         let strips = std::array::from_fn(|i| {
-            let side = layout.pieces.get(i).map_or(0.0, |place| place.side());
+            let side = kit.pieces.get(i).map_or(0.0, |piece| piece.defaults.pan);
             let mut pan = Pan::new(sample_rate, side);
-            if i >= PieceId::KIT.len() {
+            if i >= SLOTS {
                 pan.set_balance(0.0);
                 pan.jump();
             }
             Strip { level: 1.0, muted: false, solo: false, gain: Gain::new(sample_rate), pan, peak: 0.0 }
         });
-        Desk {
+        let mut desk = Desk {
             strips,
             close: 1.0,
-            levels: [Gain::new(sample_rate); PieceId::KIT.len()],
+            levels: [Gain::new(sample_rate); SLOTS],
             master: Gain::new(sample_rate),
             clips: false,
             clipped: 0,
             peak: [0.0; 2],
+        };
+        for (slot, piece) in kit.slots() {
+            desk.set_level(slot, piece.defaults.level_db);
         }
+        desk.jump();
+        desk
     }
 
     pub(super) fn set_master(&mut self, db: f64) {
         self.master.set(gain(db));
     }
 
-    pub(super) fn set_level(&mut self, id: PieceId, db: f64) {
-        if let Some(slot) = id.slot() {
-            self.levels[slot].set(gain(db));
-        }
+    pub(super) fn set_level(&mut self, slot: Slot, db: f64) {
+        self.levels[slot.index()].set(gain(db));
     }
 
     pub(super) fn set_close(&mut self, db: f64) {
@@ -95,7 +99,7 @@ impl Desk {
     }
 
     pub(super) fn set_balance(&mut self, microphone: Microphone, side: f64) {
-        let Some(at) = strip(microphone) else { return };
+        let at = strip(microphone);
         match microphone {
             Microphone::Close(_) => self.strips[at].pan.set(side),
             Microphone::Overheads | Microphone::Room => self.strips[at].pan.set_balance(side),
@@ -115,10 +119,8 @@ impl Desk {
     }
 
     fn change(&mut self, microphone: Microphone, change: impl FnOnce(&mut Strip)) {
-        if let Some(at) = strip(microphone) {
-            change(&mut self.strips[at]);
-            self.follow();
-        }
+        change(&mut self.strips[strip(microphone)]);
+        self.follow();
     }
 
     /// Works out where every strip's gain goes.
@@ -126,7 +128,7 @@ impl Desk {
         let alone = self.strips.iter().any(|strip| strip.solo);
         for (i, strip) in self.strips.iter_mut().enumerate() {
             let open = !strip.muted && (strip.solo || !alone);
-            let group = if i < PieceId::KIT.len() { self.close } else { 1.0 };
+            let group = if i < SLOTS { self.close } else { 1.0 };
             strip.gain.set(if open { strip.level * group } else { 0.0 });
         }
     }
@@ -142,11 +144,11 @@ impl Desk {
 
     /// Whether nothing of a pair is heard, whatever it hears.
     pub(super) fn is_shut(&self, pair: usize) -> bool {
-        self.strips[PieceId::KIT.len() + pair].gain.is_shut()
+        self.strips[SLOTS + pair].gain.is_shut()
     }
 
     /// Each piece's level over a run.
-    pub(super) fn levels(&mut self, samples: usize) -> [GainRun; PieceId::KIT.len()] {
+    pub(super) fn levels(&mut self, samples: usize) -> [GainRun; SLOTS] {
         self.levels.each_mut().map(|level| level.run(samples))
     }
 

@@ -75,6 +75,11 @@ impl Post {
         leaving.render(sound.each_mut().map(|row| &mut row[..*run]));
     }
 
+    /// Whether there is no piece, and none that leaves.
+    pub(super) fn is_empty(&self) -> bool {
+        self.piece.is_none() && self.leaving.is_over()
+    }
+
     /// Whether nothing comes from it and nothing leaves.
     pub(super) fn is_asleep(&self) -> bool {
         self.leaving.is_over() && self.piece.as_ref().is_none_or(|piece| piece.is_asleep())

@@ -1,25 +1,10 @@
 //! What can be asked of a piece while it rings: all of it glides from the sample on at which it is asked.
 
-use super::{Piece, PieceId, Voice};
-use crate::cymbal::CymbalSpec;
-use crate::drum::DrumSpec;
+use super::{Piece, Voice};
 use crate::hi_hat::pair::Pair;
 use crate::snapshot::{RimSnapshot, WireSnapshot};
 
 impl Piece {
-    /// Lowest, default and highest of [`set_tuning`](Self::set_tuning): Hz for drums, ratio for
-    /// cymbals.
-    pub fn tuning_range(id: PieceId) -> (f64, f64, f64) {
-        match id {
-            PieceId::Kick => DrumSpec::kick().pitch_hz,
-            PieceId::Snare => DrumSpec::snare().pitch_hz,
-            PieceId::RackTom => DrumSpec::rack_tom().pitch_hz,
-            PieceId::FloorTom => DrumSpec::floor_tom().pitch_hz,
-            PieceId::Timpani => DrumSpec::timpani().pitch_hz,
-            PieceId::Crash | PieceId::Ride | PieceId::Splash | PieceId::HiHat => CymbalSpec::TUNING,
-        }
-    }
-
     /// Asks for a pitch: of the named mode of a drum, Hz; of a cymbal, a ratio to its own.
     ///
     /// Acts while it rings, gliding over a few milliseconds from this sample on; clamped to the range.

@@ -1,9 +1,8 @@
-//! How a piece is built.
+//! How a piece is built, and in which surroundings.
 
-use super::PieceId;
-use crate::damping::Muffler;
+use serde::{Deserialize, Serialize};
+
 use crate::listening::ListeningPoint;
-use crate::microphones;
 
 /// How far up a cymbal's modes are coupled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
@@ -49,65 +48,63 @@ impl Quality {
     }
 }
 
-/// How a piece is built, beyond what it is.
+/// How a piece is built; what it is, its [description](crate::kit_spec::PieceSpec) says.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BuildOptions {
     /// Sample rate, Hz, 22,050 to 768,000.
     pub sample_rate: f64,
-    /// All damping and radiation off: energy stays.
-    pub lossless: bool,
-    /// Perfectly round bodies: the two members of every pair share one frequency.
-    pub unsplit: bool,
-    /// Bending stays small: no stretch of heads, no coupling of modes.
-    pub linear: bool,
     /// How far up a cymbal's modes are coupled.
     pub quality: Quality,
-    /// Heads sound above their complete sets of modes; see [`high_band`](crate::drum::high_band).
-    pub high_band: bool,
-    /// Drums without what closes them: see [`DrumSpec::opened`](crate::drum::DrumSpec::opened).
-    pub open: bool,
-    /// Cymbals with the bell and the taper they have in the kit; else caps as thick everywhere, whose modes
-    /// are known in closed form.
-    pub shaped: bool,
-    /// Heads wrap themselves around a stick's tip, the farther the harder the stroke, and spread its force by their
-    /// stiffness; else every stroke presses on the same disc, as published contacts and glides have it. See
-    /// [`patch`](crate::surface::patch).
-    pub wraps: bool,
-    /// Ratio of the pitches of a drum's other head and the struck one, if not its own.
-    pub resonant_ratio: Option<f64>,
-    /// Mean relative difference of the two members of a drum's pairs, if not its own: how uneven its tension is.
-    pub unevenness: Option<f64>,
-    /// What muffles a drum, if not its own.
-    pub muffler: Option<Muffler>,
-    /// Where the close microphone stands, if not at the piece's own listening point; see
-    /// [`microphones`](crate::microphones) for where it stands in the kit.
-    pub close: Option<ListeningPoint>,
 }
 
 impl BuildOptions {
-    /// The piece by itself, at a sample rate in Hz.
-    pub fn new(sample_rate: f64) -> Self {
-        BuildOptions {
-            sample_rate,
-            lossless: false,
-            unsplit: false,
-            linear: false,
-            quality: Quality::Standard,
-            high_band: true,
-            open: false,
-            shaped: false,
-            wraps: false,
-            resonant_ratio: None,
-            unevenness: None,
-            muffler: None,
-            close: None,
-        }
+    /// For playing at a sample rate, Hz.
+    pub const fn new(sample_rate: f64) -> Self {
+        BuildOptions { sample_rate, quality: Quality::Standard }
     }
+}
 
-    /// The piece as it stands in the kit, at a sample rate in Hz: heard by its close microphone, cymbals with their bells,
-    /// heads that wrap themselves around tips.
-    pub fn in_kit(id: PieceId, sample_rate: f64) -> Self {
-        let close = microphones::over_rim(id);
-        BuildOptions { close, shaped: true, wraps: true, ..BuildOptions::new(sample_rate) }
+/// From where a piece is heard, seen from its struck surface.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Receivers {
+    /// The close microphone.
+    pub near: ListeningPoint,
+    /// A point far away, in the direction of the overheads.
+    pub far: ListeningPoint,
+}
+
+/// What is left out of a piece: for measuring one part of the physics without the others.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Idealization {
+    /// All damping and radiation off: energy stays.
+    #[serde(default)]
+    pub lossless: bool,
+    /// Bending stays small: no stretch of heads, no coupling of modes.
+    #[serde(default)]
+    pub linear: bool,
+    /// Perfectly round bodies: the two members of every pair share one frequency.
+    #[serde(default)]
+    pub round: bool,
+}
+
+impl Idealization {
+    /// Nothing is left out: the piece as it is played.
+    pub const NONE: Idealization = Idealization { lossless: false, linear: false, round: false };
+
+    /// Whether nothing is left out.
+    pub fn is_none(&self) -> bool {
+        *self == Idealization::NONE
     }
+}
+
+/// All that building an instrument depends on beside its description.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BuildContext {
+    /// How it is built.
+    pub options: BuildOptions,
+    /// From where it is heard.
+    pub receivers: Receivers,
+    /// What is left out of it.
+    pub ideal: Idealization,
 }

@@ -24,7 +24,7 @@ use crate::math::{bessel, roots};
 /// Relative accuracy of a wave number.
 const TOLERANCE: f64 = 1e-15;
 
-/// Neighbouring wave numbers of one order are further apart than this. *Measured*: the closest are
+/// Neighbouring wave numbers of one order are further apart than this. *Converged*: the closest are
 /// 3.06 apart (clamped, `m = 0`); they approach pi.
 const LEAST_SPACING: f64 = 2.0;
 

@@ -63,7 +63,7 @@ pub struct FreeDisc {
     rule: Shared<GaussLegendre>,
 }
 
-/// Functions beyond those that a shape of the mode's fineness needs. *Measured*: more change nothing by 1 %.
+/// Functions beyond those that a shape of the mode's fineness needs. *Converged*: more change nothing by 1 %.
 const MARGIN: f64 = 6.0;
 
 impl FreeDisc {
@@ -240,8 +240,8 @@ mod tests {
 
     #[test]
     fn what_is_heard_far_away_all_around_is_what_is_lost() {
-        use crate::plate::{PlateModes, PlateSpec, PlateTables};
-        let plate = PlateModes::new(&PlateSpec::CRASH, 21_000.0).unwrap();
+        use crate::plate::{PlateModes, PlateTables};
+        let plate = PlateModes::new(&crate::reference::cap_crash(), 21_000.0).unwrap();
         let (orders, extent) = plate.table_extent(21_000.0);
         let tables = PlateTables::new(orders, extent);
         let nodes = 140;

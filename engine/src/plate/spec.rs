@@ -6,15 +6,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::SpecError;
 
-/// Young's modulus of cymbal bronze, Pa. *Literature* (B20, cast and hammered).
-pub const BRONZE_YOUNGS_MODULUS: f64 = 110e9;
-
-/// Poisson's ratio of cymbal bronze. *Literature*.
-pub const BRONZE_POISSON_RATIO: f64 = 0.34;
-
-/// Density of cymbal bronze, kg/m3. *Literature*.
-pub const BRONZE_DENSITY: f64 = 8600.0;
-
 /// A cymbal's plate.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PlateSpec {
@@ -38,55 +29,17 @@ pub struct PlateSpec {
 
 /// A cymbal's bell: a hump about the middle, `rise (1 - (r / radius)^2)^3`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Bell {
     /// Where it meets the bow, m, a twentieth to half of the plate's radius.
+    #[serde(rename = "radius_m")]
     pub radius: f64,
     /// Rise over the bow, m, 0 to its radius.
+    #[serde(rename = "rise_m")]
     pub rise: f64,
-}
-
-/// How a cymbal is shaped: as in [`PlateSpec`].
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Shape {
-    /// Rise of the bow, m.
-    pub rise: f64,
-    /// The bell.
-    pub bell: Bell,
-    /// Thickness at the rim over that in the middle, 0.3 to 1.
-    pub taper: f64,
 }
 
 impl PlateSpec {
-    /// A 16 inch crash as a cap, without a bell.
-    pub const CRASH: PlateSpec = PlateSpec::bronze(0.4064, 1.10, 0.020);
-    /// A 20 inch ride as a cap, without a bell.
-    pub const RIDE: PlateSpec = PlateSpec::bronze(0.5080, 2.50, 0.028);
-    /// A 10 inch splash as a cap, without a bell.
-    pub const SPLASH: PlateSpec = PlateSpec::bronze(0.2540, 0.25, 0.012);
-    /// The upper of a pair of 14 inch hi-hat cymbals as a cap, without a bell.
-    pub const HI_HAT_TOP: PlateSpec = PlateSpec::bronze(0.3556, 0.95, 0.014);
-    /// The lower of a pair of 14 inch hi-hat cymbals as a cap, without a bell.
-    pub const HI_HAT_BOTTOM: PlateSpec = PlateSpec::bronze(0.3556, 1.25, 0.014);
-
-    /// A bronze plate from its diameter (m), mass (kg) and rise (m).
-    pub const fn bronze(diameter: f64, mass: f64, rise: f64) -> PlateSpec {
-        PlateSpec {
-            diameter,
-            mass,
-            rise,
-            bell: None,
-            taper: 1.0,
-            youngs_modulus: BRONZE_YOUNGS_MODULUS,
-            poisson_ratio: BRONZE_POISSON_RATIO,
-            density: BRONZE_DENSITY,
-        }
-    }
-
-    /// The same plate, as wide and as heavy, in another shape.
-    pub const fn shaped(self, shape: &Shape) -> PlateSpec {
-        PlateSpec { rise: shape.rise, bell: Some(shape.bell), taper: shape.taper, ..self }
-    }
-
     /// Whether it is a cap as thick everywhere.
     pub fn is_even(&self) -> bool {
         self.bell.is_none() && self.taper == 1.0
@@ -178,10 +131,11 @@ impl PlateSpec {
 mod tests {
     use super::*;
     use crate::math::quadrature::GaussLegendre;
+    use crate::reference;
 
     #[test]
     fn a_plate_that_cannot_be_is_refused_by_name() {
-        let crash = PlateSpec::CRASH;
+        let crash = reference::cap_crash();
         let refused = |spec: PlateSpec| spec.check().unwrap_err().to_string();
         assert!(refused(PlateSpec { rise: 0.3, ..crash }).starts_with("plate rise (m) is 0.3"));
         assert!(refused(PlateSpec { diameter: f64::NAN, ..crash }).contains("diameter"));
@@ -190,11 +144,8 @@ mod tests {
 
     #[test]
     fn a_taper_leaves_the_mass_and_a_bells_curvatures_are_those_of_its_profile() {
-        let spec = PlateSpec::CRASH.shaped(&Shape {
-            rise: 0.010,
-            bell: Bell { radius: 0.06, rise: 0.02 },
-            taper: 0.5,
-        });
+        let bell = Some(Bell { radius: 0.06, rise: 0.02 });
+        let spec = PlateSpec { rise: 0.010, bell, taper: 0.5, ..reference::cap_crash() };
         let rule = GaussLegendre::unit(20);
         let mean = rule.integrate(|r| 2.0 * r * spec.relative_thickness(r));
         assert!((mean - 1.0).abs() < 1e-12, "{mean}");
@@ -211,14 +162,8 @@ mod tests {
     }
 
     #[test]
-    fn every_plate_of_the_kit_can_be() {
-        for spec in [
-            PlateSpec::CRASH,
-            PlateSpec::RIDE,
-            PlateSpec::SPLASH,
-            PlateSpec::HI_HAT_TOP,
-            PlateSpec::HI_HAT_BOTTOM,
-        ] {
+    fn every_reference_cap_can_be() {
+        for spec in [reference::cap_crash(), reference::cap_ride(), reference::cap_splash()] {
             assert_eq!(spec.check(), Ok(()));
         }
     }

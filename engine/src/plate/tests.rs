@@ -4,10 +4,9 @@ use std::f64::consts::PI;
 
 use super::free_disc::FreeDisc;
 use super::*;
-use crate::cymbal::CymbalSpec;
-use crate::hi_hat::HiHatSpec;
 use crate::listening::{ListeningPoint, Radiator};
 use crate::math::quadrature::GaussLegendre;
+use crate::reference::{self, cap_crash, cap_ride, cap_splash};
 
 fn hz(plate: &PlateModes, m: u32, n: u32) -> f64 {
     let shell = plate.shells.iter().find(|shell| (shell.m, shell.n) == (m, n));
@@ -23,8 +22,8 @@ fn assert_close(got: f64, want: f64, share: f64) {
 }
 
 #[test]
-fn doming_the_crash_raises_its_modes_as_published() {
-    let spec = PlateSpec::CRASH;
+fn doming_the_cap_crash_raises_its_modes_as_published() {
+    let spec = cap_crash();
     let crash = PlateModes::new(&spec, 2000.0).unwrap();
     assert_close(spec.ring_omega() / TAU, 546.0, 0.002);
     for ((m, n), flat, shell) in [((2, 0), 21.8, 22.9), ((3, 0), 50.8, 54.4), ((0, 1), 37.9, 547.4)] {
@@ -35,8 +34,8 @@ fn doming_the_crash_raises_its_modes_as_published() {
 }
 
 #[test]
-fn the_lowest_axisymmetric_mode_of_ride_and_splash_rises_to_the_ring_frequency() {
-    for (spec, flat, shell) in [(PlateSpec::RIDE, 35.3, 489.4), (PlateSpec::SPLASH, 56.5, 841.4)] {
+fn the_lowest_axisymmetric_mode_of_the_cap_ride_and_the_cap_splash_rises_to_the_ring_frequency() {
+    for (spec, flat, shell) in [(cap_ride(), 35.3, 489.4), (cap_splash(), 56.5, 841.4)] {
         assert_close(flat_hz(&spec, 0, 1), flat, 0.005);
         assert_close(hz(&PlateModes::new(&spec, 2000.0).unwrap(), 0, 1), shell, 0.005);
     }
@@ -44,7 +43,7 @@ fn the_lowest_axisymmetric_mode_of_ride_and_splash_rises_to_the_ring_frequency()
 
 #[test]
 fn a_dome_that_vanishes_leaves_the_flat_plate() {
-    let spec = PlateSpec { rise: 1e-7, ..PlateSpec::RIDE };
+    let spec = PlateSpec { rise: 1e-7, ..cap_ride() };
     let plate = PlateModes::new(&spec, 8000.0).unwrap();
     for shell in &plate.shells {
         let flat = plate.flat_of(shell).iter().find(|flat| flat.n == shell.n).unwrap();
@@ -53,8 +52,8 @@ fn a_dome_that_vanishes_leaves_the_flat_plate() {
 }
 
 #[test]
-fn far_above_the_ring_frequency_a_shell_is_a_plate_stiffened_by_it() {
-    let plate = PlateModes::new(&PlateSpec::CRASH, 20_000.0).unwrap();
+fn far_above_the_ring_frequency_a_cap_is_a_plate_stiffened_by_it() {
+    let plate = PlateModes::new(&cap_crash(), 20_000.0).unwrap();
     let ring = plate.spec.ring_omega();
     for shell in plate.shells.iter().filter(|shell| shell.n > 2) {
         let flat = plate.flat_of(shell).iter().find(|flat| flat.n == shell.n).unwrap();
@@ -65,7 +64,7 @@ fn far_above_the_ring_frequency_a_shell_is_a_plate_stiffened_by_it() {
 
 #[test]
 fn more_flat_modes_would_move_no_frequency_by_0_01_percent() {
-    for spec in [PlateSpec::CRASH, PlateSpec::RIDE, PlateSpec::SPLASH] {
+    for spec in [cap_crash(), cap_ride(), cap_splash()] {
         let coarse = PlateModes::new(&spec, 2000.0).unwrap();
         let fine = PlateModes::new(&spec, 24_000.0).unwrap();
         for (a, b) in coarse.shells.iter().zip(&fine.shells) {
@@ -77,7 +76,7 @@ fn more_flat_modes_would_move_no_frequency_by_0_01_percent() {
 
 #[test]
 fn more_functions_of_both_kinds_would_move_a_belled_plates_lowest_frequency_by_0_1_percent_and_others_less() {
-    let spec = PlateSpec { rise: 0.01, bell: Some(BELL), taper: 0.8, ..PlateSpec::CRASH };
+    let spec = reference::cymbal("crash").plate();
     let coarse = PlateModes::new(&spec, 21_000.0).unwrap();
     let fine = PlateModes::new(&spec, 31_500.0).unwrap();
     for shell in &coarse.shells {
@@ -90,8 +89,8 @@ fn more_functions_of_both_kinds_would_move_a_belled_plates_lowest_frequency_by_0
 const BELL: Bell = Bell { radius: 0.055, rise: 0.020 };
 
 #[test]
-fn a_shell_mode_carries_the_circles_of_the_flat_mode_that_dominates_it() {
-    for spec in [PlateSpec::CRASH, PlateSpec::RIDE, PlateSpec::SPLASH] {
+fn a_caps_mode_carries_the_circles_of_the_flat_mode_that_dominates_it() {
+    for spec in [cap_crash(), cap_ride(), cap_splash()] {
         let plate = PlateModes::new(&spec, 20_000.0).unwrap();
         for shell in &plate.shells {
             let share = |&p: &usize| shell.expansion[p].abs();
@@ -104,7 +103,7 @@ fn a_shell_mode_carries_the_circles_of_the_flat_mode_that_dominates_it() {
 
 #[test]
 fn shell_shapes_have_unit_mean_square_and_are_read_from_tables_within_1e_6() {
-    let plate = PlateModes::new(&PlateSpec::SPLASH, 20_000.0).unwrap();
+    let plate = PlateModes::new(&cap_splash(), 20_000.0).unwrap();
     let (max_order, x_max) = plate.table_extent(20_000.0);
     let tables = PlateTables::new(max_order, x_max);
     let rule = GaussLegendre::unit(96);
@@ -123,7 +122,7 @@ fn shell_shapes_have_unit_mean_square_and_are_read_from_tables_within_1e_6() {
 
 #[test]
 fn a_crash_radiates_little_below_coincidence_and_its_whole_area_above() {
-    let plate = PlateModes::new(&PlateSpec::CRASH, 24_000.0).unwrap();
+    let plate = PlateModes::new(&reference::cymbal("crash").plate(), 24_000.0).unwrap();
     let (max_order, x_max) = plate.table_extent(24_000.0);
     let point = ListeningPoint { distance: 0.5, inclination: 0.6, azimuth: 0.0 };
     let disc = FreeDisc::new(plate.spec.radius(), [point; 2], 140);
@@ -149,9 +148,9 @@ fn a_crash_radiates_little_below_coincidence_and_its_whole_area_above() {
 
 #[test]
 fn an_uneven_plate_as_even_as_a_cap_has_the_caps_modes() {
-    let cap = PlateModes::new(&PlateSpec::CRASH, 6000.0).unwrap();
+    let cap = PlateModes::new(&cap_crash(), 6000.0).unwrap();
     // So small a bell is none, but takes the other way.
-    let spec = PlateSpec { bell: Some(Bell { radius: 0.03, rise: 0.0 }), ..PlateSpec::CRASH };
+    let spec = PlateSpec { bell: Some(Bell { radius: 0.03, rise: 0.0 }), ..cap_crash() };
     let uneven = PlateModes::new(&spec, 6000.0).unwrap();
     for shell in &cap.shells {
         let other = uneven.shells.iter().find(|other| (other.m, other.n) == (shell.m, shell.n)).unwrap();
@@ -165,7 +164,7 @@ fn an_uneven_plate_as_even_as_a_cap_has_the_caps_modes() {
 
 #[test]
 fn a_taper_and_a_bell_leave_unit_mean_square_over_the_metal_and_no_rigid_momentum() {
-    let spec = PlateSpec { bell: Some(BELL), taper: 0.5, ..PlateSpec::CRASH };
+    let spec = PlateSpec { bell: Some(BELL), taper: 0.5, ..cap_crash() };
     let plate = PlateModes::new(&spec, 6000.0).unwrap();
     let rule = GaussLegendre::unit(120);
     for m in 0..6 {
@@ -190,10 +189,10 @@ fn a_taper_and_a_bell_leave_unit_mean_square_over_the_metal_and_no_rigid_momentu
 
 #[test]
 fn no_order_of_the_kits_plates_and_no_circle_is_missing() {
-    let cymbals = [CymbalSpec::crash(), CymbalSpec::ride(), CymbalSpec::splash()];
-    let hats = HiHatSpec::default();
+    let cymbals = ["crash", "ride", "splash"].map(reference::cymbal);
+    let hats = reference::hi_hat();
     for cymbal in cymbals.into_iter().chain([hats.top, hats.bottom]) {
-        let plate = PlateModes::new(&cymbal.shaped().plate, 21_000.0).unwrap();
+        let plate = PlateModes::new(&cymbal.plate(), 21_000.0).unwrap();
         let highest = plate.shells.iter().map(|shell| shell.m).max().unwrap();
         assert!(highest >= 40, "{highest}");
         for m in 0..=highest {
@@ -207,7 +206,7 @@ fn no_order_of_the_kits_plates_and_no_circle_is_missing() {
 
 #[test]
 fn waves_along_a_thin_rim_are_slower() {
-    let spec = PlateSpec { rise: 0.0, ..PlateSpec::CRASH };
+    let spec = PlateSpec { rise: 0.0, ..cap_crash() };
     let even = PlateModes::new(&spec, 2000.0).unwrap();
     let tapered = PlateModes::new(&PlateSpec { taper: 0.5, ..spec }, 2000.0).unwrap();
     // They are as fast as the rim is thick, 0.75 of the mean, and reach inward less the more nodes they have.
@@ -217,8 +216,8 @@ fn waves_along_a_thin_rim_are_slower() {
 
 #[test]
 fn a_bell_holds_what_bends_the_middle() {
-    let cap = PlateModes::new(&PlateSpec::CRASH, 8000.0).unwrap();
-    let belled = PlateModes::new(&PlateSpec { bell: Some(BELL), ..PlateSpec::CRASH }, 8000.0).unwrap();
+    let cap = PlateModes::new(&cap_crash(), 8000.0).unwrap();
+    let belled = PlateModes::new(&PlateSpec { bell: Some(BELL), ..cap_crash() }, 8000.0).unwrap();
     for n in 4..8 {
         let ratio = hz(&belled, 0, n) / hz(&cap, 0, n);
         assert!((1.2..1.6).contains(&ratio), "(0, {n}): {ratio}");
@@ -229,6 +228,6 @@ fn a_bell_holds_what_bends_the_middle() {
 
 #[test]
 fn a_limit_out_of_range_is_refused() {
-    let refused = PlateModes::new(&PlateSpec::CRASH, 10.0).unwrap_err().to_string();
+    let refused = PlateModes::new(&cap_crash(), 10.0).unwrap_err().to_string();
     assert!(refused.starts_with("highest mode (Hz) is 10"), "{refused}");
 }

@@ -36,7 +36,7 @@ use crate::math::bessel::{ITable, JTable};
 use crate::math::quadrature::{self, GaussLegendre};
 use crate::math::{eigen, jacobi};
 
-/// Degrees of stress functions over the largest wave number of the modes: so much relatively, and so many. *Measured*: half as
+/// Degrees of stress functions over the largest wave number of the modes: so much relatively, and so many. *Converged*: half as
 /// many functions again of both kinds move a crash's (0,1) by 0.1 % and no other of its frequencies by 0.03 %.
 const STRESS_DEGREE: (f64, f64) = (1.2, 16.0);
 

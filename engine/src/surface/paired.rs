@@ -4,11 +4,12 @@ use crate::contact::ContactStep;
 use crate::hi_hat::POINTS;
 use crate::hi_hat::foot::Foot;
 use crate::hi_hat::pair::{Pair, Settled};
+use crate::modal::simd::MAX_RUN;
 use crate::modal::{Heard, Mode};
 use crate::potential::NonlinearForce;
 
 use super::together::{self, Compliances, Meeting};
-use super::{STRIKER_PLACES, Surface};
+use super::{MAX_STRIKERS, STRIKER_PLACES, Surface};
 
 /// Contacts of strikers and of rims.
 const MOST: usize = STRIKER_PLACES + POINTS;
@@ -157,10 +158,13 @@ impl Surface {
 
     /// Looks after what is underneath once a block; whether all is finite.
     pub(super) fn settle_pair(&mut self, strikers: bool) -> bool {
-        let Surface { pair: Some(pair), body, beyond, .. } = self else {
+        let Surface { pair: Some(pair), body, beyond, touchers, dt, .. } = self else {
             return true;
         };
-        match pair.settle(body, strikers, || body.energy()) {
+        let about = touchers[..MAX_STRIKERS].iter().filter(|striker| striker.present);
+        let fastest = about.map(|striker| striker.speed).fold(0.0, f64::max);
+        let way = strikers.then_some(fastest * MAX_RUN as f64 * *dt);
+        match pair.settle(body, way, || body.energy()) {
             Settled::Moving => true,
             Settled::Parked => {
                 body.reset();

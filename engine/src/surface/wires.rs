@@ -9,7 +9,13 @@
 //!
 //! Neglected: motion of the strands against each other, their own bending waves, their weight.
 
+use std::ops::RangeInclusive;
+
+use serde::{Deserialize, Serialize};
+
 use crate::contact::{ContactLaw, Material, Tip};
+use crate::fitted;
+use crate::numbers::{Numbers, Visitor};
 use crate::shapes::ShapeTable;
 use crate::snapshot::WireSnapshot;
 
@@ -32,20 +38,44 @@ pub const PLACES: [[f64; 2]; GROUPS] = [
     [0.56, 0.105],
 ];
 
-/// Least, default and greatest force of the strainer on all groups, N.
-pub const PRELOAD: (f64, f64, f64) = (0.03, 0.15, 1.5);
+/// Least and greatest force of the strainer on all groups, N.
+pub const PRELOAD: RangeInclusive<f64> = 0.03..=1.5;
 
-/// Mass of all groups, kg.
-const MASS: f64 = 6e-3;
-/// Stiffness (N/m) and quality factor of a group's spring.
-const STIFFNESS: f64 = 150.0;
-const QUALITY: f64 = 4.0;
-/// Radius of a wire, m, and restitution.
-const RADIUS: f64 = 0.8e-3;
-const RESTITUTION: f64 = 0.35;
+/// A description of snare wires.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WiresSpec {
+    /// Mass of all strands, kg, 0.001 to 0.03.
+    #[serde(rename = "mass_kg")]
+    pub mass: f64,
+    /// Stiffness of the spring that a group of strands is on, N/m, 10 to 5000.
+    #[serde(rename = "stiffness_n_m")]
+    pub stiffness: f64,
+    /// Quality factor of that spring, 0.6 to 100.
+    pub q: f64,
+    /// Radius of a wire, m, 0.0001 to 0.003.
+    #[serde(rename = "wire_radius_m")]
+    pub radius: f64,
+    /// What a wire is made of.
+    pub material: Material,
+    /// Restitution of a landing, a ratio of speeds, 0.05 to 0.95.
+    pub restitution: f64,
+}
+
+impl Numbers for WiresSpec {
+    fn visit(&mut self, visitor: &mut dyn Visitor) {
+        visitor.number("mass_kg", &mut self.mass, 1e-3..=0.03);
+        visitor.number("stiffness_n_m", &mut self.stiffness, 10.0..=5000.0);
+        visitor.number("q", &mut self.q, 0.6..=100.0);
+        visitor.number("wire_radius_m", &mut self.radius, 1e-4..=3e-3);
+        self.material.visit_part("material", visitor);
+        visitor.number("restitution", &mut self.restitution, 0.05..=0.95);
+    }
+}
+
 /// Radius of the disc that a group falls on, m: what it moves of the head at once decides how hard a landing is.
 /// *By ear*, between the 3 cm of a disc as large as a group's share of the wires and the 7 cm of its length.
-pub const PATCH: f64 = 0.04;
+pub const PATCH: f64 = fitted::WIRE_PATCH;
 /// Radius of the disc on which a single turn of a strand strikes, m: as fine as that are the waves that landings
 /// set going. *Derived*: some wire radii.
 pub const TURN: f64 = 0.002;
@@ -69,6 +99,7 @@ pub struct SnareWires {
     pub law: ContactLaw,
     /// Samples since the latest stroke.
     pub age: u64,
+    spec: WiresSpec,
     landings: u32,
     last_lift: u64,
     dt: f64,
@@ -76,17 +107,28 @@ pub struct SnareWires {
 
 impl SnareWires {
     /// Wires against a head of that material, at rest; a sample lasts `dt` s.
-    pub fn new(head: &Material, lossless: bool, dt: f64) -> SnareWires {
-        let tip = Tip::Solid { material: Material::STEEL, radius: RADIUS };
-        let law = ContactLaw::new(&tip, head, if lossless { 1.0 } else { RESTITUTION });
-        SnareWires { on: true, parked: true, preload: PRELOAD.1, law, age: 0, landings: 0, last_lift: 0, dt }
+    pub fn new(spec: &WiresSpec, head: &Material, lossless: bool, dt: f64) -> SnareWires {
+        let tip = Tip::Solid { material: spec.material, radius: spec.radius };
+        let law = ContactLaw::new(&tip, head, if lossless { 1.0 } else { spec.restitution });
+        SnareWires {
+            on: true,
+            parked: true,
+            preload: *PRELOAD.start(),
+            law,
+            age: 0,
+            spec: *spec,
+            landings: 0,
+            last_lift: 0,
+            dt,
+        }
     }
 
     /// A group on its spring.
     pub fn group(&self, lossless: bool) -> Oscillator {
-        let mass = MASS / GROUPS as f64;
-        let omega = (STIFFNESS / mass).sqrt();
-        let sigma = if lossless { 0.0 } else { omega / (2.0 * QUALITY) };
+        let WiresSpec { mass, stiffness, q, .. } = self.spec;
+        let mass = mass / GROUPS as f64;
+        let omega = (stiffness / mass).sqrt();
+        let sigma = if lossless { 0.0 } else { omega / (2.0 * q) };
         Oscillator::sprung(mass, omega, sigma, self.dt)
     }
 
@@ -123,8 +165,8 @@ impl SnareWires {
 
 impl Surface {
     /// Gives the drum snare wires; [`lay_wires`](Self::lay_wires) tells where. Allocates.
-    pub fn set_wires(&mut self, head: &Material) {
-        let wires = SnareWires::new(head, self.lossless, self.dt);
+    pub fn set_wires(&mut self, spec: &WiresSpec, head: &Material) {
+        let wires = SnareWires::new(spec, head, self.lossless, self.dt);
         let (preload, seat) = wires.seat();
         for _ in PLACES {
             let mut point = TouchPoint::absent(self.body.len(), self.dt);
@@ -186,7 +228,7 @@ impl Surface {
         let Some(wires) = &mut self.wires else {
             return;
         };
-        wires.preload = preload.clamp(PRELOAD.0, PRELOAD.2);
+        wires.preload = preload.clamp(*PRELOAD.start(), *PRELOAD.end());
         let (share, seat) = wires.seat();
         for point in &mut self.points[FIRST_WIRE..] {
             // What is measured from equilibrium stays; equilibrium itself moves.

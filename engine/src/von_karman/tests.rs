@@ -3,10 +3,10 @@ use std::f64::consts::TAU;
 use super::oracle::{Oracle, wash};
 use super::reference::{Dense, Modes};
 use super::*;
-use crate::cymbal::CymbalSpec;
 use crate::modal::{ModalBody, Mode, Pickup};
 use crate::plate::PlateSpec;
 use crate::potential::NonlinearForce;
+use crate::reference::{cap_crash, cap_ride, cap_splash, cymbal};
 
 fn built(spec: &PlateSpec) -> (PlateModes, PlateTables) {
     let plate = PlateModes::new(spec, 8000.0).unwrap();
@@ -59,16 +59,16 @@ fn finest(plate: &PlateModes, count: usize) -> f64 {
 
 #[test]
 fn of_random_states_energy_and_gradient_are_those_of_direct_quadrature_of_the_bracket() {
-    let belled = |spec: CymbalSpec| spec.shaped().plate;
+    let played = |name| cymbal(name).plate();
     // Of plates with bells the same number of radii leaves more: see `RADII`.
     for (spec, hz, energies, gradients) in [
-        (PlateSpec::CRASH, 2000.0, 3e-4, 1e-3),
-        (PlateSpec::RIDE, 1000.0, 3e-4, 1e-3),
-        (PlateSpec::SPLASH, 2000.0, 3e-4, 1e-3),
-        (belled(CymbalSpec::crash()), 2000.0, 2e-2, 6e-2),
-        (belled(CymbalSpec::ride()), 2000.0, 2e-2, 6e-2),
-        (belled(CymbalSpec::splash()), 2000.0, 2e-2, 6e-2),
-        (belled(CymbalSpec::crash()), 4000.0, 1e-5, 1e-4),
+        (cap_crash(), 2000.0, 3e-4, 1e-3),
+        (cap_ride(), 1000.0, 3e-4, 1e-3),
+        (cap_splash(), 2000.0, 3e-4, 1e-3),
+        (played("crash"), 2000.0, 2e-2, 6e-2),
+        (played("ride"), 2000.0, 2e-2, 6e-2),
+        (played("splash"), 2000.0, 2e-2, 6e-2),
+        (played("crash"), 4000.0, 1e-5, 1e-4),
     ] {
         let (plate, tables) = built(&spec);
         let count = below(&plate, hz);
@@ -93,7 +93,7 @@ fn of_random_states_energy_and_gradient_are_those_of_direct_quadrature_of_the_br
 
 #[test]
 fn of_random_states_the_gradient_is_the_energys_finite_differences_to_1e_6() {
-    let (plate, tables) = built(&PlateSpec::CRASH);
+    let (plate, tables) = built(&cap_crash());
     let count = below(&plate, 700.0);
     let oracle = Oracle::new(&plate, &tables, count, 14.0, (24, 48));
     let q = random_state(&plate, count, 3e-4, 5);
@@ -117,11 +117,11 @@ fn of_random_states_the_gradient_is_the_energys_finite_differences_to_1e_6() {
     }
 }
 
-/// A crash's lowest modes by the scheme of the engine, at one rate, and by the reference at another.
+/// The cap crash's lowest modes by the scheme of the engine, at one rate, and by the reference at another.
 ///
 /// Returns displacements after `seconds` of both, and the reference's change of energy, relative.
 fn both_schemes(size: f64, seconds: f64, rate: f64, stride: u32) -> (Vec<f64>, Vec<f64>, f64) {
-    let (plate, tables) = built(&PlateSpec::CRASH);
+    let (plate, tables) = built(&cap_crash());
     let count = below(&plate, 570.0);
     let shells = &plate.shells[..count];
     let pairs: Vec<CoupledPair> = pairs(&plate, count).0;
@@ -180,7 +180,7 @@ fn apart(got: &[f64], want: &[f64]) -> f64 {
 }
 
 #[test]
-fn the_motion_is_that_of_an_implicit_energy_exact_scheme_at_four_times_the_rate() {
+fn the_cap_crashs_motion_is_that_of_an_implicit_energy_exact_scheme_at_four_times_the_rate() {
     // Every mode bent by this over its order, all at once; the plate is 1 mm thick.
     for (size, tolerance) in [(1e-5, 1e-4), (1e-4, 2e-3), (5e-4, 5e-2)] {
         let error = |rate, stride| {

@@ -35,7 +35,7 @@ pub struct History {
 }
 
 impl History {
-    /// Takes note of a gesture before it is passed on; `value` is what the parameter is now, a share of its range.
+    /// Takes note of a gesture before it is passed on; `value` is what the parameter is now, plain.
     pub fn note(&mut self, index: usize, gesture: Gesture, value: f32) {
         match gesture {
             Gesture::Begin => self.held.push(Edit { index, from: value, to: value }),
@@ -50,6 +50,11 @@ impl History {
                 }
             }
         }
+    }
+
+    /// Forgets every step and the other setting: they were about the pieces of another kit.
+    pub fn forget(&mut self) {
+        *self = History { held: std::mem::take(&mut self.held), ..History::default() };
     }
 
     /// Ends a frame: what it has brought is a step.
@@ -107,7 +112,7 @@ impl History {
     }
 }
 
-/// Moves a parameter to a share of its range in one gesture.
+/// Moves a parameter to a plain value in one gesture.
 pub fn put(index: usize, value: f32, set: &mut dyn FnMut(usize, Gesture)) {
     for gesture in [Gesture::Begin, Gesture::Set(value), Gesture::End] {
         set(index, gesture);
@@ -149,6 +154,20 @@ mod tests {
         history.undo(&mut |_, gesture| undone += usize::from(gesture == Gesture::Set(0.0)));
         assert_eq!(undone, 5);
         assert!(!history.can_undo());
+    }
+
+    #[test]
+    fn what_is_forgotten_is_not_undone_and_what_is_held_is_still_let_go() {
+        let mut history = History::default();
+        put(0, 2.0, &mut |index, gesture| history.note(index, gesture, 0.0));
+        history.end_frame();
+        history.note(1, Gesture::Begin, 0.0);
+        history.note(1, Gesture::Set(1.0), 0.0);
+        history.forget();
+        assert!(!history.can_undo());
+        history.note(1, Gesture::End, 1.0);
+        history.end_frame();
+        assert!(history.can_undo());
     }
 
     #[test]

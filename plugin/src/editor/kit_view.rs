@@ -7,11 +7,14 @@ use std::sync::Arc;
 
 use egui::{Color32, PointerButton, Pos2, Rect, Sense, Shape, Ui, vec2};
 use overhear_engine::kit::Microphone;
-use overhear_engine::piece::PieceId;
+use overhear_engine::kit_spec::KitSpec;
+use overhear_engine::plate::PlateSpec;
+use overhear_engine::slot::{SLOTS, Slot};
 use overhear_engine::snapshot::{FieldShapes, KitSnapshot, PieceSnapshot, StrikeSnapshot};
 
 use super::field::{self, Magnifier, Refined};
 use super::theme::{self, Palette};
+use crate::kit_document::KitDocument;
 use crate::parameters::Stand;
 
 pub mod bodies;
@@ -26,21 +29,18 @@ pub mod surfaces;
 mod target;
 pub mod vector;
 
-use bodies::{Body, Frame};
-use camera::{Camera, Eye};
+use bodies::{Body, Frame, Kind};
+use camera::{Aim, Camera, Eye};
 use microphones::{Held, Shown};
 use scene::Scene;
 use sticks::Replay;
 use surfaces::{Motion, Tint};
 pub use target::{Target, stroke_near};
 
-/// Pieces of the kit.
-const PIECES: usize = PieceId::KIT.len();
-
 /// Room at the right of a picture that something else lies over, points.
 const BESIDE: f32 = 44.0;
 
-/// Where the kick's beater rests, m from the head.
+/// Where a bass drum's beater rests, m from the head.
 const READY: f32 = 0.09;
 
 /// Point of view from which every microphone is seen: turn and height, rad, and distance, m.
@@ -55,10 +55,12 @@ const CLOSED: f32 = 0.004;
 /// What the kit is drawn from.
 pub struct Seen<'a> {
     pub snapshot: &'a KitSnapshot,
-    /// A piece's mode shapes once it is built, by its slot.
-    pub shapes: &'a dyn Fn(usize) -> Option<Arc<FieldShapes>>,
-    /// Slot of the piece that the panels are about.
-    pub selected: usize,
+    /// The kit that the view was [made for](KitView::adopt), and its notes.
+    pub document: &'a KitDocument,
+    /// A piece's mode shapes once it is built.
+    pub shapes: &'a dyn Fn(Slot) -> Option<Arc<FieldShapes>>,
+    /// The piece that the panels are about.
+    pub selected: Slot,
     /// A parameter's value in its unit, by its index, if microphones are shown.
     pub microphones: Option<&'a dyn Fn(usize) -> Option<f32>>,
 }
@@ -75,7 +77,7 @@ struct Now {
 
 /// A piece and the latest stroke on it.
 struct Struck<'a> {
-    slot: usize,
+    slot: Slot,
     body: Body,
     strike: &'a StrikeSnapshot,
     heights: &'a Refined,
@@ -84,8 +86,8 @@ struct Struck<'a> {
 /// What a hand did.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Done {
-    /// The piece that was pressed on, by its slot.
-    pub chosen: Option<usize>,
+    /// The piece that was pressed on.
+    pub chosen: Option<Slot>,
     /// Where it was struck, if it can be struck there.
     pub struck: Option<Target>,
     /// What it did with a pair of microphones.
@@ -105,13 +107,17 @@ pub enum Moved {
 
 /// The view of one window.
 pub struct KitView {
-    bodies: [Body; PIECES],
+    /// `[slot]`, as many as the kit has pieces.
+    bodies: Vec<Body>,
+    aim: Aim,
     pub camera: Camera,
     /// The point of view from which the microphones are seen.
     wide: Camera,
     pub tint: Tint,
-    magnifiers: [Magnifier; PIECES],
-    replays: [Replay; PIECES],
+    /// `[slot]`.
+    magnifiers: [Magnifier; SLOTS],
+    /// `[slot]`.
+    replays: [Replay; SLOTS],
     /// What is under the pointer.
     hovered: Option<Target>,
     /// The microphone in the hand.
@@ -121,10 +127,12 @@ pub struct KitView {
 }
 
 impl KitView {
-    /// The kit from a point of view.
-    pub fn seen_from(camera: Camera) -> KitView {
+    /// A kit from a point of view.
+    pub fn seen_from(camera: Camera, kit: &KitSpec) -> KitView {
+        let bodies = Body::all(kit);
         KitView {
-            bodies: Body::kit(),
+            aim: Aim::of(&bodies),
+            bodies,
             camera,
             wide: Camera::of(WIDE),
             tint: Tint::default(),
@@ -136,26 +144,36 @@ impl KitView {
         }
     }
 
+    /// Shows another kit from the same point of view. Strokes that the snapshot tells of are old news.
+    pub fn adopt(&mut self, kit: &KitSpec, snapshot: &KitSnapshot) {
+        self.bodies = Body::all(kit);
+        self.aim = Aim::of(&self.bodies);
+        self.magnifiers = Default::default();
+        self.replays = Default::default();
+        self.hovered = None;
+        self.forget_strokes(snapshot);
+    }
+
     /// Draws the kit into `rect` and says what a hand did with it.
     pub fn show(&mut self, ui: &mut Ui, rect: Rect, seen: &Seen<'_>) -> Done {
         let palette = theme::of(ui);
         let wide = seen.microphones.is_some();
-        let microphones =
-            seen.microphones.map(|value| microphones::all(&self.bodies, value, palette)).unwrap_or_default();
+        let all = |value| microphones::all(&seen.document.kit, &self.bodies, value, palette);
+        let microphones = seen.microphones.map(all).unwrap_or_default();
         let done = self.answer(ui, rect, &microphones);
         let now = ui.input(|input| Now { time: input.time, elapsed: input.unstable_dt, palette });
         let eye = self.eye(rect, wide);
         let mut scene = Scene::new(eye);
         let painter = ui.painter_at(rect);
         painter.add(backdrop(rect, palette));
-        painter.add(stands::floor(&scene, &self.bodies, palette));
-        for slot in 0..PIECES {
-            self.piece(&mut scene, slot, seen, now);
+        painter.add(stands::floor(&scene, &self.bodies, &self.aim, palette));
+        for (slot, body) in Slot::ALL.into_iter().zip(self.bodies.clone()) {
+            self.piece(&mut scene, (slot, body), seen, now);
         }
         microphones::draw(&mut scene, &microphones, palette);
         painter.add(scene.finish());
         microphones::names(&painter, &eye, &microphones, palette);
-        self.caption(ui, rect, palette);
+        self.caption(ui, rect, seen.document, palette);
         done
     }
 
@@ -163,16 +181,20 @@ impl KitView {
     pub fn eye(&self, rect: Rect, wide: bool) -> Eye {
         // The strip of speeds lies over the right.
         let free = Rect::from_min_max(rect.min, rect.max - vec2(BESIDE.min(0.5 * rect.width()), 0.0));
-        if wide { self.wide.through(free) } else { self.camera.through(free) }
+        if wide {
+            self.wide.through(free, &self.aim.in_the_room())
+        } else {
+            self.camera.through(free, &self.aim)
+        }
     }
 
     fn camera_mut(&mut self, wide: bool) -> &mut Camera {
         if wide { &mut self.wide } else { &mut self.camera }
     }
 
-    /// The kit's bodies, where they stand by default.
+    /// The kit's bodies where they stand.
     #[cfg(test)]
-    pub fn bodies(&self) -> &[Body; PIECES] {
+    pub fn bodies(&self) -> &[Body] {
         &self.bodies
     }
 
@@ -250,26 +272,26 @@ impl KitView {
         Some(Moved::Dragged(held.pair, held.dragged(eye, response.drag_delta(), deep)))
     }
 
-    fn piece(&mut self, scene: &mut Scene, slot: usize, seen: &Seen<'_>, now: Now) {
-        let state = &seen.snapshot.pieces[slot];
+    fn piece(&mut self, scene: &mut Scene, (slot, mut body): (Slot, Body), seen: &Seen<'_>, now: Now) {
+        let state = &seen.snapshot.pieces[slot.index()];
         let palette = now.palette;
-        let mut body = self.bodies[slot];
-        stands::stand(scene, &body, palette);
-        if body.piece == PieceId::HiHat {
-            close(scene, &mut body, state, palette);
+        stands::stand(scene, &body, &self.bodies, palette);
+        if let Kind::HiHat { bottom, .. } = body.kind {
+            close(scene, &mut body, bottom, state, palette);
         }
-        let accent = palette.pieces[slot];
+        let accent = palette.pieces[slot.index()];
         let heights = self.heights(slot, &body, seen, now.elapsed);
-        self.replays[slot].follow(&state.strike, now.time);
+        let replay = &mut self.replays[slot.index()];
+        replay.follow(&state.strike, now.time);
+        let since = replay.since_touch(now.time);
         let hovered = self.hovered.is_some_and(|target| target.slot == slot);
-        let since = self.replays[slot].since_touch(now.time);
         let flash = if since < 0.0 { 0.0 } else { (1.0 - since / 0.25).max(0.0) as f32 };
         let glow = flash.max(if hovered { 0.6 } else { 0.0 });
         let motion = Motion { heights: &heights, tint: self.tint, accent, glow };
         let ring = if hovered || seen.selected == slot { accent } else { Color32::TRANSPARENT };
         shells::shell(scene, &body, ring, palette);
         surfaces::moving(scene, &body, &motion, palette);
-        if ring != Color32::TRANSPARENT && !body.piece.is_drum() {
+        if ring != Color32::TRANSPARENT && body.plate().is_some() {
             shells::circle(scene, &body.frame, 1.005 * body.radius, 0.0, 2.0, ring);
         }
         let struck = Struck { slot, body, strike: &state.strike, heights: &heights };
@@ -277,19 +299,20 @@ impl KitView {
     }
 
     /// Heights of a surface as they are drawn, m.
-    fn heights(&mut self, slot: usize, body: &Body, seen: &Seen<'_>, elapsed: f32) -> Refined {
-        let modes = &seen.snapshot.pieces[slot].displacement;
+    fn heights(&mut self, slot: Slot, body: &Body, seen: &Seen<'_>, elapsed: f32) -> Refined {
+        let modes = &seen.snapshot.pieces[slot.index()].displacement;
         let field = (seen.shapes)(slot).map(|shapes| field::displacement(&shapes, modes));
         let field = field.unwrap_or_else(|| vec![0.0; overhear_engine::snapshot::FIELD_POINTS]);
-        self.magnifiers[slot].follow(&field, elapsed);
-        let factor = self.magnifiers[slot].factor(body.tallest());
+        let magnifier = &mut self.magnifiers[slot.index()];
+        magnifier.follow(&field, elapsed);
+        let factor = magnifier.factor(body.tallest());
         field::refined(&field.iter().map(|z| z * factor).collect::<Vec<_>>())
     }
 
     /// The stick of the latest stroke and the mark it leaves.
     fn stroke(&self, scene: &mut Scene, struck: &Struck<'_>, now: Now) {
         let Struck { slot, body, strike, heights } = struck;
-        let replay = &self.replays[*slot];
+        let replay = &self.replays[slot.index()];
         if !(strike.radius.is_finite() && strike.angle.is_finite()) {
             return;
         }
@@ -297,13 +320,13 @@ impl KitView {
         let (x, y) = (strike.radius * sin, -strike.radius * cos);
         let landing = body.surface(x, y, field::height_at(heights, x, y));
         // A beater rests where it is ready.
-        let ready = (body.piece == PieceId::Kick).then_some(READY);
+        let ready = body.has_beater().then_some(READY);
         if let Some(height) = replay.height(strike, now.time).or(ready) {
             sticks::draw(scene, body, landing, height, now.palette);
         }
         let age = (replay.since_touch(now.time) / MARK_TIME) as f32;
         if strike.count > 0 && (0.0..1.0).contains(&age) {
-            let colour = now.palette.pieces[*slot].gamma_multiply(1.0 - age);
+            let colour = now.palette.pieces[slot.index()].gamma_multiply(1.0 - age);
             let frame = Frame { centre: landing, ..body.frame };
             let radius = (0.008 + 0.6 * age * body.radius).min(body.radius);
             shells::circle(scene, &frame, radius, 0.004, 2.0, colour);
@@ -311,11 +334,11 @@ impl KitView {
     }
 
     /// Names what is under the pointer.
-    fn caption(&self, ui: &Ui, rect: Rect, palette: &Palette) {
+    fn caption(&self, ui: &Ui, rect: Rect, document: &KitDocument, palette: &Palette) {
         let Some((target, at)) = self.hovered.zip(ui.input(|input| input.pointer.hover_pos())) else {
             return;
         };
-        let text = target.text();
+        let text = target.text(document);
         let font = theme::caption();
         let galley = ui.painter().layout_no_wrap(text, font, palette.text);
         let size = galley.size() + vec2(16.0, 8.0);
@@ -325,18 +348,19 @@ impl KitView {
         let painter = ui.painter_at(rect);
         painter.rect_filled(frame, 4.0, palette.panel.gamma_multiply(0.94));
         let edge = Rect::from_min_size(frame.min, vec2(3.0, size.y));
-        painter.rect_filled(edge, 2.0, palette.pieces[target.slot]);
+        painter.rect_filled(edge, 2.0, palette.pieces[target.slot.index()]);
         painter.galley(frame.min + vec2(9.0, 4.0), galley, palette.text);
     }
 }
 
-/// Brings the upper cymbal of the hi-hat to where the pedal has it, and draws the lower.
-fn close(scene: &mut Scene, body: &mut Body, state: &PieceSnapshot, palette: &Palette) {
+/// Brings the upper cymbal of a hi-hat to where the pedal has it, and draws the lower, upside down.
+fn close(scene: &mut Scene, body: &mut Body, bottom: PlateSpec, state: &PieceSnapshot, palette: &Palette) {
     let gap = overhear_engine::hi_hat::GAP as f32;
     let down = state.rims.pedal.clamp(0.0, gap);
-    let place = body.frame.at(0.0, 0.0, -gap - CLOSED);
-    let normal = vector::scale(body.frame.normal, -1.0);
-    surfaces::still(scene, body, Frame { centre: place, normal, ..body.frame }, palette);
+    let centre = body.frame.at(0.0, 0.0, -gap - CLOSED);
+    let frame = Frame { centre, normal: vector::scale(body.frame.normal, -1.0), ..body.frame };
+    let radius = bottom.radius() as f32;
+    surfaces::still(scene, &Body { frame, radius, kind: Kind::Cymbal { plate: bottom }, ..*body }, palette);
     body.frame.centre = body.frame.at(0.0, 0.0, -down);
 }
 

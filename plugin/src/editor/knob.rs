@@ -1,11 +1,12 @@
 //! A knob for one parameter: drag up or down, Shift for fine, wheel, double click to reset, click
 //! on the value to type one.
 
-use egui::{Align2, Color32, Id, Key, Pos2, Rect, Sense, Stroke, Ui, Vec2, pos2, vec2};
-use nice_plug::prelude::*;
+use egui::text::LayoutJob;
+use egui::{Align, Align2, Color32, Id, Key, Pos2, Rect, Sense, Stroke, Ui, Vec2, pos2, vec2};
+use nice_plug::prelude::Param;
 
 use super::theme;
-use crate::parameters::Parameter;
+use super::values::Item;
 
 /// What a hand does with a parameter; hosts record from `Begin` to `End`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,75 +32,82 @@ const FINE: f32 = 0.1;
 const SWEEP: f32 = 2.4;
 
 /// Shows a parameter as a knob in `rect` and reports what was done with it.
-pub fn knob(
-    ui: &mut Ui,
-    rect: Rect,
-    parameter: &Parameter,
-    value: &FloatParam,
-    accent: Color32,
-    mut set: impl FnMut(Gesture),
-) {
-    let palette = theme::of(ui);
-    let id = ui.scope_id().with(("knob", value.name()));
+pub fn knob(ui: &mut Ui, rect: Rect, item: &Item<'_>, accent: Color32, set: &mut dyn FnMut(usize, Gesture)) {
+    let id = ui.scope_id().with(("knob", item.index));
     let dial = Rect::from_min_max(rect.min + vec2(0.0, LINE), rect.max - vec2(0.0, LINE));
     let radius = (dial.width().min(dial.height()) / 2.0 - 3.0).max(4.0);
     let hit = Rect::from_center_size(dial.center(), Vec2::splat(2.0 * radius + 6.0));
     let response = ui.interact(hit, id, Sense::click_and_drag());
-    let mut place = value.unmodulated_normalized_value();
+    let mut place = item.value.unmodulated_normalized_value();
 
     // The place under the hand is kept apart from the value, which moves in steps: slow drags
     // would otherwise be rounded away.
     if response.drag_started() {
-        set(Gesture::Begin);
+        set(item.index, Gesture::Begin);
         ui.data_mut(|data| data.insert_temp(id, place));
     }
     if response.dragged() {
         let fine = if ui.input(|input| input.modifiers.shift) { FINE } else { 1.0 };
         let held = ui.data(|data| data.get_temp(id)).unwrap_or(place);
         place = (held - response.drag_delta().y * TRAVEL * fine).clamp(0.0, 1.0);
+        // Where the value ends the hand turns back at once.
+        let (low, high) = item.limits();
+        place = place.clamp(item.place(low), item.place(high));
         ui.data_mut(|data| data.insert_temp(id, place));
-        set(Gesture::Set(value.preview_plain(place)));
+        set(item.index, Gesture::Set(item.at(place)));
     }
     if response.drag_stopped() {
-        set(Gesture::End);
+        set(item.index, Gesture::End);
     }
     if response.double_clicked() {
-        move_once(&mut set, value.default_plain_value());
+        item.put(item.usual(), set);
     }
     if response.hovered() && !response.dragged() {
         let (wheel, fine) = ui.input(|input| (input.smooth_scroll_delta().y, input.modifiers.shift));
         if wheel != 0.0 {
             let step = wheel * TRAVEL * if fine { FINE } else { 0.5 };
             place = (place + step).clamp(0.0, 1.0);
-            move_once(&mut set, value.preview_plain(place));
+            item.put(item.at(place), set);
         }
     }
 
     let active = response.hovered() || response.dragged();
-    draw(ui, dial.center(), radius, [place, value.default_normalized_value()], accent, active);
+    draw(ui, dial.center(), radius, [place, item.place(item.usual())], accent, active);
     response.on_hover_ui(|ui| {
-        ui.label(tip(parameter));
+        ui.label(tip(item));
     });
-    let name_at = pos2(rect.center().x, rect.min.y + LINE / 2.0);
-    ui.painter().text(name_at, Align2::CENTER_CENTER, parameter.label, theme::caption(), palette.faint);
+    label(ui, rect, item.parameter.label);
     let value_rect = Rect::from_min_max(pos2(rect.min.x, rect.max.y - LINE), pos2(rect.max.x, rect.max.y));
-    value_text(ui, value_rect, id.with("value"), value, &mut set);
+    value_text(ui, value_rect, id.with("value"), item, set);
 }
 
-fn move_once(set: &mut impl FnMut(Gesture), value: f32) {
-    set(Gesture::Begin);
-    set(Gesture::Set(value));
-    set(Gesture::End);
+/// The name above a knob; a long one small and on two lines.
+fn label(ui: &Ui, cell: Rect, text: &str) {
+    let colour = theme::of(ui).faint;
+    let painter = ui.painter();
+    let one = painter.layout_no_wrap(text.to_owned(), theme::caption(), colour);
+    let galley = if one.size().x <= cell.width() {
+        one
+    } else {
+        let mut job = LayoutJob::simple(text.to_owned(), theme::small(), colour, cell.width());
+        job.halign = Align::Center;
+        painter.layout_job(job)
+    };
+    // What is laid out about its middle has its place there.
+    let left = if galley.job.halign == Align::Center { 0.0 } else { 0.5 * galley.size().x };
+    let top = cell.min.y + 0.5 * (LINE - galley.size().y);
+    painter.galley(pos2(cell.center().x - left, top), galley, colour);
 }
 
 /// What a parameter is, its unit and range, and what hands can do.
-fn tip(parameter: &Parameter) -> String {
-    let Parameter { group, label, unit, .. } = parameter;
-    let [low, high, usual] = [parameter.min, parameter.max, parameter.default].map(|x| parameter.text(x));
-    let range = if parameter.choices.is_empty() {
-        format!("{low} to {high}{unit}, usually {usual}{unit}")
+fn tip(item: &Item<'_>) -> String {
+    let (group, label, choices) = (item.group, item.parameter.label, item.parameter.choices);
+    let range = if choices.is_empty() {
+        let (low, high) = item.limits();
+        let [low, high, usual] = [low, high, item.usual()].map(|plain| item.text(plain));
+        format!("{low} to {high}, usually {usual}")
     } else {
-        parameter.choices.join(", ")
+        choices.join(", ")
     };
     format!(
         "{group}: {label}\n{range}\nDrag, with Shift finely; double click to reset; click the value to type one"
@@ -136,11 +144,11 @@ fn at_place(place: f32) -> Vec2 {
 }
 
 /// The value with its unit; a click turns it into a field to type in.
-fn value_text(ui: &mut Ui, rect: Rect, id: Id, value: &FloatParam, set: &mut impl FnMut(Gesture)) {
+fn value_text(ui: &mut Ui, rect: Rect, id: Id, item: &Item<'_>, set: &mut dyn FnMut(usize, Gesture)) {
     let palette = theme::of(ui);
-    // Without modulation: what was set is what can be typed over.
-    let shown = value.normalized_value_to_string(value.unmodulated_normalized_value(), true);
-    let Some(mut typed) = ui.data(|data| data.get_temp::<String>(id)) else {
+    let Some(typed) = ui.data(|data| data.get_temp::<String>(id)) else {
+        // Without modulation: what was set is what can be typed over.
+        let shown = item.text(item.plain());
         let response = ui.interact(rect, id, Sense::click());
         let colour = if response.hovered() { palette.accent } else { palette.text };
         let centre = rect.center();
@@ -151,17 +159,46 @@ fn value_text(ui: &mut Ui, rect: Rect, id: Id, value: &FloatParam, set: &mut imp
         }
         return;
     };
-    let field = egui::TextEdit::singleline(&mut typed)
+    field(ui, rect, id, typed, item, set);
+}
+
+/// The field of a value; what is refused stays in it, in the colour of what went wrong, until it is changed or given up.
+fn field(
+    ui: &mut Ui,
+    rect: Rect,
+    id: Id,
+    mut typed: String,
+    item: &Item<'_>,
+    set: &mut dyn FnMut(usize, Gesture),
+) {
+    let refused = id.with("refused");
+    let reason = ui.data(|data| data.get_temp::<String>(refused));
+    let mut field = egui::TextEdit::singleline(&mut typed)
         .id(id.with("field"))
         .align(Align2::CENTER_CENTER)
         .font(theme::body());
-    let response = ui.put(rect, field);
+    if reason.is_some() {
+        field = field.text_color(theme::of(ui).over);
+    }
+    let mut response = ui.put(rect, field);
+    if let Some(reason) = reason {
+        response = response.on_hover_text(reason);
+    }
     let (entered, left) = ui.input(|input| (input.key_pressed(Key::Enter), input.key_pressed(Key::Escape)));
-    if response.lost_focus() || entered || left {
-        if entered && let Some(place) = value.string_to_normalized_value(&typed) {
-            move_once(set, value.preview_plain(place));
-        }
-        ui.data_mut(|data| data.remove::<String>(id));
+    if response.changed() {
+        ui.data_mut(|data| data.remove::<String>(refused));
+    }
+    if entered && let Err(error) = item.parse(&typed).map(|plain| item.put(plain, set)) {
+        ui.data_mut(|data| {
+            data.insert_temp(refused, error.to_string());
+            data.insert_temp(id, typed);
+        });
+        response.request_focus();
+    } else if response.lost_focus() || entered || left {
+        ui.data_mut(|data| {
+            data.remove::<String>(id);
+            data.remove::<String>(refused);
+        });
     } else {
         ui.data_mut(|data| data.insert_temp(id, typed));
     }

@@ -1,7 +1,7 @@
 //! Levels of the pieces and the outputs: meters that jump up at once and fall slowly.
 
 use egui::{Color32, Rect, Ui, vec2};
-use overhear_engine::piece::PieceId;
+use overhear_engine::slot::{SLOTS, Slot};
 use overhear_engine::snapshot::KitSnapshot;
 
 use super::theme::Palette;
@@ -15,20 +15,17 @@ const TOP_DB: f32 = 6.0;
 /// How fast a meter falls, dB/s: slow enough to be read.
 const FALL: f32 = 36.0;
 
-/// Pieces of the kit.
-const PIECES: usize = PieceId::KIT.len();
-
 /// Levels shown, dB.
 pub struct Levels {
-    /// One for each piece, then left and right.
-    shown: [f32; PIECES + 2],
+    /// `[slot]`, then left and right.
+    shown: [f32; SLOTS + 2],
     /// Clock of the latest snapshot whose peaks were taken.
     clock: u64,
 }
 
 impl Default for Levels {
     fn default() -> Levels {
-        Levels { shown: [FLOOR_DB; PIECES + 2], clock: 0 }
+        Levels { shown: [FLOOR_DB; SLOTS + 2], clock: 0 }
     }
 }
 
@@ -52,13 +49,13 @@ impl Levels {
     }
 
     /// A piece's, dB.
-    pub fn piece(&self, slot: usize) -> f32 {
-        self.shown[slot]
+    pub fn piece(&self, slot: Slot) -> f32 {
+        self.shown[slot.index()]
     }
 
     /// Those of the outputs, left and right, dB.
     pub fn main(&self) -> [f32; 2] {
-        [self.shown[PIECES], self.shown[PIECES + 1]]
+        [self.shown[SLOTS], self.shown[SLOTS + 1]]
     }
 }
 

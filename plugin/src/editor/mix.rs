@@ -3,30 +3,31 @@
 //! Mute and solo are moves of the levels, as hands would make them: what a host records and a project stores is
 //! what is heard. The window remembers where a level was; one that was silent before it opened comes back at its default.
 
-use egui::{Align2, Button, Color32, Rect, Ui, UiBuilder, pos2, vec2};
-use nice_plug::prelude::{FloatParam, Param};
-use overhear_engine::piece::PieceId;
+use egui::{Align2, Button, Color32, Rect, ScrollArea, Ui, UiBuilder, pos2, vec2};
+use overhear_engine::slot::{SLOTS, Slot};
 
-use super::history::put;
 use super::knob::{self, Gesture};
 use super::levels::{self, Levels};
-use super::{knobs, theme};
-use crate::outputs::title;
-use crate::parameters::{PARAMETERS, find};
-
-/// Pieces of the kit.
-const PIECES: usize = PieceId::KIT.len();
+use super::theme;
+use super::values::{Item, Values};
+use crate::parameters::SlotParameter;
 
 /// Height of a knob with its name and value, points.
 const KNOB: f32 = 82.0;
+
+/// Space between strips, points.
+const GAP: f32 = 4.0;
+
+/// Narrowest and widest strip, points: narrower ones would not show a value; as many as there are scroll.
+const STRIP: (f32, f32) = (60.0, 190.0);
 
 /// What was turned down, to be turned up again.
 #[derive(Default)]
 pub struct Mix {
     /// Levels before they were silenced, plain values, by slot.
-    before: [Option<f32>; PIECES],
-    /// The piece that is heard alone, and which of the others were silenced for it.
-    solo: Option<(usize, [bool; PIECES])>,
+    before: [Option<f32>; SLOTS],
+    /// The piece that is heard alone, and which of the others were silenced for it, by slot.
+    solo: Option<(Slot, [bool; SLOTS])>,
 }
 
 impl Mix {
@@ -35,31 +36,53 @@ impl Mix {
         &mut self,
         ui: &mut Ui,
         rect: Rect,
-        values: &[FloatParam],
+        values: Values<'_>,
         shown: &Levels,
         set: &mut dyn FnMut(usize, Gesture),
     ) {
-        let palette = theme::of(ui);
-        let width = rect.width() / (PIECES + 1) as f32;
-        let strip = |place: usize| {
-            let left = rect.min.x + place as f32 * width;
-            Rect::from_min_max(pos2(left, rect.min.y), pos2(left + width - 4.0, rect.max.y))
-        };
-        for (slot, piece) in PieceId::KIT.into_iter().enumerate() {
-            let accent = palette.pieces[slot];
-            let rect = strip(slot);
-            let rest = frame(ui, rect, title(piece), accent);
+        let count = values.kit.pieces.len() as f32;
+        let width = (rect.width() / (count + 1.0)).clamp(STRIP.0, STRIP.1);
+        let long = (count * width).min((rect.width() - width).max(0.0));
+        let (pieces, rest) = rect.split_left_right_at_x(rect.min.x + long);
+        if count * width <= long + 0.5 {
+            self.strips(ui, pieces, width, values, shown, set);
+        } else {
+            // More than there is room for; the main output stays beside them.
+            let pieces = Rect::from_min_max(pieces.min, pieces.max - vec2(GAP, 0.0));
+            ui.scope_builder(UiBuilder::new().max_rect(pieces), |ui| {
+                ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| {
+                    let size = vec2(count * width, ui.available_height());
+                    let (whole, _) = ui.allocate_exact_size(size, egui::Sense::hover());
+                    self.strips(ui, whole, width, values, shown, set);
+                });
+            });
+        }
+        main_strip(ui, strip_at(rest, 0, width), values, shown, set);
+    }
+
+    /// A strip for every piece.
+    fn strips(
+        &mut self,
+        ui: &mut Ui,
+        rect: Rect,
+        width: f32,
+        values: Values<'_>,
+        shown: &Levels,
+        set: &mut dyn FnMut(usize, Gesture),
+    ) {
+        for (slot, piece) in values.kit.slots() {
+            let accent = theme::of(ui).pieces[slot.index()];
+            let rest = frame(ui, strip_at(rect, slot.index(), width), &piece.title, accent);
             let rest = self.switches(ui, rest, slot, values, set);
-            let rest = group_knob(ui, rest, (title(piece), "Level"), values, accent, set);
-            let rest = group_knob(ui, rest, (title(piece), "Pan"), values, accent, set);
+            let rest = item_knob(ui, rest, values.of_slot(slot, SlotParameter::Level), accent, set);
+            let rest = item_knob(ui, rest, values.of_slot(slot, SlotParameter::Pan), accent, set);
             meters(ui, rest, &[shown.piece(slot)], accent);
         }
-        let rest = frame(ui, strip(PIECES), "Main", palette.text);
-        // As far down as the others' switches.
-        let rest = Rect::from_min_max(rest.min, rest.max - vec2(0.0, 34.0));
-        let rest = group_knob(ui, rest, ("Kit", "Level"), values, palette.accent, set);
-        let rest = Rect::from_min_max(rest.min, rest.max - vec2(0.0, KNOB));
-        meters(ui, rest, &shown.main(), palette.level);
+    }
+
+    /// Forgets what was turned down: it was another kit's.
+    pub fn forget(&mut self) {
+        *self = Mix::default();
     }
 
     /// Mute and solo; gives what is left above them.
@@ -67,13 +90,13 @@ impl Mix {
         &mut self,
         ui: &mut Ui,
         rect: Rect,
-        slot: usize,
-        values: &[FloatParam],
+        slot: Slot,
+        values: Values<'_>,
         set: &mut dyn FnMut(usize, Gesture),
     ) -> Rect {
         let palette = theme::of(ui);
         let (rest, place) = rect.split_top_bottom_at_y(rect.max.y - 34.0);
-        let muted = level_of(slot, values).is_some_and(|(_, value, least)| value <= least);
+        let muted = level_of(slot, values).is_some_and(|level| is_silent(&level));
         let alone = self.solo.is_some_and(|(of, _)| of == slot);
         let (left, right) = place.shrink2(vec2(6.0, 4.0)).split_left_right_at_fraction(0.5);
         let switch = |ui: &mut Ui, at: Rect, text: &str, on: Option<Color32>, tip: &str| {
@@ -91,51 +114,76 @@ impl Mix {
         rest
     }
 
-    fn silence(&mut self, slot: usize, values: &[FloatParam], set: &mut dyn FnMut(usize, Gesture)) {
-        if let Some((index, value, least)) = level_of(slot, values).filter(|(_, value, least)| value > least)
-        {
-            self.before[slot] = Some(value);
-            put(index, least, set);
+    fn silence(&mut self, slot: Slot, values: Values<'_>, set: &mut dyn FnMut(usize, Gesture)) {
+        if let Some(level) = level_of(slot, values).filter(|level| !is_silent(level)) {
+            self.before[slot.index()] = Some(level.plain());
+            level.put(level.limits().0, set);
         }
     }
 
-    fn raise(&mut self, slot: usize, values: &[FloatParam], set: &mut dyn FnMut(usize, Gesture)) {
-        if let Some((index, ..)) = level_of(slot, values) {
-            put(index, self.before[slot].take().unwrap_or(PARAMETERS[index].default), set);
+    fn raise(&mut self, slot: Slot, values: Values<'_>, set: &mut dyn FnMut(usize, Gesture)) {
+        if let Some(level) = level_of(slot, values) {
+            level.put(self.before[slot.index()].take().unwrap_or(level.usual()), set);
         }
     }
 
     /// Lets a piece be heard alone, or all again.
-    fn solo(&mut self, slot: usize, values: &[FloatParam], set: &mut dyn FnMut(usize, Gesture)) {
+    fn solo(&mut self, slot: Slot, values: Values<'_>, set: &mut dyn FnMut(usize, Gesture)) {
         let former = self.solo.take();
         if let Some((_, silenced)) = former {
-            (0..PIECES).filter(|&other| silenced[other]).for_each(|other| self.raise(other, values, set));
+            let others = Slot::ALL.into_iter().filter(|other| silenced[other.index()]);
+            others.for_each(|other| self.raise(other, values, set));
         }
         if former.is_some_and(|(of, _)| of == slot) {
             return;
         }
         // Values are as they were before the gestures of this frame.
-        let heard = |other: usize| {
-            let again = former.is_some_and(|(_, silenced)| silenced[other]);
-            again || level_of(other, values).is_some_and(|(_, value, least)| value > least)
+        let heard = |other: Slot| {
+            let again = former.is_some_and(|(_, silenced)| silenced[other.index()]);
+            again || level_of(other, values).is_some_and(|level| !is_silent(&level))
         };
-        let silenced = std::array::from_fn(|other| other != slot && heard(other));
-        for other in (0..PIECES).filter(|&other| silenced[other]) {
-            let Some((index, value, least)) = level_of(other, values) else { continue };
-            if value > least {
-                self.before[other] = Some(value);
+        let silenced = Slot::ALL.map(|other| other != slot && heard(other));
+        for other in Slot::ALL.into_iter().filter(|other| silenced[other.index()]) {
+            let Some(level) = level_of(other, values) else { continue };
+            if !is_silent(&level) {
+                self.before[other.index()] = Some(level.plain());
             }
-            put(index, least, set);
+            level.put(level.limits().0, set);
         }
         self.solo = Some((slot, silenced));
     }
 }
 
-/// Index of a piece's level, its value and its least value.
-fn level_of(slot: usize, values: &[FloatParam]) -> Option<(usize, f32, f32)> {
-    let name = format!("{}_level", PieceId::KIT[slot].name().replace('-', "_"));
-    let (index, parameter) = find(&name).ok()?;
-    Some((index, values.get(index)?.unmodulated_plain_value(), parameter.min))
+/// A piece's level.
+fn level_of(slot: Slot, values: Values<'_>) -> Option<Item<'_>> {
+    values.of_slot(slot, SlotParameter::Level)
+}
+
+fn is_silent(level: &Item<'_>) -> bool {
+    level.plain() <= level.limits().0
+}
+
+/// The place of a strip in a row of them.
+fn strip_at(rect: Rect, place: usize, width: f32) -> Rect {
+    let left = rect.min.x + place as f32 * width;
+    Rect::from_min_max(pos2(left, rect.min.y), pos2(left + width - GAP, rect.max.y))
+}
+
+/// The strip of the main output.
+fn main_strip(
+    ui: &mut Ui,
+    rect: Rect,
+    values: Values<'_>,
+    shown: &Levels,
+    set: &mut dyn FnMut(usize, Gesture),
+) {
+    let palette = theme::of(ui);
+    let rest = frame(ui, rect, "Main", palette.text);
+    // As far down as the others' switches.
+    let rest = Rect::from_min_max(rest.min, rest.max - vec2(0.0, 34.0));
+    let rest = item_knob(ui, rest, values.named("master_level"), palette.accent, set);
+    let rest = Rect::from_min_max(rest.min, rest.max - vec2(0.0, KNOB));
+    meters(ui, rest, &shown.main(), palette.level);
 }
 
 /// A strip's panel and name; gives what is left below.
@@ -150,20 +198,18 @@ fn frame(ui: &Ui, rect: Rect, name: &str, accent: Color32) -> Rect {
     Rect::from_min_max(rect.min + vec2(0.0, 30.0), rect.max)
 }
 
-/// The knob of a group with a label at the bottom; gives what is left above it.
-fn group_knob(
+/// A knob at the bottom; gives what is left above it.
+fn item_knob(
     ui: &mut Ui,
     rect: Rect,
-    (group, label): (&str, &str),
-    values: &[FloatParam],
+    item: Option<Item<'_>>,
     accent: Color32,
     set: &mut dyn FnMut(usize, Gesture),
 ) -> Rect {
     let (rest, place) = rect.split_top_bottom_at_y(rect.max.y - KNOB);
-    let found = knobs::of_group(group, values).find(|(_, parameter, _)| parameter.label == label);
-    if let Some((index, parameter, value)) = found {
+    if let Some(item) = item {
         ui.scope_builder(UiBuilder::new().max_rect(place).id_salt("mix"), |ui| {
-            knob::knob(ui, place, parameter, value, accent, |gesture| set(index, gesture));
+            knob::knob(ui, place, &item, accent, set);
         });
     }
     rest
@@ -189,6 +235,7 @@ fn meters(ui: &Ui, rect: Rect, shown: &[f32], colour: Color32) {
 mod tests {
     use super::*;
     use crate::host_parameters::HostParameters;
+    use overhear_engine::kit_spec::KitSpec;
 
     /// What gestures leave the levels at.
     fn levels_after(gestures: &[(usize, Gesture)]) -> Vec<(usize, f32)> {
@@ -201,28 +248,36 @@ mod tests {
 
     #[test]
     fn mute_silences_and_comes_back_where_it_was() {
-        let parameters = HostParameters::default();
-        let (index, usual, least) = level_of(2, parameters.values()).unwrap();
+        let (parameters, kit) = (HostParameters::default(), KitSpec::standard());
+        let values = Values { all: parameters.values(), kit: &kit };
+        let tom = Slot::ALL[2];
+        let level = level_of(tom, values).unwrap();
         let (mut mix, mut gestures) = (Mix::default(), Vec::new());
-        mix.silence(2, parameters.values(), &mut |index, gesture| gestures.push((index, gesture)));
-        mix.raise(2, parameters.values(), &mut |index, gesture| gestures.push((index, gesture)));
-        assert_eq!(levels_after(&gestures), [(index, least), (index, usual)]);
+        mix.silence(tom, values, &mut |index, gesture| gestures.push((index, gesture)));
+        mix.raise(tom, values, &mut |index, gesture| gestures.push((index, gesture)));
+        let wanted = [(level.index, level.limits().0), (level.index, level.plain())];
+        assert_eq!(levels_after(&gestures), wanted);
         assert_eq!(gestures.len(), 6, "each a whole gesture");
     }
 
     #[test]
     fn solo_silences_all_others_and_lets_them_back() {
-        let parameters = HostParameters::default();
+        let (parameters, kit) = (HostParameters::default(), KitSpec::standard());
+        let values = Values { all: parameters.values(), kit: &kit };
+        let snare = Slot::ALL[1];
         let (mut mix, mut gestures) = (Mix::default(), Vec::new());
-        mix.solo(1, parameters.values(), &mut |index, gesture| gestures.push((index, gesture)));
+        mix.solo(snare, values, &mut |index, gesture| gestures.push((index, gesture)));
         let silenced = levels_after(&gestures);
-        let (own, ..) = level_of(1, parameters.values()).unwrap();
-        assert_eq!(silenced.len(), PIECES - 1);
-        assert!(silenced.iter().all(|&(index, value)| index != own && value == PARAMETERS[index].min));
+        let others: Vec<_> = kit
+            .slots()
+            .filter(|(slot, _)| *slot != snare)
+            .map(|(slot, _)| level_of(slot, values).unwrap())
+            .collect();
+        let down: Vec<_> = others.iter().map(|level| (level.index, level.limits().0)).collect();
+        assert_eq!(silenced, down);
         gestures.clear();
-        mix.solo(1, parameters.values(), &mut |index, gesture| gestures.push((index, gesture)));
-        let back = levels_after(&gestures);
-        assert_eq!(back.len(), PIECES - 1);
-        assert!(back.iter().all(|&(index, value)| value == PARAMETERS[index].default));
+        mix.solo(snare, values, &mut |index, gesture| gestures.push((index, gesture)));
+        let back: Vec<_> = others.iter().map(|level| (level.index, level.plain())).collect();
+        assert_eq!(levels_after(&gestures), back);
     }
 }

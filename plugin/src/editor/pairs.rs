@@ -5,7 +5,7 @@ use overhear_engine::kit::Microphone;
 
 use super::kit_view::Moved;
 use super::knob::Gesture;
-use crate::parameters::{PARAMETERS, Stand};
+use crate::parameters::{Stand, parameters};
 use crate::placing::index_of;
 
 /// Everything that a drag may move.
@@ -23,30 +23,30 @@ impl PairHand {
     pub fn act(&mut self, moved: Moved, values: &[FloatParam], set: &mut dyn FnMut(usize, Gesture)) {
         match moved {
             Moved::Taken(pair) => {
-                for (held, (index, value)) in self.values.iter_mut().zip(parameters(pair, values)) {
+                for (held, (index, value)) in self.values.iter_mut().zip(stands_of(pair, values)) {
                     *held = value.unmodulated_plain_value();
                     set(index, Gesture::Begin);
                 }
             }
             Moved::Dragged(pair, changes) => {
-                for (place, (index, _)) in parameters(pair, values).enumerate() {
+                for (place, (index, _)) in stands_of(pair, values).enumerate() {
                     let Some((_, change)) = changes.iter().find(|(stand, _)| *stand == STANDS[place]) else {
                         continue;
                     };
-                    let (low, high) = (PARAMETERS[index].min, PARAMETERS[index].max);
-                    self.values[place] = (self.values[place] + change).clamp(low, high);
+                    let Some(range) = parameters().get(index) else { continue };
+                    self.values[place] = (self.values[place] + change).clamp(range.min, range.max);
                     set(index, Gesture::Set(self.values[place]));
                 }
             }
             Moved::Released(pair) => {
-                parameters(pair, values).for_each(|(index, _)| set(index, Gesture::End));
+                stands_of(pair, values).for_each(|(index, _)| set(index, Gesture::End));
             }
         }
     }
 }
 
 /// The parameters of a pair with their indices, in the order of [`STANDS`].
-fn parameters(pair: Microphone, values: &[FloatParam]) -> impl Iterator<Item = (usize, &FloatParam)> {
+fn stands_of(pair: Microphone, values: &[FloatParam]) -> impl Iterator<Item = (usize, &FloatParam)> {
     STANDS.into_iter().filter_map(move |stand| {
         let index = index_of(pair, stand)?;
         Some((index, values.get(index)?))

@@ -3,8 +3,7 @@
 use std::sync::Arc;
 
 use egui::{Align, Align2, Button, Layout, Rect, Ui, UiBuilder, pos2, vec2};
-use nice_plug::prelude::Param;
-use overhear_engine::piece::PieceId;
+use overhear_engine::slot::Slot;
 use overhear_engine::snapshot::{FieldShapes, KitSnapshot};
 
 use super::history::History;
@@ -19,10 +18,11 @@ use super::playing::PlayingPanel;
 use super::presets::PresetBar;
 use super::stage::{self, Stage};
 use super::status::{self, Late, Latest};
-use super::{knobs, list, physics, theme};
+use super::values::Values;
+use super::{knobs, list, physics, settings, theme};
 use crate::NAME;
 use crate::host_parameters::HostParameters;
-use crate::outputs::title;
+use crate::kit_document::KitDocument;
 use crate::presets::Library;
 use crate::sound::Sound;
 use crate::strokes::Stroke;
@@ -37,10 +37,6 @@ const FOOTER: f32 = 24.0;
 
 /// Width of the list of pieces, points.
 const LIST: f32 = 168.0;
-
-/// Sizes of everything that can be chosen.
-const SIZES: [(f32, &str); 5] =
-    [(0.75, "75 %"), (1.0, "100 %"), (1.25, "125 %"), (1.5, "150 %"), (2.0, "200 %")];
 
 /// Pages of a window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -76,8 +72,8 @@ pub struct Inputs<'a> {
     pub snapshot: &'a KitSnapshot,
     /// Those since the frame before, the oldest first.
     pub past: &'a [KitSnapshot],
-    /// A piece's mode shapes once it is built, by its slot.
-    pub shapes: &'a dyn Fn(usize) -> Option<Arc<FieldShapes>>,
+    /// A piece's mode shapes once it is built.
+    pub shapes: &'a dyn Fn(Slot) -> Option<Arc<FieldShapes>>,
     pub parameters: &'a HostParameters,
     /// What is heard.
     pub sound: &'a Sound,
@@ -94,7 +90,9 @@ pub struct Hands<'a> {
 /// Everything one window shows and remembers.
 pub struct Panels {
     page: Page,
-    selected: usize,
+    /// The kit that everything here was made for.
+    document: Arc<KitDocument>,
+    selected: Slot,
     light: bool,
     zoom: f32,
     kit: KitView,
@@ -116,12 +114,13 @@ pub struct Panels {
 }
 
 impl Panels {
-    /// Panels with the presets of a library.
-    pub fn new(library: Library, view: View) -> Panels {
-        let kit = KitView::seen_from(Camera::of(view.camera));
+    /// Panels about a kit, with the presets of a library.
+    pub fn new(library: Library, view: View, document: Arc<KitDocument>) -> Panels {
+        let kit = KitView::seen_from(Camera::of(view.camera), &document.kit);
         Panels {
             page: Page::ALL.get(usize::from(view.page)).map_or(Page::Kit, |(page, _)| *page),
-            selected: usize::from(view.piece).min(PieceId::KIT.len() - 1),
+            selected: within(&document, usize::from(view.piece)),
+            document,
             light: view.light,
             zoom: view.zoom,
             kit,
@@ -146,7 +145,7 @@ impl Panels {
         View {
             page: place as u8,
             light: self.light,
-            piece: self.selected as u8,
+            piece: self.selected.index() as u8,
             camera: self.kit.camera.numbers(),
             zoom: self.zoom,
         }
@@ -159,8 +158,25 @@ impl Panels {
         self.kit.forget_strokes(snapshot);
     }
 
+    /// Goes over to the kit of the parameters if they have got another, as from a state that was loaded.
+    fn follow_document(&mut self, inputs: &Inputs<'_>) {
+        let document = inputs.parameters.document();
+        if Arc::ptr_eq(&document, &self.document) {
+            return;
+        }
+        self.selected = within(&document, self.selected.index());
+        self.kit.adopt(&document.kit, inputs.snapshot);
+        self.physics.forget();
+        self.mix.forget();
+        self.history.forget();
+        self.latest = Latest::default();
+        self.former = *inputs.snapshot;
+        self.document = document;
+    }
+
     /// Draws one frame.
     pub fn show(&mut self, ui: &mut Ui, inputs: &Inputs<'_>, hands: &mut Hands<'_>) {
+        self.follow_document(inputs);
         let elapsed = ui.input(|input| input.unstable_dt);
         self.levels.follow(inputs.snapshot, elapsed);
         self.latest.follow(&self.former, inputs.snapshot);
@@ -173,38 +189,20 @@ impl Panels {
         let (beside, page) = middle.split_left_right_at_x(middle.min.x + LIST);
         let page = Rect::from_min_max(page.min + vec2(GAP, 0.0), page.max);
 
-        let values = inputs.parameters.values();
+        let all = inputs.parameters.values();
+        let document = self.document.clone();
+        let values = Values { all, kit: &document.kit };
         let mut undone = Vec::new();
         let mut noted = Vec::new();
         {
             let mut set = |index: usize, gesture: Gesture| {
-                noted.push((
-                    index,
-                    gesture,
-                    values.get(index).map_or(0.0, |value| value.unmodulated_plain_value()),
-                ));
+                noted.push((index, gesture, values.plain(index).unwrap_or(0.0)));
                 (hands.set)(index, gesture);
             };
             self.header(ui, header, inputs, &mut set);
-            list::show(ui, beside, &mut self.selected, inputs.snapshot, &self.levels);
-            match self.page {
-                Page::Kit | Page::Microphones => {
-                    self.kit(ui, page, inputs, &mut Hands { set: &mut set, play: hands.play })
-                }
-                Page::Physics => {
-                    let shapes = (inputs.shapes)(self.selected);
-                    let seen = physics::Seen {
-                        snapshot: inputs.snapshot,
-                        shapes,
-                        selected: self.selected,
-                        sound: inputs.sound,
-                    };
-                    self.physics.show(ui, page, &seen);
-                }
-                Page::Mix => self.mix.show(ui, page, values, &self.levels, &mut set),
-                Page::Midi => self.playing.show(ui, page, inputs.parameters),
-                Page::Settings => self.settings(ui, page, inputs, &mut set),
-            }
+            list::show(ui, beside, &document.kit, &mut self.selected, inputs.snapshot, &self.levels);
+            let mut hands = Hands { set: &mut set, play: hands.play };
+            self.page(ui, page, inputs, &document, &mut hands);
             self.footer(ui, footer, inputs, &mut undone);
         }
         for (index, gesture, value) in noted {
@@ -216,12 +214,41 @@ impl Panels {
         }
     }
 
+    /// The page that is open.
+    fn page(
+        &mut self,
+        ui: &mut Ui,
+        rect: Rect,
+        inputs: &Inputs<'_>,
+        document: &KitDocument,
+        hands: &mut Hands<'_>,
+    ) {
+        let values = Values { all: inputs.parameters.values(), kit: &document.kit };
+        match self.page {
+            Page::Kit | Page::Microphones => self.kit(ui, rect, inputs, document, hands),
+            Page::Physics => {
+                let Some(piece) = document.kit.piece(self.selected) else { return };
+                let seen = physics::Seen {
+                    snapshot: inputs.snapshot,
+                    kit: &document.kit,
+                    selected: (self.selected, piece),
+                    shapes: (inputs.shapes)(self.selected),
+                    sound: inputs.sound,
+                };
+                self.physics.show(ui, rect, &seen);
+            }
+            Page::Mix => self.mix.show(ui, rect, values, &self.levels, hands.set),
+            Page::Midi => self.playing.show(ui, rect, inputs.parameters, document),
+            Page::Settings => settings::show(ui, rect, values, &mut self.zoom, hands.set),
+        }
+    }
+
     /// Takes note of every snapshot at its time, so that diagrams of the past are as fine however rarely frames come.
     fn follow_physics(&mut self, now: f64, inputs: &Inputs<'_>) {
         let newest = inputs.past.last().map_or(0, |snapshot| snapshot.clock);
         for snapshot in inputs.past {
             let age = newest.saturating_sub(snapshot.clock) as f64 / f64::from(inputs.sound.rate().max(1.0));
-            self.physics.follow(now - age, snapshot, inputs.shapes);
+            self.physics.follow(now - age, &self.document.kit, snapshot, inputs.shapes);
         }
         self.physics.forget_before(now);
     }
@@ -233,68 +260,40 @@ impl Panels {
     }
 
     /// The picture and the knobs of the selected piece.
-    fn kit(&mut self, ui: &mut Ui, rect: Rect, inputs: &Inputs<'_>, hands: &mut Hands<'_>) {
-        let (picture, below) = rect.split_top_bottom_at_y(rect.max.y - knobs::PANEL_HEIGHT);
-        let picture = Rect::from_min_max(picture.min, picture.max - vec2(0.0, GAP));
-        self.picture = picture;
-        let values = inputs.parameters.values();
-        let plain = |index: usize| Some(values.get(index)?.unmodulated_plain_value());
-        let microphones = self.page == Page::Microphones;
-        let seen = Seen {
-            snapshot: inputs.snapshot,
-            shapes: inputs.shapes,
-            selected: self.selected,
-            microphones: microphones.then_some(&plain as &dyn Fn(usize) -> Option<f32>),
-        };
-        let dynamics = plain(stage::dynamics()).unwrap_or(6.0);
-        let done = self.stage.show(ui, picture, &mut self.kit, &seen, dynamics, hands.play);
-        self.selected = done.chosen.unwrap_or(self.selected);
-        if let Some(moved) = done.moved {
-            self.pair.act(moved, values, hands.set);
-        }
-        let palette = theme::of(ui);
-        let own = (title(PieceId::KIT[self.selected]), palette.pieces[self.selected]);
-        let groups =
-            [("Microphones", palette.accent), ("Overheads", palette.accent), ("Room", palette.accent)];
-        let groups = if microphones { &groups[..] } else { &[own][..] };
-        let width = below.width() / groups.len() as f32;
-        for (place, group) in groups.iter().enumerate() {
-            let left = below.min.x + place as f32 * width;
-            let right = left + width - if place + 1 < groups.len() { GAP } else { 0.0 };
-            let part = Rect::from_x_y_ranges(left..=right, below.y_range());
-            knobs::panel(ui, part, *group, values, hands.set);
-        }
-    }
-
-    /// What is about the kit as a whole, and the window.
-    fn settings(
+    fn kit(
         &mut self,
         ui: &mut Ui,
         rect: Rect,
         inputs: &Inputs<'_>,
-        set: &mut dyn FnMut(usize, Gesture),
+        document: &KitDocument,
+        hands: &mut Hands<'_>,
     ) {
-        let groups = ["Kit", "Playing", "Rendering"];
-        ui.painter().rect_filled(rect, theme::CORNER, theme::of(ui).panel);
-        ui.scope_builder(UiBuilder::new().max_rect(rect.shrink(10.0)), |ui| {
-            egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-                let inner = ui.max_rect();
-                let bottom = knobs::grid(ui, inner, &groups, inputs.parameters.values(), set);
-                ui.allocate_rect(
-                    Rect::from_min_max(inner.min, pos2(inner.max.x, bottom)),
-                    egui::Sense::hover(),
-                );
-                ui.horizontal(|ui| {
-                    ui.label("Size of everything");
-                    for (zoom, name) in SIZES {
-                        if ui.selectable_label(self.zoom == zoom, name).clicked() {
-                            self.zoom = zoom;
-                            ui.ctx().set_zoom_factor(zoom);
-                        }
-                    }
-                });
-            });
-        });
+        let (picture, below) = rect.split_top_bottom_at_y(rect.max.y - knobs::PANEL_HEIGHT);
+        let picture = Rect::from_min_max(picture.min, picture.max - vec2(0.0, GAP));
+        self.picture = picture;
+        let values = Values { all: inputs.parameters.values(), kit: &document.kit };
+        let plain = |index: usize| values.plain(index);
+        let microphones = self.page == Page::Microphones;
+        let seen = Seen {
+            snapshot: inputs.snapshot,
+            document,
+            shapes: inputs.shapes,
+            selected: self.selected,
+            microphones: microphones.then_some(&plain as &dyn Fn(usize) -> Option<f32>),
+        };
+        let full_speed = values.named("dynamics").map_or(stage::SLOWEST, |dynamics| dynamics.plain());
+        let done = self.stage.show(ui, picture, &mut self.kit, &seen, full_speed, hands.play);
+        self.selected = done.chosen.unwrap_or(self.selected);
+        if let Some(moved) = done.moved {
+            self.pair.act(moved, values.all, hands.set);
+        }
+        if microphones {
+            knobs::panels(ui, below, &["Microphones", "Overheads", "Room"], values, hands.set);
+        } else if let Some(piece) = document.kit.piece(self.selected) {
+            let accent = theme::of(ui).pieces[self.selected.index()];
+            let items = values.of_piece(self.selected);
+            knobs::panel(ui, below, (&piece.title, accent), &items, hands.set);
+        }
     }
 
     fn header(&mut self, ui: &mut Ui, rect: Rect, inputs: &Inputs<'_>, set: &mut dyn FnMut(usize, Gesture)) {
@@ -319,10 +318,12 @@ impl Panels {
         let palette = theme::of(ui);
         let now = ui.input(|input| input.time);
         self.late.follow(inputs.snapshot.late_buffers, now);
-        let (text, colour) =
-            status::trouble(inputs.snapshot, &self.late, now, palette).unwrap_or_else(|| {
-                (self.latest.sentence(inputs.snapshot, self.physics.cents(self.latest.slot())), palette.text)
-            });
+        let kit = &self.document.kit;
+        let trouble = status::trouble(inputs.snapshot, kit, &self.late, now, palette);
+        let (text, colour) = trouble.unwrap_or_else(|| {
+            let cents = self.latest.slot().map_or(0.0, |slot| self.physics.cents(slot));
+            (self.latest.sentence(inputs.snapshot, kit, cents), palette.text)
+        });
         let left = pos2(rect.min.x + 4.0, rect.center().y + 3.0);
         let painter = ui.painter_at(Rect::from_min_max(rect.min, pos2(rect.max.x - 250.0, rect.max.y)));
         painter.text(left, Align2::LEFT_CENTER, text, theme::body(), colour);
@@ -359,6 +360,11 @@ impl Panels {
             self.history.undo(set);
         }
     }
+}
+
+/// The slot of an index, or the last that has a piece.
+fn within(document: &KitDocument, index: usize) -> Slot {
+    Slot::new(index.min(document.kit.pieces.len().saturating_sub(1))).unwrap_or(Slot::ALL[0])
 }
 
 #[cfg(test)]

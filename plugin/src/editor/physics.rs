@@ -8,7 +8,8 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 use egui::{Color32, Rect, Ui, pos2};
-use overhear_engine::piece::PieceId;
+use overhear_engine::kit_spec::{KitSpec, PieceSpec};
+use overhear_engine::slot::{SLOTS, Slot};
 use overhear_engine::snapshot::{FieldShapes, KitSnapshot, OCTAVES};
 
 use super::plot::Plot;
@@ -30,12 +31,6 @@ use closeup::Closeup;
 use spectrum::Spectrum;
 use wires::Wires;
 
-/// Pieces of the kit.
-const PIECES: usize = PieceId::KIT.len();
-
-/// The piece with snare wires, by its place in the kit.
-const SNARE: usize = 1;
-
 /// How far back energies and pitches are drawn, s.
 const MEMORY: f64 = 3.0;
 
@@ -47,11 +42,11 @@ struct Moment {
     /// s of the editor's time.
     time: f64,
     /// How far pitch is above its own, cents, by slot.
-    cents: [f32; PIECES],
+    cents: [f32; SLOTS],
     /// Largest displacement over thickness, by slot; of plates.
-    bending: [f32; PIECES],
+    bending: [f32; SLOTS],
     /// Energy of the modes of each octave, J, by slot.
-    octaves: [[f32; OCTAVES]; PIECES],
+    octaves: [[f32; OCTAVES]; SLOTS],
 }
 
 /// The page of one window.
@@ -59,16 +54,19 @@ pub struct Physics {
     moments: VecDeque<Moment>,
     closeup: Closeup,
     spectrum: Spectrum,
-    wires: Wires,
+    /// `[slot]`; still of a piece without wires.
+    wires: [Wires; SLOTS],
     /// The mode that is shown alone, and of which piece.
-    mode: Option<(usize, usize)>,
+    mode: Option<(Slot, usize)>,
 }
 
 /// What the page is drawn from.
 pub struct Seen<'a> {
     pub snapshot: &'a KitSnapshot,
+    pub kit: &'a KitSpec,
+    /// The piece that the diagrams are about, and its mode shapes once it is built.
+    pub selected: (Slot, &'a PieceSpec),
     pub shapes: Option<Arc<FieldShapes>>,
-    pub selected: usize,
     pub sound: &'a Sound,
 }
 
@@ -92,29 +90,37 @@ impl Physics {
             moments: VecDeque::new(),
             closeup: Closeup::default(),
             spectrum: Spectrum::new(),
-            wires: Wires::default(),
+            wires: Default::default(),
             mode: None,
         }
     }
 
-    /// Takes note of a snapshot of a time (s); `shapes` gives a slot's mode shapes once it is built.
+    /// Forgets the past: it was another kit's.
+    pub fn forget(&mut self) {
+        self.moments.clear();
+        self.wires = Default::default();
+        self.closeup = Closeup::default();
+        self.mode = None;
+    }
+
+    /// Takes note of a snapshot of a time (s); `shapes` gives a piece's mode shapes once it is built.
     pub fn follow(
         &mut self,
         now: f64,
+        kit: &KitSpec,
         snapshot: &KitSnapshot,
-        shapes: &dyn Fn(usize) -> Option<Arc<FieldShapes>>,
+        shapes: &dyn Fn(Slot) -> Option<Arc<FieldShapes>>,
     ) {
-        let of_pieces = |value: &dyn Fn(usize) -> f32| std::array::from_fn(value);
-        let cents = of_pieces(&|slot| {
-            let tension = shapes(slot).map_or(0.0, |shapes| shapes.tension);
-            glide::cents(PieceId::KIT[slot], snapshot.pieces[slot].stretch, tension)
-        });
-        let bending = of_pieces(&|slot| {
-            bending::of(PieceId::KIT[slot], &snapshot.pieces[slot], shapes(slot).as_deref())
-        });
         let octaves = snapshot.pieces.map(|piece| piece.octaves);
-        self.moments.push_back(Moment { time: now, cents, bending, octaves });
-        self.wires.follow(&snapshot.pieces[SNARE].wires, now);
+        let mut moment = Moment { time: now, cents: [0.0; SLOTS], bending: [0.0; SLOTS], octaves };
+        for (slot, piece) in kit.slots() {
+            let (at, state, shapes) = (slot.index(), &snapshot.pieces[slot.index()], shapes(slot));
+            let tension = shapes.as_ref().map_or(0.0, |shapes| shapes.tension);
+            moment.cents[at] = glide::cents(piece, state.stretch, tension);
+            moment.bending[at] = bending::of(piece, state, shapes.as_deref());
+            self.wires[at].follow(&state.wires, now);
+        }
+        self.moments.push_back(moment);
     }
 
     /// Lets go of what is no longer drawn at the time `now`, s.
@@ -125,9 +131,9 @@ impl Physics {
     }
 
     /// How far a piece's pitch is above its own just now, cents: the mean of late, as it sways with every period.
-    pub fn cents(&self, slot: usize) -> f32 {
+    pub fn cents(&self, slot: Slot) -> f32 {
         const LATE: usize = 6;
-        let late = self.moments.iter().rev().take(LATE).map(|moment| moment.cents[slot]);
+        let late = self.moments.iter().rev().take(LATE).map(|moment| moment.cents[slot.index()]);
         late.sum::<f32>() / LATE.min(self.moments.len()).max(1) as f32
     }
 
@@ -139,31 +145,32 @@ impl Physics {
 
     /// Draws the page.
     pub fn show(&mut self, ui: &mut Ui, rect: Rect, seen: &Seen<'_>) {
-        let slot = seen.selected;
+        let (slot, spec) = seen.selected;
         if self.mode.is_some_and(|(of, _)| of != slot) {
             self.mode = None;
         }
-        let piece = &seen.snapshot.pieces[slot];
-        let accent = theme::of(ui).pieces[slot];
+        let at = slot.index();
+        let piece = &seen.snapshot.pieces[at];
+        let accent = theme::of(ui).pieces[at];
         let now = ui.input(|input| input.time);
         let (left, right) = halves(rect, 0.56, true);
         let (upper, lower) = halves(left, 0.36, false);
         let (middle, bottom) = halves(lower, 0.5, false);
-        let plate = bending::thickness(PieceId::KIT[slot]).is_some();
-        let wires = slot == SNARE;
-        force::show(ui, upper, slot, &piece.strike, accent);
+        let plate = bending::thickness(spec).is_some();
+        let wires = spec.drum().is_some_and(|drum| drum.wires.is_some());
+        force::show(ui, upper, &spec.title, &piece.strike, accent);
         let (energies, beside) = halves(middle, 0.5, true);
-        energy::show(ui, energies, seen.snapshot);
+        energy::show(ui, energies, seen.kit, seen.snapshot);
         let (sound, corner) = if plate || wires { halves(bottom, 0.62, true) } else { (bottom, bottom) };
         self.spectrum.show(ui, sound, seen.sound);
         if wires {
-            self.wires.show(ui, corner, &piece.wires, now, accent);
+            self.wires[at].show(ui, corner, &piece.wires, now, accent);
         }
         if plate {
-            bending::show(ui, corner, &self.moments, (slot, now), accent);
-            cascade::show(ui, beside, &self.moments, (slot, now));
+            bending::show(ui, corner, &self.moments, (at, now), accent);
+            cascade::show(ui, beside, &self.moments, (at, now));
         } else {
-            glide::show(ui, beside, &self.moments, (slot, now), accent);
+            glide::show(ui, beside, &self.moments, (at, now), accent);
         }
         let (near, list) = halves(right, 0.48, false);
         let mode = self.mode.map(|(_, mode)| mode);

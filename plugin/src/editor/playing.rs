@@ -1,12 +1,15 @@
 //! The page of notes: which note plays what, and learning of new ones.
 
 use egui::{Align2, ComboBox, Rect, ScrollArea, Sense, Ui, UiBuilder, pos2, vec2};
-use overhear_engine::piece::PieceId;
+use overhear_engine::slot::Slot;
 
 use super::theme;
+use super::values::Values;
 use crate::host_parameters::HostParameters;
+use crate::kit_document::KitDocument;
 use crate::midi::assignments::{Assignment, Assignments};
-use crate::midi_map::{BEYOND, MAP, Meaning, Row};
+use crate::midi::maps::NoteMap;
+use crate::midi_map::{Meaning, NoteTable, Row};
 
 /// Height of a note's row, points.
 const ROW: f32 = 24.0;
@@ -21,78 +24,87 @@ pub struct PlayingPanel {
     reference: u8,
 }
 
+/// What the rows of the page are drawn from.
+struct Notes<'a> {
+    table: &'a NoteTable,
+    assignments: &'a Assignments,
+    /// The map of the instrument that is played.
+    map: NoteMap,
+}
+
 impl PlayingPanel {
     /// Draws the page.
-    pub fn show(&mut self, ui: &mut Ui, rect: Rect, parameters: &HostParameters) {
+    pub fn show(&mut self, ui: &mut Ui, rect: Rect, parameters: &HostParameters, document: &KitDocument) {
         let palette = theme::of(ui);
         ui.painter().rect_filled(rect, theme::CORNER, palette.panel);
         let inner = rect.shrink(12.0);
         let assignments = parameters.assignments();
+        let values = Values { all: parameters.values(), kit: &document.kit };
+        let map = values.named("note_map").and_then(|map| NoteMap::ALL.get(map.plain() as usize).copied());
+        let notes = Notes { table: &document.notes, assignments: &assignments, map: map.unwrap_or_default() };
         ui.scope_builder(UiBuilder::new().max_rect(inner), |ui| {
-            ui.horizontal(|ui| self.learn(ui, &assignments));
+            ui.horizontal(|ui| self.learn(ui, &notes));
             ui.add_space(6.0);
-            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| self.rows(ui, parameters, &assignments));
+            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| self.rows(ui, parameters, &notes));
         });
     }
 
     /// Choosing what the next note that arrives is to play.
-    fn learn(&mut self, ui: &mut Ui, assignments: &Assignments) {
+    fn learn(&mut self, ui: &mut Ui, notes: &Notes<'_>) {
+        let name_of = |note| notes.sounding(note).map_or("choose a note", |row| &row.name);
         ComboBox::from_id_salt("reference").width(190.0).selected_text(name_of(self.reference)).show_ui(
             ui,
             |ui| {
-                for row in sounding() {
-                    ui.selectable_value(&mut self.reference, row.note, row.name);
+                for (note, row) in notes.table.rows().filter(|(_, row)| sounds(row)) {
+                    ui.selectable_value(&mut self.reference, note, &row.name);
                 }
             },
         );
-        match assignments.learning() {
+        match notes.assignments.learning() {
             Some(note) => {
                 ui.colored_label(
                     theme::of(ui).accent,
                     format!("Strike the pad that is to play {}", name_of(note)),
                 );
                 if ui.button("Cancel").clicked() {
-                    assignments.learn(None);
+                    notes.assignments.learn(None);
                 }
             }
             None => {
                 let tip = "The next note that arrives will play this";
                 if ui.button("Learn").on_hover_text(tip).clicked() {
-                    assignments.learn(Some(self.reference));
+                    notes.assignments.learn(Some(self.reference));
                 }
             }
         }
     }
 
     /// Every note that sounds, in columns; those assigned by hand can be given back to the map.
-    fn rows(&mut self, ui: &mut Ui, parameters: &HostParameters, assignments: &Assignments) {
-        let notes = parameters.note_names();
+    fn rows(&mut self, ui: &mut Ui, parameters: &HostParameters, notes: &Notes<'_>) {
+        let names = parameters.note_names();
         let inner = ui.max_rect();
         let columns = ((inner.width() / COLUMN) as usize).max(1);
-        let long = notes.len().div_ceil(columns);
+        let long = names.len().div_ceil(columns).max(1);
         let width = inner.width() / columns as f32;
         let whole = Rect::from_min_size(inner.min, vec2(inner.width(), long as f32 * ROW));
         ui.allocate_rect(whole, Sense::hover());
-        for (place, (note, name)) in notes.into_iter().enumerate() {
+        for (place, (note, name)) in names.iter().enumerate() {
             let at = vec2((place / long) as f32 * width, (place % long) as f32 * ROW);
             let row = Rect::from_min_size(inner.min + at, vec2(width - 10.0, ROW - 3.0));
-            self.row(ui, row, (note, name), assignments);
+            self.row(ui, row, (*note, name), notes);
         }
     }
 
-    fn row(&mut self, ui: &mut Ui, rect: Rect, (note, name): (u8, &str), assignments: &Assignments) {
+    fn row(&mut self, ui: &mut Ui, rect: Rect, (note, name): (u8, &str), notes: &Notes<'_>) {
         let palette = theme::of(ui);
-        let own = assignments.of(note) != Assignment::Mapped;
-        let reference = match assignments.of(note) {
-            Assignment::Plays(reference) => reference,
-            _ => sounding().find(|row| row.name == name).map_or(note, |row| row.note),
-        };
+        let own = notes.assignments.of(note) != Assignment::Mapped;
+        let reference = notes.reference(note);
         let response = ui.interact(rect, ui.scope_id().with(("note", note)), Sense::click());
         let fill = if response.hovered() { palette.hovered } else { palette.background.gamma_multiply(0.5) };
         let painter = ui.painter();
         painter.rect_filled(rect, 4.0, fill);
-        let accent =
-            piece_of(reference).and_then(PieceId::slot).map_or(palette.faint, |slot| palette.pieces[slot]);
+        let slot = notes.sounding(reference).and_then(piece_of);
+        let accent = slot.map_or(palette.faint, |slot| palette.pieces[slot.index()]);
         painter.rect_filled(Rect::from_min_size(rect.min, vec2(3.0, rect.height())), 2.0, accent);
         let y = rect.center().y;
         let number = pos2(rect.min.x + 36.0, y);
@@ -106,7 +118,7 @@ impl PlayingPanel {
         painter.text(pos2(rect.max.x - 8.0, y), Align2::RIGHT_CENTER, mark, theme::caption(), palette.accent);
         if response.on_hover_text(tip).clicked() {
             if own {
-                assignments.assign(note, Assignment::Mapped);
+                notes.assignments.assign(note, Assignment::Mapped);
             } else {
                 self.reference = reference;
             }
@@ -114,20 +126,30 @@ impl PlayingPanel {
     }
 }
 
-/// Rows of reference notes that sound.
-fn sounding() -> impl Iterator<Item = &'static Row> {
-    MAP.iter().chain(&BEYOND).filter(|row| !matches!(row.meaning, Meaning::Silent(_)))
+impl Notes<'_> {
+    /// The reference note that a note plays.
+    fn reference(&self, note: u8) -> u8 {
+        match self.assignments.of(note) {
+            Assignment::Plays(reference) => reference,
+            Assignment::Mapped | Assignment::Silent => self.map.plays(note).unwrap_or(note),
+        }
+    }
+
+    /// The row of a reference note that sounds.
+    fn sounding(&self, reference: u8) -> Option<&Row> {
+        self.table.row(reference).filter(|row| sounds(row))
+    }
 }
 
-fn name_of(note: u8) -> &'static str {
-    sounding().find(|row| row.note == note).map_or("choose a note", |row| row.name)
+fn sounds(row: &Row) -> bool {
+    piece_of(row).is_some()
 }
 
-fn piece_of(reference: u8) -> Option<PieceId> {
-    let row = sounding().find(|row| row.note == reference)?;
-    match &row.meaning {
-        Meaning::Strikes(stroke) => Some(stroke.piece),
-        Meaning::Steps(_) => Some(PieceId::HiHat),
-        Meaning::Silent(_) => None,
+/// The piece that a row plays.
+fn piece_of(row: &Row) -> Option<Slot> {
+    match row.meaning {
+        Meaning::Strikes(stroke) => Some(stroke.slot),
+        Meaning::Steps(slot, _) => Some(slot),
+        Meaning::Silent => None,
     }
 }

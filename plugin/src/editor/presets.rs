@@ -3,7 +3,9 @@
 use egui::{Button, ComboBox, TextEdit, Ui};
 
 use nice_plug::prelude::Param;
+use overhear_engine::error::SpecError;
 
+use super::history::put;
 use super::knob::Gesture;
 use super::theme;
 use crate::host_parameters::HostParameters;
@@ -94,15 +96,13 @@ impl PresetBar {
     }
 
     fn load(&mut self, name: &str, parameters: &HostParameters, set: &mut dyn FnMut(usize, Gesture)) {
-        let loaded = self.library.load(name);
-        match loaded {
-            Ok(preset) => {
-                apply(&preset, parameters, set);
-                name.clone_into(&mut self.chosen);
-                self.trouble = None;
-            }
-            Err(error) => self.trouble = Some(error.to_string()),
+        let loaded = self.library.load(name).map_err(|error| error.to_string());
+        let done =
+            loaded.and_then(|preset| apply(&preset, parameters, set).map_err(|error| error.to_string()));
+        if done.is_ok() {
+            name.clone_into(&mut self.chosen);
         }
+        self.trouble = done.err();
         self.entries = self.library.list();
     }
 
@@ -115,31 +115,39 @@ impl PresetBar {
 
 /// What is set now, as a preset.
 fn present(parameters: &HostParameters) -> Preset {
-    Preset::of(
-        |index| parameters.values().get(index).map_or(f32::NAN, |value| value.unmodulated_plain_value()),
-        "",
-    )
+    let plain = |index: usize| {
+        parameters.values().get(index).map_or(f32::NAN, |value| value.unmodulated_plain_value())
+    };
+    Preset::of(plain, &parameters.document(), "")
 }
 
-/// Moves every parameter that the preset has elsewhere, as one gesture each.
-fn apply(preset: &Preset, parameters: &HostParameters, set: &mut dyn FnMut(usize, Gesture)) {
+/// Brings the preset's kit, if it has one, and moves every parameter that it has elsewhere, as one gesture each.
+fn apply(
+    preset: &Preset,
+    parameters: &HostParameters,
+    set: &mut dyn FnMut(usize, Gesture),
+) -> Result<(), SpecError> {
+    if let Some(kit) = preset.kit() {
+        parameters.set_document(kit.clone())?;
+    }
+    let document = parameters.document();
     for (index, value) in parameters.values().iter().enumerate() {
-        if let Some(wanted) = preset.value(index).filter(|&wanted| wanted != value.unmodulated_plain_value())
-        {
-            for gesture in [Gesture::Begin, Gesture::Set(wanted), Gesture::End] {
-                set(index, gesture);
-            }
+        let wanted = preset.value(index, &document.kit);
+        if let Some(wanted) = wanted.filter(|&wanted| wanted != value.unmodulated_plain_value()) {
+            put(index, wanted, set);
         }
     }
     if let Some(notes) = &preset.notes {
         parameters.assignments().replace(notes);
     }
+    Ok(())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::parameters::find;
+    use crate::parameters::{find, parse_assignment};
+    use overhear_engine::kit_spec::KitSpec;
 
     #[test]
     fn a_preset_moves_what_differs_and_nothing_else() {
@@ -147,11 +155,12 @@ mod tests {
         let mut moved = Vec::new();
         let mut bar = PresetBar::new(Library::at(std::path::Path::new("no-such-folder")));
         bar.load("jazz", &parameters, &mut |index, gesture| moved.push((index, gesture)));
-        let (kick, _) = find("kick_tune").unwrap();
+        let kit = KitSpec::standard();
+        let (kick, tuned) = parse_assignment("kick_tune=66", &kit).unwrap();
         let of_kick: Vec<_> =
             moved.iter().filter(|(index, _)| *index == kick).map(|(_, gesture)| *gesture).collect();
-        assert_eq!(of_kick, [Gesture::Begin, Gesture::Set(66.0), Gesture::End]);
-        let (untouched, _) = find("timpani_tune").unwrap();
+        assert_eq!(of_kick, [Gesture::Begin, Gesture::Set(tuned), Gesture::End]);
+        let untouched = find("timpani_tune", &kit).unwrap();
         assert!(moved.iter().all(|(index, _)| *index != untouched));
         assert_eq!(bar.chosen, "jazz");
     }

@@ -1,24 +1,34 @@
 //! The page of the kit: the picture, how hard hands strike it, and what of it is shown.
 
 use egui::{Align2, Key, Rect, Sense, Ui, pos2, vec2};
-use overhear_engine::piece::PieceId;
+use overhear_engine::slot::Slot;
 use overhear_engine::strike::{Strike, Striker};
 
 use super::kit_view::surfaces::Tint;
 use super::kit_view::{Done, KitView, Seen, Target, stroke_near};
 use super::theme;
-use crate::parameters::find;
+use crate::midi_map::NoteTable;
 use crate::strokes::Stroke;
 
 /// Slowest stroke of a hand, m/s: as of a note's lowest velocity.
-const SLOWEST: f32 = 0.4;
+pub const SLOWEST: f32 = 0.4;
 
 /// Width of the strip of speeds, points.
 const STRIP: f32 = 34.0;
 
 /// Keys that play the pieces, in the order of the list.
-const KEYS: [Key; 9] =
-    [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6, Key::Num7, Key::Num8, Key::Num9];
+const KEYS: [Key; 10] = [
+    Key::Num1,
+    Key::Num2,
+    Key::Num3,
+    Key::Num4,
+    Key::Num5,
+    Key::Num6,
+    Key::Num7,
+    Key::Num8,
+    Key::Num9,
+    Key::Num0,
+];
 
 /// How hard hands strike.
 pub struct Stage {
@@ -59,12 +69,13 @@ impl Stage {
     ) -> Done {
         let speed = self.speed(ui, dynamics);
         let done = kit.show(ui, rect, seen);
+        let notes = &seen.document.notes;
         if let Some(target) = done.struck {
-            play(aimed(&target, speed));
+            play(aimed(&target, notes, speed));
         }
-        if let Some(slot) = pressed_key(ui) {
-            let target = usual(PieceId::KIT[slot]);
-            play(aimed(&Target { slot, ..target }, speed));
+        let key = pressed_key(ui).and_then(Slot::new);
+        if let Some(slot) = key.filter(|slot| seen.document.kit.piece(*slot).is_some()) {
+            play(usual(slot, notes, speed));
         }
         let strip =
             Rect::from_min_max(pos2(rect.max.x - STRIP - 8.0, rect.min.y + 12.0), rect.max - vec2(8.0, 12.0));
@@ -97,7 +108,8 @@ impl Stage {
         text(pos2(rect.center().x, rect.min.y + 10.0), format!("{speed:.1}"));
         text(pos2(rect.center().x, rect.max.y - 10.0), "m/s".to_owned());
         response.on_hover_text(
-            "How fast a click strikes, in metres a second.\nShift: as fast as can be; Alt: softly. Keys 1 to 9 strike the pieces.",
+            "How fast a click strikes, in metres a second.\nShift: as fast as can be; Alt: softly. \
+             Keys 1 to 9 and 0 strike the pieces in their order.",
         );
     }
 }
@@ -115,7 +127,7 @@ fn tint_switch(ui: &mut Ui, rect: Rect, kit: &mut KitView) {
     });
 }
 
-/// The piece whose key has just been pressed, unless something is being typed.
+/// Which of the keys has just been pressed, unless something is being typed.
 fn pressed_key(ui: &Ui) -> Option<usize> {
     if ui.memory(|memory| memory.focused().is_some()) {
         return None;
@@ -123,27 +135,19 @@ fn pressed_key(ui: &Ui) -> Option<usize> {
     ui.input(|input| KEYS.iter().position(|&key| input.key_pressed(key)))
 }
 
-/// Where drummers strike a piece.
-fn usual(piece: PieceId) -> Target {
-    let radius = match piece {
-        PieceId::Kick => 0.1,
-        PieceId::Crash | PieceId::Splash | PieceId::HiHat => 0.9,
-        PieceId::Ride => 0.6,
-        PieceId::Timpani => 0.7,
-        _ => 0.3,
-    };
-    Target { slot: 0, on_surface: true, radius, angle: 0.0 }
+/// The stroke of a piece's ordinary note; of a piece without notes with a stick, half way out.
+fn usual(slot: Slot, notes: &NoteTable, speed: f32) -> Stroke {
+    let stroke = notes.ordinary(slot).and_then(|note| notes.stroke(note));
+    let (radius, angle, striker) =
+        stroke.map_or((0.5, 0.0, Striker::Stick), |stroke| (stroke.radius, stroke.angle, stroke.striker));
+    Stroke { slot, strike: Strike { speed: f64::from(speed), radius, angle, striker } }
 }
 
-/// A stroke at a place: with what the nearest note is played with.
-fn aimed(target: &Target, speed: f32) -> Stroke {
-    let near = stroke_near(target.piece(), f64::from(target.radius));
-    let striker = near.map_or(Striker::Stick, |(_, stroke)| stroke.striker);
+/// A stroke at a place: with what the nearest note is played with, or else the ordinary one.
+fn aimed(target: &Target, notes: &NoteTable, speed: f32) -> Stroke {
     let (radius, angle) = (f64::from(target.radius), f64::from(target.angle));
-    Stroke { piece: target.piece(), strike: Strike { speed: f64::from(speed), radius, angle, striker } }
-}
-
-/// Index of the parameter that says how fast the fastest stroke is.
-pub fn dynamics() -> usize {
-    find("dynamics").map_or(0, |(index, _)| index)
+    let usual = usual(target.slot, notes, speed);
+    let near = stroke_near(notes, target.slot, radius);
+    let striker = near.map_or(usual.strike.striker, |(_, _, stroke)| stroke.striker);
+    Stroke { strike: Strike { radius, angle, striker, ..usual.strike }, ..usual }
 }

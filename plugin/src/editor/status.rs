@@ -1,11 +1,11 @@
 //! What happens, in a plain sentence.
 
 use egui::Color32;
-use overhear_engine::piece::PieceId;
+use overhear_engine::kit_spec::KitSpec;
+use overhear_engine::slot::Slot;
 use overhear_engine::snapshot::{KitSnapshot, PieceSnapshot};
 
 use super::theme::Palette;
-use crate::outputs::title;
 
 /// Landings of snare wires after the latest stroke from which on they are said to answer.
 const ANSWERING: u32 = 8;
@@ -16,27 +16,30 @@ const AUDIBLE_CENTS: f32 = 3.0;
 /// What is the matter with the kit as a whole, if anything is; and in what colour to say it.
 pub fn trouble(
     snapshot: &KitSnapshot,
+    kit: &KitSpec,
     late: &Late,
     now: f64,
     palette: &Palette,
 ) -> Option<(String, Color32)> {
     let quarantines: u32 = snapshot.pieces.iter().map(|piece| piece.quarantines).sum();
-    let ready = snapshot.pieces.iter().filter(|piece| piece.ready).count();
+    let pieces = kit.pieces.len();
+    let ready = snapshot.pieces.iter().take(pieces).filter(|piece| piece.ready).count();
     let found = if quarantines > 0 {
         (format!("A piece went out of bounds {quarantines} times and was reset"), palette.over)
     } else if snapshot.clock == 0 {
         ("Waiting for the host to run".to_owned(), palette.faint)
-    } else if ready < PieceId::KIT.len() {
-        (format!("Building the kit: {ready} of {} pieces", PieceId::KIT.len()), palette.accent)
+    } else if ready < pieces {
+        (format!("Building the kit: {ready} of {pieces} pieces"), palette.accent)
     } else if late.is_news(now) {
-        let late = match snapshot.late_buffers {
-            1 => "A buffer was".to_owned(),
-            late => format!("{late} buffers were"),
+        let dropouts = match snapshot.late_buffers {
+            1 => "1 buffer".to_owned(),
+            late => format!("{late} buffers"),
         };
-        (format!("{late} late: lower the quality, or add a worker"), palette.over)
+        let advice = "lower the quality, or add a render thread";
+        (format!("Audio dropouts: {dropouts} took too long; {advice}"), palette.over)
     } else if snapshot.missed_runs > 0 {
         let missed = snapshot.missed_runs;
-        (format!("Workers left pieces silent for {missed} blocks: use fewer of them"), palette.over)
+        (format!("Render threads left pieces silent for {missed} blocks: use fewer of them"), palette.over)
     } else {
         return None;
     };
@@ -69,45 +72,38 @@ impl Late {
 }
 
 /// The stroke that was seen last, and what there was before it.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct Latest {
-    slot: usize,
-    /// Landings of the snare's wires when it was seen.
+    slot: Option<Slot>,
+    /// Landings of all snare wires when it was seen.
     landings: u32,
-}
-
-impl Default for Latest {
-    fn default() -> Latest {
-        Latest { slot: 1, landings: 0 }
-    }
 }
 
 impl Latest {
     /// Finds a new stroke in a snapshot, given the one before; of several, the fastest.
     pub fn follow(&mut self, before: &KitSnapshot, now: &KitSnapshot) {
-        let counts = before.pieces.iter().zip(&now.pieces).enumerate();
+        let counts = Slot::ALL.into_iter().zip(before.pieces.iter().zip(&now.pieces));
         let fresh = counts.filter(|(_, (before, now))| before.strike.count != now.strike.count);
         if let Some((slot, _)) = fresh.max_by(|a, b| a.1.1.strike.speed.total_cmp(&b.1.1.strike.speed)) {
-            *self = Latest { slot, landings: landings(before) };
+            *self = Latest { slot: Some(slot), landings: landings(before) };
         }
     }
 
-    /// Slot of its piece.
-    pub fn slot(&self) -> usize {
+    /// Its piece.
+    pub fn slot(&self) -> Option<Slot> {
         self.slot
     }
 
-    /// What it did.
-    /// `cents` is how far its head's pitch is above its own now.
-    pub fn sentence(&self, snapshot: &KitSnapshot, cents: f32) -> String {
-        let piece = &snapshot.pieces[self.slot];
-        let name = title(PieceId::KIT[self.slot]);
+    /// What it did. `cents` is how far its head's pitch is above its own now.
+    pub fn sentence(&self, snapshot: &KitSnapshot, kit: &KitSpec, cents: f32) -> String {
+        let struck = self.slot.and_then(|slot| Some((&snapshot.pieces[slot.index()], kit.piece(slot)?)));
+        let Some((piece, spec)) = struck.filter(|(piece, _)| piece.strike.count > 0) else {
+            return "Nothing was struck yet. Click a head or a cymbal".to_owned();
+        };
         let stroke = &piece.strike;
-        if stroke.count == 0 {
-            return format!("{name}: not struck yet. Click a head or a cymbal");
-        }
         let mut text = format!(
-            "{name} {:.1} m/s at {:.2}: {:.1} ms, {:.0} N",
+            "{} {:.1} m/s at {:.2}: {:.1} ms, {:.0} N",
+            spec.title,
             stroke.speed,
             stroke.radius,
             1e3 * stroke.contact_time,
@@ -119,20 +115,21 @@ impl Latest {
         if cents >= AUDIBLE_CENTS {
             text += &format!("; head stretched, +{cents:.0} cents");
         }
-        for said in self.consequences(piece, snapshot) {
+        let wires = spec.drum().is_some_and(|drum| drum.wires.is_some());
+        for said in self.consequences(piece, snapshot, wires) {
             text += "; ";
             text += &said;
         }
         text
     }
 
-    /// What else the stroke set going.
-    fn consequences(&self, piece: &PieceSnapshot, snapshot: &KitSnapshot) -> Vec<String> {
+    /// What else the stroke set going on a piece with or without wires.
+    fn consequences(&self, piece: &PieceSnapshot, snapshot: &KitSnapshot, wires: bool) -> Vec<String> {
         let mut said = Vec::new();
         if piece.rims.landings > 0 {
             said.push(format!("rims met {} times", piece.rims.landings));
         }
-        if PieceId::KIT[self.slot] == PieceId::Snare {
+        if wires {
             if piece.wires.landings > 0 {
                 said.push(format!("wires landed {} times", piece.wires.landings));
             }
@@ -166,22 +163,43 @@ mod tests {
             touches: 1,
             ..StrikeSnapshot::default()
         };
+        let kit = KitSpec::standard();
         let mut latest = Latest::default();
+        assert!(latest.sentence(&now, &kit, 0.0).starts_with("Nothing was struck yet"));
         latest.follow(&before, &now);
-        assert_eq!(latest.sentence(&now, 0.0), "Rack tom 4.0 m/s at 0.35: 5.8 ms, 31 N");
+        assert_eq!(latest.sentence(&now, &kit, 0.0), "Rack tom 4.0 m/s at 0.35: 5.8 ms, 31 N");
         now.pieces[1].wires.landings = 40;
         latest.follow(&now, &now);
         assert_eq!(
-            latest.sentence(&now, 0.0),
+            latest.sentence(&now, &kit, 0.0),
             "Rack tom 4.0 m/s at 0.35: 5.8 ms, 31 N; snare wires answering"
         );
         let stretched =
             "Rack tom 4.0 m/s at 0.35: 5.8 ms, 31 N; head stretched, +10 cents; snare wires answering";
-        assert_eq!(latest.sentence(&now, 10.2), stretched);
+        assert_eq!(latest.sentence(&now, &kit, 10.2), stretched);
         // A stroke after that, which the wires do not answer.
         let before = now;
         now.pieces[4].strike = StrikeSnapshot { count: 1, ..StrikeSnapshot::default() };
         latest.follow(&before, &now);
-        assert!(!latest.sentence(&now, 0.0).contains("wires"));
+        assert!(!latest.sentence(&now, &kit, 0.0).contains("wires"));
+    }
+
+    #[test]
+    fn trouble_counts_the_pieces_of_the_kit_at_hand_and_dropouts_while_they_are_new() {
+        let kit = KitSpec::standard();
+        let one = kit.alone(Slot::ALL[1]).unwrap();
+        let mut snapshot = KitSnapshot { clock: 1, ..KitSnapshot::default() };
+        let mut late = Late::default();
+        let said = |snapshot: &KitSnapshot, kit: &KitSpec, late: &Late| {
+            trouble(snapshot, kit, late, 1.0, &crate::editor::theme::DARK).map(|(text, _)| text)
+        };
+        snapshot.pieces[0].ready = true;
+        assert_eq!(said(&snapshot, &kit, &late).unwrap(), "Building the kit: 1 of 9 pieces");
+        assert_eq!(said(&snapshot, &one, &late), None);
+        late.follow(0, 0.0);
+        late.follow(1, 0.5);
+        snapshot.late_buffers = 1;
+        let text = said(&snapshot, &one, &late).unwrap();
+        assert!(text.starts_with("Audio dropouts: 1 buffer took too long"), "{text}");
     }
 }

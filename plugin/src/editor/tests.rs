@@ -2,16 +2,19 @@
 
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, Rect, Vec2, pos2, vec2};
 use nice_plug::prelude::Param;
-use overhear_engine::piece::PieceId;
+use overhear_engine::kit_spec::KitSpec;
 use overhear_engine::snapshot::{FIELD_MODES, FieldShapes, KitSnapshot};
 
 use super::knob::Gesture;
 use super::panels::Page;
 use super::*;
+use crate::kit_document::KitDocument;
+use crate::parameters::{self, SlotParameter};
 use crate::sound::Sound;
 use crate::strokes::Stroke;
 use crate::view::View;
 
+mod kits;
 mod pages;
 
 struct Window {
@@ -32,17 +35,18 @@ struct Window {
 
 impl Window {
     fn new() -> Window {
-        Window::with(Library::at(std::path::Path::new("no-such-folder")))
+        Window::with(no_presets())
     }
 
     /// A window with the presets of a library.
     fn with(library: Library) -> Window {
         let context = egui::Context::default();
         theme::apply(&context);
+        let parameters = HostParameters::default();
         Window {
             context,
-            panels: Panels::new(library, View::default()),
-            parameters: HostParameters::default(),
+            panels: Panels::new(library, View::default(), parameters.document()),
+            parameters,
             shapes: Arc::new(dish()),
             snapshot: KitSnapshot::default(),
             size: vec2(980.0, 640.0),
@@ -65,7 +69,7 @@ impl Window {
             events,
             ..RawInput::default()
         };
-        let shapes = |_: usize| Some(self.shapes.clone());
+        let shapes = |_: Slot| Some(self.shapes.clone());
         let (gestures, strokes) = (&mut self.gestures, &mut self.strokes);
         let mut output = self.context.run_ui(input, |ui| {
             let mut set = |index, gesture| gestures.push((index, gesture));
@@ -103,6 +107,16 @@ impl Window {
         self.frame(vec![Event::Text(text.to_owned())]);
         self.key(Key::Enter);
         self.frame(Vec::new());
+    }
+
+    /// Types over the value of the first knob. Digits go into the field and strike nothing.
+    fn type_value(&mut self, text: &str) {
+        self.click(FIRST_VALUE);
+        self.frame(Vec::new());
+        self.modifiers = Modifiers::COMMAND;
+        self.key(Key::A);
+        self.modifiers = Modifiers::NONE;
+        self.enter(text);
     }
 
     fn button(&mut self, at: Pos2, button: PointerButton, pressed: bool) {
@@ -144,9 +158,9 @@ impl Window {
     }
 
     /// Place on the screen of a place on a piece.
-    fn place(&self, slot: usize, radius: f32, angle: f32) -> Pos2 {
+    fn place(&self, slot: Slot, radius: f32, angle: f32) -> Pos2 {
         let (sin, cos) = angle.sin_cos();
-        let body = self.panels.kit_view().bodies()[slot];
+        let body = self.panels.kit_view().bodies()[slot.index()];
         let eye = self.panels.kit_view().eye(self.panels.picture(), false);
         eye.project(body.surface(radius * sin, -radius * cos, 0.0)).0
     }
@@ -173,6 +187,19 @@ impl Window {
     }
 }
 
+/// A library without a preset of its own.
+fn no_presets() -> Library {
+    Library::at(std::path::Path::new("no-such-folder"))
+}
+
+/// The piece of a name in the standard kit.
+fn slot_of(name: &str) -> Slot {
+    KitSpec::standard().find(name).unwrap().0
+}
+
+/// Places on a surface where a hand may find it: distances from the middle (radii) and directions (rad).
+const PLACES: [(f32, f32); 5] = [(0.0, 0.0), (0.5, 0.4), (0.6, 1.7), (0.6, -1.8), (0.7, 2.8)];
+
 /// Texts of a shape and of those in it.
 fn gather(shape: &egui::Shape, into: &mut Vec<(String, Rect)>) {
     match shape {
@@ -197,8 +224,8 @@ fn dish() -> FieldShapes {
 const FIRST_KNOB: Pos2 = pos2(235.0, 558.0);
 const FIRST_VALUE: Pos2 = pos2(235.0, 595.0);
 
-/// The snare, which is selected at first, is the second piece of the table.
-const SNARE_TUNE: usize = 3;
+/// The snare, which is selected at first, is the second piece of the kit.
+const SNARE_TUNE: usize = parameters::slot_index(Slot::ALL[1], SlotParameter::Tune);
 
 #[test]
 fn a_frame_draws_the_kit_and_the_panels() {
@@ -235,14 +262,14 @@ fn any_size_any_page_and_any_snapshot_can_be_drawn() {
 fn a_press_on_each_head_and_plate_strikes_that_piece_at_that_place() {
     let mut window = Window::new();
     window.frame(Vec::new());
-    for (slot, piece) in PieceId::KIT.into_iter().enumerate() {
+    for (slot, piece) in KitSpec::standard().slots() {
         let mut struck = 0;
-        for (radius, angle) in [(0.0_f32, 0.0_f32), (0.5, 0.4), (0.6, 1.7), (0.6, -1.8), (0.7, 2.8)] {
+        for (radius, angle) in PLACES {
             let at = window.place(slot, radius, angle);
             window.click(at);
             let Some(stroke) = window.strokes.pop() else { continue };
             // What stands before it is struck in its stead.
-            if stroke.piece != piece {
+            if stroke.slot != slot {
                 continue;
             }
             let strike = stroke.strike;
@@ -250,11 +277,11 @@ fn a_press_on_each_head_and_plate_strikes_that_piece_at_that_place() {
             let (x, y) = place(strike.radius, strike.angle);
             let (u, v) = place(f64::from(radius), f64::from(angle));
             let away = (x - u).hypot(y - v);
-            assert!(away < 0.02, "{piece:?}: {away} off");
+            assert!(away < 0.02, "{}: {away} off", piece.name);
             assert!((0.4..=6.0).contains(&strike.speed), "{} m/s", strike.speed);
             struck += 1;
         }
-        assert!(struck >= 2, "{piece:?} was struck {struck} times");
+        assert!(struck >= 2, "{} was struck {struck} times", piece.name);
     }
     assert!(window.gestures.is_empty());
 }
@@ -263,7 +290,7 @@ fn a_press_on_each_head_and_plate_strikes_that_piece_at_that_place() {
 fn shift_strikes_hardest_alt_softly_and_the_strip_between() {
     let mut window = Window::new();
     window.frame(Vec::new());
-    let tom = window.place(2, 0.3, 0.0);
+    let tom = window.place(slot_of("rack-tom"), 0.3, 0.0);
     let speed = |window: &mut Window, modifiers| {
         window.modifiers = modifiers;
         window.click(tom);
@@ -287,11 +314,18 @@ fn shift_strikes_hardest_alt_softly_and_the_strip_between() {
 fn keys_play_the_pieces_in_the_order_of_the_list() {
     let mut window = Window::new();
     window.frame(Vec::new());
-    for key in [Key::Num1, Key::Num5, Key::Num9] {
+    // Nobody is in the tenth place.
+    for key in [Key::Num1, Key::Num5, Key::Num9, Key::Num0] {
         window.key(key);
     }
-    let pieces: Vec<_> = window.strokes.iter().map(|stroke| stroke.piece).collect();
-    assert_eq!(pieces, [PieceId::Kick, PieceId::Crash, PieceId::HiHat]);
+    let pieces: Vec<_> = window.strokes.iter().map(|stroke| stroke.slot).collect();
+    assert_eq!(pieces, ["kick", "crash", "hi-hat"].map(slot_of));
+    // Each as its ordinary note does.
+    let notes = window.parameters.document().notes.clone();
+    for stroke in &window.strokes {
+        let ordinary = notes.ordinary(stroke.slot).and_then(|note| notes.stroke(note)).unwrap();
+        assert_eq!((stroke.strike.radius, stroke.strike.striker), (ordinary.radius, ordinary.striker));
+    }
 }
 
 #[test]
@@ -304,7 +338,7 @@ fn dragging_the_floor_turns_the_view_and_dragging_a_head_does_not() {
     window.drag(floor, vec2(60.0, -20.0), PointerButton::Primary);
     let turned = camera(&window);
     assert!(turned != before && window.strokes.is_empty());
-    let snare = window.place(1, 0.0, 0.0);
+    let snare = window.place(slot_of("snare"), 0.0, 0.0);
     window.drag(snare, vec2(60.0, 0.0), PointerButton::Primary);
     assert_eq!(camera(&window), turned);
     assert_eq!(window.strokes.len(), 1);
@@ -393,27 +427,27 @@ fn a_double_click_resets() {
 fn a_value_can_be_typed() {
     let mut window = Window::new();
     window.frame(Vec::new());
-    window.click(FIRST_VALUE);
-    window.frame(Vec::new());
-    let all = Event::Key {
-        key: Key::A,
-        physical_key: None,
-        pressed: true,
-        repeat: false,
-        modifiers: Modifiers::COMMAND,
-    };
-    window.modifiers = Modifiers::COMMAND;
-    window.frame(vec![all]);
-    window.modifiers = Modifiers::NONE;
-    // Digits go into the field and strike nothing.
-    window.frame(vec![Event::Text("250".to_owned())]);
-    window.key(Key::Enter);
-    window.frame(Vec::new());
+    window.type_value("250");
     assert!(window.strokes.is_empty());
+    // Typed in Hz, stored in semitones.
+    let tuned = parameters::parse_value(SNARE_TUNE, "250 Hz", &KitSpec::standard()).unwrap();
     assert_eq!(
         window.gestures(),
-        [Gesture::Begin, Gesture::Set(250.0), Gesture::End].map(|gesture| (SNARE_TUNE, gesture))
+        [Gesture::Begin, Gesture::Set(tuned), Gesture::End].map(|gesture| (SNARE_TUNE, gesture))
     );
+}
+
+#[test]
+fn what_is_typed_beyond_the_range_is_refused_and_can_be_given_up() {
+    let mut window = Window::new();
+    window.frame(Vec::new());
+    window.type_value("9");
+    assert!(window.gestures().is_empty(), "no snare is tuned to that");
+    assert!(window.find("9").is_some(), "it is still there to be changed");
+    window.key(Key::Escape);
+    window.frame(Vec::new());
+    let own = parameters::text(SNARE_TUNE, 0.0, &KitSpec::standard());
+    assert!(window.find(&own).is_some(), "{:?}", window.texts);
 }
 
 #[test]
@@ -426,15 +460,17 @@ fn clicking_a_piece_in_the_list_shows_its_parameters() {
         window.press(FIRST_KNOB, pressed);
     }
     let gestures = window.gestures();
-    assert!(gestures.len() == 3 && gestures.iter().all(|&(index, _)| index == 0), "{gestures:?}");
+    let kick_tune = parameters::slot_index(slot_of("kick"), SlotParameter::Tune);
+    assert!(gestures.len() == 3 && gestures.iter().all(|&(index, _)| index == kick_tune), "{gestures:?}");
 }
 
 #[test]
 fn a_window_opens_as_the_project_remembers_it() {
     let view = View { page: 1, light: true, piece: 6, camera: [1.0, 0.4, 2.0], zoom: 1.5 };
-    let panels = Panels::new(Library::at(std::path::Path::new("no-such-folder")), view);
+    let document = Arc::new(KitDocument::standard());
+    let panels = Panels::new(no_presets(), view, document.clone());
     assert_eq!(panels.view(), view);
     let odd = View { page: 99, piece: 99, ..view };
-    let panels = Panels::new(Library::at(std::path::Path::new("no-such-folder")), odd);
+    let panels = Panels::new(no_presets(), odd, document);
     assert_eq!((panels.view().page, panels.view().piece), (0, 8));
 }

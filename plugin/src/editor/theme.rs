@@ -1,7 +1,7 @@
 //! Colours and type of the editor: one typeface, a dark and a light palette, one accent for each piece.
 
 use egui::{Color32, FontId, Stroke, Theme, Ui, Visuals};
-use overhear_engine::piece::PieceId;
+use overhear_engine::slot::SLOTS;
 
 /// Every colour there is.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,8 +28,8 @@ pub struct Palette {
     pub level: Color32,
     /// Levels beyond full scale, and what went wrong.
     pub over: Color32,
-    /// One for each piece, in the order of [`PieceId::KIT`].
-    pub pieces: [Color32; PieceId::KIT.len()],
+    /// One for each piece, by its slot.
+    pub pieces: [Color32; SLOTS],
     /// The stage behind the kit, its top and its bottom.
     pub stage: [Color32; 2],
     /// The stage's floor.
@@ -79,6 +79,13 @@ pub static DARK: Palette = Palette {
         rgb(0x68A4F2),
         rgb(0xAD93F7),
         rgb(0xE882BC),
+        rgb(0xC9A98B),
+        rgb(0xA9E2C6),
+        rgb(0xA9D3F5),
+        rgb(0xDAC4F6),
+        rgb(0xF6BDB7),
+        rgb(0xB9B46A),
+        rgb(0xD973E6),
     ],
     stage: [rgb(0x2C2A29), rgb(0x1B1A19)],
     floor: rgb(0x1B1A19),
@@ -115,6 +122,13 @@ pub static LIGHT: Palette = Palette {
         rgb(0x2266BF),
         rgb(0x6B4FC4),
         rgb(0xB03A80),
+        rgb(0x7A5A3A),
+        rgb(0x3D7568),
+        rgb(0x3F5F8F),
+        rgb(0x8A3FA6),
+        rgb(0x94505A),
+        rgb(0x66661E),
+        rgb(0xB02FC0),
     ],
     stage: [rgb(0xF4F1EC), rgb(0xDDD8D0)],
     floor: rgb(0xDDD8D0),

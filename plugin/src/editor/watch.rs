@@ -2,8 +2,9 @@
 //!
 //! Drawing a still picture over and over is what costs most of a window at rest. So it is drawn once in a while only,
 //! and a thread looks meanwhile, which costs next to nothing, whether something sounds, a parameter has been
-//! moved, a note learned, or a buffer was late; then it asks for a frame. It begins with the first frame, as a window must not be asked to draw before it is
-//! shown, and has ended once the window's content is dropped: none of it is left when a host unloads the plugin.
+//! moved, a note learned, another kit loaded, or a buffer was late; then it asks for a frame. It begins with the first frame,
+//! as a window must not be asked to draw before it is shown, and has ended once the window's content is dropped: none of it
+//! is left when a host unloads the plugin.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -83,12 +84,15 @@ impl Drop for Watch {
     }
 }
 
-/// What a resting window would look different by, as a number: what the kit does, where parameters are, what notes play, and
-/// buffers that were late.
+/// What a resting window would look different by, as a number: which kit it is and what it does, where parameters are, what
+/// notes play, and buffers that were late.
 fn seen(viewer: &Viewer, parameters: &HostParameters) -> u64 {
     let places = parameters.values().iter().map(|value| value.unmodulated_normalized_value());
     let places = places.fold(0_u64, |mixed, place| mixed.rotate_left(5) ^ u64::from(place.to_bits()));
-    let rest = [viewer.news(), parameters.assignments().fingerprint(), parameters.deadlines().late()];
+    // The window keeps the document that it shows: no other can be at the same address.
+    let document = Arc::as_ptr(&parameters.document()).addr() as u64;
+    let assigned = parameters.assignments().fingerprint();
+    let rest = [viewer.news(), document, assigned, parameters.deadlines().late()];
     rest.into_iter().fold(places, |mixed, number| mixed.rotate_left(17).wrapping_mul(31) ^ number)
 }
 
@@ -130,5 +134,18 @@ mod tests {
             assert_eq!(asked.load(Ordering::Acquire), before);
         }
         drop(watch);
+    }
+
+    #[test]
+    fn another_kit_looks_different() {
+        let (_publisher, viewer) = monitor::monitor();
+        let parameters = HostParameters::default();
+        let shown = parameters.document();
+        let before = seen(&viewer, &parameters);
+        assert_eq!(seen(&viewer, &parameters), before);
+        let mut other = (*shown).clone();
+        other.notes.set(37, None);
+        parameters.set_document(Arc::new(other)).unwrap();
+        assert_ne!(seen(&viewer, &parameters), before);
     }
 }

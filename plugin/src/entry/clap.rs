@@ -323,7 +323,7 @@ unsafe extern "C" fn value(plugin: *const clap_plugin, id: clap_id, into: *mut f
 }
 
 /// Notes with names, as the parameters and the user have them now.
-fn names(guard: &Guard) -> Vec<(u8, &'static str)> {
+fn names(guard: &Guard) -> Vec<(u8, String)> {
     let named = || guard.parameters.as_ref().map(|parameters| parameters.note_names()).unwrap_or_default();
     catch_unwind(AssertUnwindSafe(named)).unwrap_or_default()
 }
@@ -336,13 +336,13 @@ unsafe extern "C" fn note_count(plugin: *const clap_plugin) -> u32 {
 unsafe extern "C" fn note_name(plugin: *const clap_plugin, index: u32, into: *mut clap_note_name) -> bool {
     // SAFETY: see `guard`; `into` is null or valid.
     let (named, into) = unsafe { (names(guard(plugin)), into.as_mut()) };
-    let (Some(&(note, name)), Some(into)) = (named.get(index as usize), into) else { return false };
+    let (Some((note, name)), Some(into)) = (named.get(index as usize), into) else { return false };
     into.name.fill(0);
     let room = into.name.len() - 1;
     for (to, from) in into.name[..room].iter_mut().zip(name.bytes()) {
         *to = from as c_char;
     }
-    (into.port, into.key, into.channel) = (-1, i16::from(note), -1);
+    (into.port, into.key, into.channel) = (-1, i16::from(*note), -1);
     true
 }
 

@@ -3,23 +3,25 @@
 use std::fmt::Write as _;
 
 use super::maps::NoteMap;
-use super::playing::{FINE_VELOCITY_CONTROLLER, PEDAL_CONTROLLER, position_controller};
-use crate::midi_map::{BEYOND, MAP, Meaning, Row};
+use super::playing::{FINE_VELOCITY_CONTROLLER, PEDAL_CONTROLLER};
+use crate::kit_document::KitDocument;
+use crate::midi_map::{Meaning, POSITION_CONTROLLERS, Row};
 use crate::presets::FACTORY;
-use overhear_engine::piece::PieceId;
 
 /// The page, in Markdown. `cargo xtask docs` writes it; a test compares.
 pub fn document() -> String {
+    let document = KitDocument::standard();
     let mut page = String::from(
         "# MIDI\n\n\
          Written from the tables in `plugin/src/midi_map.rs` and `plugin/src/midi/` by `cargo xtask docs`; do \
          not edit.\n\n## Notes\n\n\
-         The reference notes are the General MIDI drum map and a few beyond it. Maps of other instruments and \
-         your own assignments (`[notes]` in presets, the panel in the editor) name reference notes.\n\n\
+         A kit says what its notes play. Those of the standard kit are the General MIDI drum map and a few beyond it. Maps of \
+         other instruments and your own assignments (`[notes]` in presets, the panel in the editor) name notes of \
+         the kit.\n\n\
          | note | name | struck | place | with |\n|---|---|---|---|---|\n",
     );
-    for row in MAP.iter().chain(&BEYOND) {
-        page.push_str(&reference_row(row));
+    for (note, row) in document.notes.rows() {
+        page.push_str(&reference_row(&document, note, row));
     }
     page.push_str("\nAll other notes are silent.\n");
     for (map, name) in NoteMap::ALL.into_iter().zip(NoteMap::NAMES) {
@@ -31,20 +33,21 @@ pub fn document() -> String {
             let _ = writeln!(page, "| {} | {} | {} |", pad.note, pad.name, pad.plays);
         }
     }
-    page.push_str(&controllers());
+    page.push_str(&controllers(&document));
     page.push_str(&programs());
     page
 }
 
-fn reference_row(row: &Row) -> String {
-    let Row { note, name, meaning } = row;
+fn reference_row(document: &KitDocument, note: u8, row: &Row) -> String {
+    let Row { name, meaning, .. } = row;
+    let piece = |slot| document.kit.piece(slot).map_or("", |piece| &piece.name);
     match meaning {
         Meaning::Strikes(stroke) => {
-            let (piece, with) = (stroke.piece.name(), stroke.striker.name());
+            let (piece, with) = (piece(stroke.slot), stroke.striker.name());
             format!("| {note} | {name} | {piece} | {:.2} of the radius | {with} |\n", stroke.radius)
         }
-        Meaning::Steps(_) => format!("| {note} | {name} | hi-hat | the pedal | a foot |\n"),
-        Meaning::Silent(reason) => format!("| {note} | {name} | silent: {reason} | | |\n"),
+        Meaning::Steps(slot, _) => format!("| {note} | {name} | {} | the pedal | a foot |\n", piece(*slot)),
+        Meaning::Silent => format!("| {note} | {name} | silent: nothing in the kit sounds like it | | |\n"),
     }
 }
 
@@ -57,7 +60,8 @@ fn programs() -> String {
         text,
         "| from {} | your own presets by name, as `cargo xtask presets list` shows them |\n\n\
          Numbers count from 0. A program change moves every parameter that the preset sets at its sample, unless \
-         `program_changes` is off or the channel is not heard; the host is told. Your own presets are numbered when \
+         `program_changes` is off or the channel is not heard; the host is told. A kit in the preset is left out: it \
+         would have to be built. Your own presets are numbered when \
          an instance is first activated. CLAP hosts only: VST3 has no program changes among its events, and the program \
          without a host ignores them.",
         FACTORY.len()
@@ -65,15 +69,16 @@ fn programs() -> String {
     text
 }
 
-fn controllers() -> String {
+fn controllers(document: &KitDocument) -> String {
     let mut text = String::from("\n## Controllers and pressure\n\n| message | what it does |\n|---|---|\n");
     let _ = writeln!(
         text,
-        "| CC {PEDAL_CONTROLLER} | the hi-hat's pedal: 0 up, 127 down; from the first one on notes leave it where it is |"
+        "| CC {PEDAL_CONTROLLER} | the pedal of every hi-hat: 0 up, 127 down; from the first one on notes leave it where it is |"
     );
-    for controller in 16..=19 {
-        let pieces = PieceId::KIT.into_iter().filter(|&piece| position_controller(piece) == Some(controller));
-        let pieces: Vec<&str> = pieces.map(PieceId::name).collect();
+    for controller in POSITION_CONTROLLERS {
+        let moved = |slot| document.notes.position_controller(slot) == Some(controller);
+        let pieces = document.kit.slots().filter(|(slot, _)| moved(*slot));
+        let pieces: Vec<&str> = pieces.map(|(_, piece)| &*piece.name).collect();
         let _ = writeln!(
             text,
             "| CC {controller} | place of the next strokes on {}: 0 the centre (a cymbal's bow by the bell), 127 the \

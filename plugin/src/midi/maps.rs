@@ -3,7 +3,7 @@
 //! *Literature*: the modules' own tables of transmitted notes, as they leave the factory: Roland TD-17 (the same on
 //! TD-27 and TD-50), Yamaha DTX502, Alesis Nitro.
 
-use crate::midi_map::{self, Meaning, Stroke};
+use crate::midi_map::{Meaning, NoteTable, Stroke};
 
 /// Which notes a player's instrument sends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -66,21 +66,21 @@ impl NoteMap {
         }
     }
 
-    /// The stroke of a note, if it sounds.
+    /// The stroke of a note on a kit with these reference notes, if it sounds.
     ///
     /// # Real-time
     /// A look-up.
-    pub fn stroke(self, note: u8) -> Option<&'static Stroke> {
-        midi_map::stroke(self.plays(note)?)
+    pub fn stroke(self, note: u8, table: &NoteTable) -> Option<&Stroke> {
+        table.stroke(self.plays(note)?)
     }
 
-    /// What a note is called, if it strikes anything.
-    pub fn name(self, note: u8) -> Option<&'static str> {
-        let row = midi_map::row_of(self.plays(note)?)?;
+    /// What a note is called, if it plays anything on a kit with these reference notes.
+    pub fn name(self, note: u8, table: &NoteTable) -> Option<&str> {
+        let row = table.row(self.plays(note)?)?;
         match row.meaning {
-            Meaning::Silent(_) => None,
-            Meaning::Strikes(_) | Meaning::Steps(_) => Some(match self.pads() {
-                None => row.name,
+            Meaning::Silent => None,
+            Meaning::Strikes(_) | Meaning::Steps(..) => Some(match self.pads() {
+                None => &row.name,
                 Some(pads) => pads.iter().find(|pad| pad.note == note)?.name,
             }),
         }
@@ -201,13 +201,14 @@ static PLAIN: [Pad; 22] = [
 #[cfg(test)]
 mod tests {
     use super::*;
-    use overhear_engine::piece::PieceId;
+    use crate::kit_document::{KitDocument, standard_slot};
 
     #[test]
     fn every_pad_has_a_note_of_its_own_and_plays_a_reference_note() {
+        let table = KitDocument::standard().notes;
         for map in NoteMap::ALL {
             for (index, pad) in map.pads().unwrap_or_default().iter().enumerate() {
-                assert!(midi_map::row_of(pad.plays).is_some(), "{map:?}: {}", pad.name);
+                assert!(table.row(pad.plays).is_some(), "{map:?}: {}", pad.name);
                 let twice = map.pads().unwrap()[..index].iter().any(|other| other.note == pad.note);
                 assert!(!twice, "{map:?}: {}", pad.note);
             }
@@ -216,6 +217,8 @@ mod tests {
 
     #[test]
     fn every_module_plays_the_drum_set_where_its_pads_are() {
+        let table = KitDocument::standard().notes;
+        let [kick_drum, snare_drum, ride] = ["kick", "snare", "ride"].map(|name| Some(standard_slot(name)));
         for (map, kick, snare, rim, bell, edge) in [
             (NoteMap::GeneralMidi, 36, 38, 40, 53, 93),
             (NoteMap::Roland, 36, 38, 40, 53, 59),
@@ -223,27 +226,30 @@ mod tests {
             (NoteMap::Alesis, 36, 38, 40, 53, 59),
             (NoteMap::Plain, 36, 37, 45, 47, 50),
         ] {
-            let piece = |note| map.stroke(note).map(|stroke| stroke.piece);
-            assert_eq!(piece(kick), Some(PieceId::Kick), "{map:?}");
-            assert_eq!((piece(snare), piece(rim)), (Some(PieceId::Snare), Some(PieceId::Snare)), "{map:?}");
-            let radius = |note| map.stroke(note).map(|stroke| stroke.radius);
-            assert!(piece(bell) == Some(PieceId::Ride) && radius(bell) < Some(0.2), "{map:?}");
-            assert!(piece(edge) == Some(PieceId::Ride) && radius(edge) > Some(0.9), "{map:?}");
+            let slot = |note| map.stroke(note, &table).map(|stroke| stroke.slot);
+            assert_eq!(slot(kick), kick_drum, "{map:?}");
+            assert_eq!((slot(snare), slot(rim)), (snare_drum, snare_drum), "{map:?}");
+            let radius = |note| map.stroke(note, &table).map(|stroke| stroke.radius);
+            assert!(slot(bell) == ride && radius(bell) < Some(0.2), "{map:?}");
+            assert!(slot(edge) == ride && radius(edge) > Some(0.9), "{map:?}");
         }
     }
 
     #[test]
     fn notes_that_a_module_does_not_send_are_silent() {
-        assert_eq!(NoteMap::Roland.stroke(60), None);
-        assert_eq!(NoteMap::Plain.stroke(35), None);
-        assert_eq!(NoteMap::GeneralMidi.stroke(35).map(|stroke| stroke.piece), Some(PieceId::Kick));
+        let table = KitDocument::standard().notes;
+        assert_eq!(NoteMap::Roland.stroke(60, &table), None);
+        assert_eq!(NoteMap::Plain.stroke(35, &table), None);
+        let struck = NoteMap::GeneralMidi.stroke(35, &table).map(|stroke| stroke.slot);
+        assert_eq!(struck, Some(standard_slot("kick")));
     }
 
     #[test]
     fn names_are_of_the_notes_that_sound() {
-        assert_eq!(NoteMap::Roland.name(59), Some("Ride Edge"));
-        assert_eq!(NoteMap::GeneralMidi.name(38), Some("Acoustic Snare"));
-        assert_eq!(NoteMap::GeneralMidi.name(39), None);
-        assert_eq!(NoteMap::Plain.name(127), None);
+        let table = KitDocument::standard().notes;
+        assert_eq!(NoteMap::Roland.name(59, &table), Some("Ride Edge"));
+        assert_eq!(NoteMap::GeneralMidi.name(38, &table), Some("Acoustic Snare"));
+        assert_eq!(NoteMap::GeneralMidi.name(39, &table), None);
+        assert_eq!(NoteMap::Plain.name(127, &table), None);
     }
 }

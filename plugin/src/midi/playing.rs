@@ -1,19 +1,21 @@
 //! How notes and controllers become strokes and chokes.
 //!
 //! Velocity is a stick speed, spaced in logarithms from [`SOFTEST`] to the dynamics, under a curve. Position
-//! controllers, the position and striker parameters and unevenness of the hand are added to what the map says.
+//! controllers, the position and stick parameters and unevenness of the hand are added to what the kit's notes say.
 //! Nothing here touches the engine: what comes out is a [`Played`] note or a [`Grip`] for the performer to pass on.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use overhear_engine::piece::PieceId;
+use overhear_engine::kit_spec::Kind;
+use overhear_engine::slot::{SLOTS, Slot};
 use overhear_engine::strike::{Strike, Striker};
 
 use super::assignments::{Assignment, Assignments};
 use super::maps::NoteMap;
-use crate::midi_map::{self, Foot};
+use crate::kit_document::KitDocument;
+use crate::midi_map::{Foot, POSITION_CONTROLLERS, Stroke, reach};
 
 /// Stick speed of the softest note, m/s. *By ear*: the faintest tap a pad reports.
 pub const SOFTEST: f64 = 0.4;
@@ -24,17 +26,11 @@ const LEAST_VELOCITY: f64 = 1.0 / 127.0;
 /// MIDI channels.
 const CHANNELS: usize = 16;
 
-/// Pieces of the kit.
-const PIECES: usize = PieceId::KIT.len();
-
-/// Controller of the hi-hat's pedal.
+/// Controller of the pedals of all hi-hats.
 pub const PEDAL_CONTROLLER: u8 = 4;
 
 /// Slowest and fastest foot on the hi-hat's pedal, m/s. *By ear*: what the softest and the loudest note sound like.
 const FOOT: (f64, f64) = (0.15, 2.0);
-
-/// First of the four position controllers; see [`position_controller`].
-pub const FIRST_POSITION_CONTROLLER: u8 = 16;
 
 /// Controller that carries the lower seven bits of the next note's velocity (MMA CA-031).
 pub const FINE_VELOCITY_CONTROLLER: u8 = 88;
@@ -53,15 +49,9 @@ pub fn stick_speed(velocity: f32, full: f64, curve: f64) -> f64 {
     SOFTEST * libm::pow(full / SOFTEST, libm::pow(share.clamp(0.0, 1.0), curve))
 }
 
-/// The pieces whose place a controller moves: 16 the snare, 17 the ride, 18 the toms, 19 the other cymbals.
-pub fn position_controller(piece: PieceId) -> Option<u8> {
-    match piece {
-        PieceId::Snare => Some(16),
-        PieceId::Ride => Some(17),
-        PieceId::RackTom | PieceId::FloorTom => Some(18),
-        PieceId::Crash | PieceId::Splash | PieceId::HiHat => Some(19),
-        _ => None,
-    }
+/// Place of a position controller among them.
+fn position_of(controller: u8) -> Option<usize> {
+    POSITION_CONTROLLERS.contains(&controller).then(|| usize::from(controller - POSITION_CONTROLLERS.start()))
 }
 
 /// Which events let a hand grip a cymbal.
@@ -90,8 +80,8 @@ impl ChokeRule {
 /// A hand on a cymbal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Grip {
-    /// The cymbal.
-    pub piece: PieceId,
+    /// Slot of the cymbal.
+    pub slot: Slot,
     /// How firmly, from 0 (let go) to 1.
     pub strength: f64,
 }
@@ -99,8 +89,8 @@ pub struct Grip {
 /// What a note comes to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Played {
-    /// The piece.
-    pub piece: PieceId,
+    /// Slot of the piece.
+    pub slot: Slot,
     /// The stroke.
     pub strike: Strike,
     /// Whether a hand that gripped the piece at the end of an earlier note lets go first.
@@ -115,7 +105,7 @@ pub struct Style {
     /// Exponent of the velocity curve.
     pub curve: f64,
     /// Mean distance of a stroke from where it is aimed, share of the radius.
-    pub place_spread: f64,
+    pub position_spread: f64,
     /// Mean difference of a stroke's speed from what is asked, dB.
     pub speed_spread: f64,
     /// The map of the instrument that is played.
@@ -128,10 +118,10 @@ pub struct Style {
     pub follows_position: bool,
     /// Whether program changes load presets.
     pub follows_programs: bool,
-    /// Added to the place of every stroke, share of the radius, `[piece]`.
-    pub offsets: [f64; PIECES],
-    /// What is swung instead of what the map says, `[piece]`.
-    pub strikers: [Option<Striker>; PIECES],
+    /// Added to the place of every stroke, share of the radius, `[slot]`.
+    pub offsets: [f64; SLOTS],
+    /// What is swung instead of what the note says, `[slot]`.
+    pub strikers: [Option<Striker>; SLOTS],
 }
 
 impl Default for Style {
@@ -139,15 +129,15 @@ impl Default for Style {
         Style {
             dynamics: 6.0,
             curve: 1.0,
-            place_spread: 0.0,
+            position_spread: 0.0,
             speed_spread: 0.0,
             map: NoteMap::default(),
             channel: None,
             chokes: ChokeRule::default(),
             follows_position: true,
             follows_programs: true,
-            offsets: [0.0; PIECES],
-            strikers: [None; PIECES],
+            offsets: [0.0; SLOTS],
+            strikers: [None; SLOTS],
         }
     }
 }
@@ -161,10 +151,10 @@ struct PlayingState {
     aim: Option<f64>,
     /// Velocity to add to the next note, `[channel]`.
     fine: [f32; CHANNELS],
-    /// Gripped by the end of a note, until the next stroke, `[piece]`.
-    gripped: [bool; PIECES],
-    /// Whether a controller plays the hi-hat's pedal.
-    pedal: bool,
+    /// Gripped by the end of a note, until the next stroke, `[slot]`.
+    gripped: [bool; SLOTS],
+    /// Where a controller has the hi-hats' pedals, 0 (up) to 1 (down), if one plays them.
+    pedal: Option<f64>,
     /// Strokes so far: the unevenness of each is drawn from its number.
     strokes: u64,
 }
@@ -174,24 +164,40 @@ impl PlayingState {
         positions: [None; 4],
         aim: None,
         fine: [0.0; CHANNELS],
-        gripped: [false; PIECES],
-        pedal: false,
+        gripped: [false; SLOTS],
+        pedal: None,
         strokes: 0,
     };
 }
 
-/// A player: the style, the user's assignments, and what the controllers say.
+/// A player: the style, the kit with its notes, the user's assignments, and what the controllers say.
 pub struct Playing {
     /// What the parameters say.
     pub style: Style,
+    document: Arc<KitDocument>,
     assignments: Arc<Assignments>,
     state: PlayingState,
 }
 
 impl Playing {
-    /// A player of the default style.
-    pub fn new(assignments: Arc<Assignments>) -> Playing {
-        Playing { style: Style::default(), assignments, state: PlayingState::REST }
+    /// A player of the default style at a kit.
+    pub fn new(document: Arc<KitDocument>, assignments: Arc<Assignments>) -> Playing {
+        Playing { style: Style::default(), document, assignments, state: PlayingState::REST }
+    }
+
+    /// The kit that is played.
+    pub fn document(&self) -> &Arc<KitDocument> {
+        &self.document
+    }
+
+    /// Goes over to another kit, and returns the one played so far, to be dropped elsewhere.
+    ///
+    /// # Real-time
+    /// No allocation, no lock, nothing dropped.
+    pub fn change_kit(&mut self, document: Arc<KitDocument>) -> Arc<KitDocument> {
+        // Whoever holds on to a cymbal holds on to one of the former kit.
+        self.state.gripped = [false; SLOTS];
+        std::mem::replace(&mut self.document, document)
     }
 
     /// Forgets what controllers and notes have left behind.
@@ -218,11 +224,11 @@ impl Playing {
         }
         self.assignments.heard(note);
         let fine = self.state.fine.get_mut(usize::from(channel)).map_or(0.0, std::mem::take);
-        let stroke = self.stroke(note)?;
-        let slot = stroke.piece.slot()?;
+        let stroke = *self.stroke(note)?;
+        let slot = stroke.slot.index();
         self.state.strokes = self.state.strokes.wrapping_add(1);
         let speed = stick_speed(velocity + fine, self.style.dynamics, self.style.curve);
-        let aimed = self.aimed(stroke, aim) + self.style.offsets[slot];
+        let aimed = self.aimed(&stroke, aim) + self.style.offsets[slot];
         let (radius, angle) = self.placed(aimed.clamp(0.0, 1.0), stroke.angle);
         let strike = Strike {
             speed: speed * self.uneven_speed(),
@@ -231,7 +237,7 @@ impl Playing {
             striker: self.style.strikers[slot].unwrap_or(stroke.striker),
         };
         let releases = std::mem::take(&mut self.state.gripped[slot]);
-        Some(Played { piece: stroke.piece, strike, releases })
+        Some(Played { slot: stroke.slot, strike, releases })
     }
 
     /// Where the next note's stroke lands, 0 (centre) to 1 (rim), if it has a place to choose.
@@ -242,40 +248,38 @@ impl Playing {
         self.state.aim = place.filter(|place| !place.is_nan()).map(|place| f64::from(place.clamp(0.0, 1.0)));
     }
 
-    /// The piece whose pitch a note on a channel bends.
-    pub fn bent(&self, note: u8, channel: u8) -> Option<PieceId> {
-        Some(self.stroke(note).filter(|_| self.hears(channel))?.piece)
+    /// Slot of the piece whose pitch a note on a channel bends.
+    pub fn bent(&self, note: u8, channel: u8) -> Option<Slot> {
+        Some(self.stroke(note).filter(|_| self.hears(channel))?.slot)
     }
 
-    /// What a note of a velocity (0 to 1) does with the hi-hat's pedal, if it does, and the speed of the foot, m/s.
+    /// What a note of a velocity (0 to 1) does with the pedal of the hi-hat in a slot, if it does, and the speed of the
+    /// foot, m/s.
     ///
     /// # Real-time
     /// Table look-ups; no allocation, no lock.
-    pub fn foot(&self, note: u8, velocity: f32, channel: u8) -> Option<(Foot, f64)> {
+    pub fn foot(&self, note: u8, velocity: f32, channel: u8) -> Option<(Slot, Foot, f64)> {
         let heard = velocity > 0.0 && self.hears(channel);
-        let reference = match self.assignments.of(note) {
-            Assignment::Mapped => self.style.map.plays(note),
-            Assignment::Silent => None,
-            Assignment::Plays(reference) => Some(reference),
-        };
-        let foot = midi_map::foot(reference.filter(|_| heard)?)?;
+        let (slot, foot) = self.document.notes.foot(self.reference(note).filter(|_| heard)?)?;
         let speed = FOOT.0 * libm::pow(FOOT.1 / FOOT.0, f64::from(velocity.min(1.0)));
-        Some((foot, speed)).filter(|_| !(self.state.pedal && matches!(foot, Foot::Brought(_))))
+        Some((slot, foot, speed))
+            .filter(|_| !(self.state.pedal.is_some() && matches!(foot, Foot::Brought(_))))
     }
 
-    /// Where a controller brings the hi-hat's pedal, 0 (up) to 1 (down), if it is the one for that; from then on
+    /// Where a controller brings the pedals of all hi-hats, 0 (up) to 1 (down), if it is the one for that; from then on
     /// strokes leave the pedal where it is.
     ///
     /// # Real-time
     /// No allocation, no lock.
     pub fn pedal(&mut self, controller: u8, value: f32, channel: u8) -> Option<f64> {
         let heard = controller == PEDAL_CONTROLLER && self.hears(channel) && !value.is_nan();
-        self.state.pedal |= heard;
-        heard.then_some(f64::from(value.clamp(0.0, 1.0)))
+        let place = heard.then_some(f64::from(value.clamp(0.0, 1.0)));
+        self.state.pedal = place.or(self.state.pedal);
+        place
     }
 
-    /// Whether a controller plays the hi-hat's pedal.
-    pub fn plays_pedal(&self) -> bool {
+    /// Where a controller has the hi-hats' pedals, 0 (up) to 1 (down), if one plays them.
+    pub fn pedal_at(&self) -> Option<f64> {
         self.state.pedal
     }
 
@@ -293,9 +297,9 @@ impl Playing {
     /// # Real-time
     /// Table look-ups; no allocation, no lock.
     pub fn choke(&mut self, note: u8, channel: u8) -> Option<Grip> {
-        let piece = self.cymbal(note, channel)?;
-        self.state.gripped[piece.slot()?] = true;
-        Some(Grip { piece, strength: 1.0 })
+        let slot = self.cymbal(note, channel)?;
+        self.state.gripped[slot.index()] = true;
+        Some(Grip { slot, strength: 1.0 })
     }
 
     /// What pressure on a note (0 to 1) comes to: a hand that holds for as long as it presses.
@@ -307,8 +311,8 @@ impl Playing {
         if !chokes || pressure.is_nan() {
             return None;
         }
-        let piece = self.cymbal(note, channel)?;
-        Some(Grip { piece, strength: f64::from(pressure.clamp(0.0, 1.0)) })
+        let slot = self.cymbal(note, channel)?;
+        Some(Grip { slot, strength: f64::from(pressure.clamp(0.0, 1.0)) })
     }
 
     /// Takes in a controller's value, 0 to 1.
@@ -327,11 +331,10 @@ impl Playing {
                     *fine = value * 127.0 / 128.0 / 127.0;
                 }
             }
-            16..=19 => {
-                let index = usize::from(controller - FIRST_POSITION_CONTROLLER);
-                self.state.positions[index] = Some(f64::from(value));
+            _ => {
+                let place = position_of(controller).and_then(|at| self.state.positions.get_mut(at));
+                place.into_iter().for_each(|place| *place = Some(f64::from(value)));
             }
-            _ => {}
         }
     }
 
@@ -348,41 +351,52 @@ impl Playing {
         self.assignments.replace(notes);
     }
 
-    /// The stroke of a note, if it sounds.
-    pub fn stroke(&self, note: u8) -> Option<&'static midi_map::Stroke> {
+    /// The note of the kit's table that a note plays, if any.
+    fn reference(&self, note: u8) -> Option<u8> {
         match self.assignments.of(note) {
-            Assignment::Mapped => self.style.map.stroke(note),
+            Assignment::Mapped => self.style.map.plays(note),
             Assignment::Silent => None,
-            Assignment::Plays(reference) => midi_map::stroke(reference),
+            Assignment::Plays(reference) => Some(reference),
         }
+    }
+
+    /// The stroke of a note, if it sounds.
+    pub fn stroke(&self, note: u8) -> Option<&Stroke> {
+        self.document.notes.stroke(self.reference(note)?)
     }
 
     fn hears(&self, channel: u8) -> bool {
         self.style.channel.is_none_or(|only| only == channel)
     }
 
-    fn cymbal(&self, note: u8, channel: u8) -> Option<PieceId> {
-        let piece = self.stroke(note).filter(|_| self.hears(channel))?.piece;
-        (!piece.is_drum()).then_some(piece)
+    fn kind(&self, slot: Slot) -> Option<Kind> {
+        self.document.kit.piece(slot).map(|piece| piece.instrument.kind())
     }
 
-    /// Distance from the centre: where the note itself says, or the controller, once it has said anything, or the map.
+    fn cymbal(&self, note: u8, channel: u8) -> Option<Slot> {
+        let slot = self.stroke(note).filter(|_| self.hears(channel))?.slot;
+        (self.kind(slot)? != Kind::Drum).then_some(slot)
+    }
+
+    /// Distance from the centre: where the note itself says, or the controller, once it has said anything, or the note.
     ///
     /// Strokes on a bell or on an edge are what they are wherever the hand is.
-    fn aimed(&self, stroke: &midi_map::Stroke, aim: Option<f64>) -> f64 {
-        let controlled = position_controller(stroke.piece)
+    fn aimed(&self, stroke: &Stroke, aim: Option<f64>) -> f64 {
+        let Some(kind) = self.kind(stroke.slot) else { return stroke.radius };
+        let controller = self.document.notes.position_controller(stroke.slot);
+        let controlled = controller
             .filter(|_| self.style.follows_position)
-            .and_then(|controller| self.state.positions[usize::from(controller - FIRST_POSITION_CONTROLLER)]);
-        let position = aim.or(controlled).filter(|_| stroke.moves_with_hand());
+            .and_then(|controller| *self.state.positions.get(position_of(controller)?)?);
+        let position = aim.or(controlled).filter(|_| stroke.moves_with_hand(kind));
         position.map_or(stroke.radius, |place| {
-            let (inner, outer) = stroke.reach();
+            let (inner, outer) = reach(kind);
             inner + (outer - inner) * place
         })
     }
 
     /// A place near the one aimed at.
     fn placed(&self, radius: f64, angle: f64) -> (f64, f64) {
-        let spread = self.style.place_spread;
+        let spread = self.style.position_spread;
         if spread == 0.0 {
             return (radius, angle);
         }

@@ -4,10 +4,12 @@
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ParameterError {
     /// Not of the form `name=value`.
-    #[error("`{given}` is not of the form name=value, as in kick_tune=60")]
+    #[error("`{given}` is not of the form name=value, as in {example}")]
     Syntax {
         /// The text given.
         given: String,
+        /// One that is of the form.
+        example: String,
     },
     /// No parameter has that name.
     #[error("no parameter is called `{name}`, accepted: {accepted}")]
@@ -17,11 +19,19 @@ pub enum ParameterError {
         /// Every name, separated by commas.
         accepted: String,
     },
+    /// The slot is empty, or its piece has no such control.
+    #[error("{name} does nothing: {reason}")]
+    Inert {
+        /// The parameter's name.
+        name: String,
+        /// Why it does nothing.
+        reason: String,
+    },
     /// The value is not a number.
     #[error("{name} is `{given}`, accepted: {min} to {max}{unit}")]
     NotANumber {
         /// The parameter's name.
-        name: &'static str,
+        name: String,
         /// The text given.
         given: String,
         /// Smallest accepted.
@@ -35,7 +45,7 @@ pub enum ParameterError {
     #[error("{name} is {value}, accepted: {min} to {max}{unit}")]
     OutOfRange {
         /// The parameter's name.
-        name: &'static str,
+        name: String,
         /// The value given.
         value: f64,
         /// Smallest accepted.

@@ -1,11 +1,34 @@
 use super::*;
-use crate::parameters::find;
+use crate::kit_document::standard_slot;
+use crate::parameters::{find, parameters};
 
 const RATE: f64 = 48_000.0;
 
+/// A performer at a kit without pieces.
+fn at(document: &KitDocument) -> Performer {
+    Performer::new(RATE, document, Arc::default())
+}
+
+/// A performer at the standard kit without pieces.
+fn bare() -> Performer {
+    at(&KitDocument::standard())
+}
+
+/// A performer at a kit as it is played.
+fn ready(document: &KitDocument) -> Performer {
+    let mut performer = at(document);
+    performer.install_kit(RATE, Pace::RealTime).unwrap();
+    performer
+}
+
+/// Place of a parameter of the standard kit.
+fn index(name: &str) -> usize {
+    find(name, &KitDocument::standard().kit).unwrap()
+}
+
 #[test]
 fn only_notes_of_the_map_with_a_velocity_strike() {
-    let mut performer = Performer::new(RATE);
+    let mut performer = bare();
     assert!(performer.note_on(38, 0.5, 9));
     for (note, velocity) in [(38, 0.0), (38, -1.0), (38, f32::NAN), (39, 1.0), (200, 1.0)] {
         assert!(!performer.note_on(note, velocity, 0), "{note} at {velocity}");
@@ -17,14 +40,14 @@ fn only_notes_of_the_map_with_a_velocity_strike() {
 
 #[test]
 fn parameters_snap_and_ignore_what_they_cannot_take() {
-    let mut performer = Performer::new(RATE);
-    performer.set_parameter(0, 60.004);
-    assert_eq!(performer.parameter(0), Some(60.0));
+    let mut performer = bare();
+    performer.set_parameter(0, 2.0004);
+    assert_eq!(performer.parameter(0), Some(2.0));
     performer.set_parameter(0, f32::INFINITY);
-    assert_eq!(performer.parameter(0), Some(90.0));
+    assert_eq!(performer.parameter(0), Some(12.0));
     performer.set_parameter(0, f32::NAN);
-    assert_eq!(performer.parameter(0), Some(55.0));
-    performer.set_parameter(PARAMETERS.len(), 1.0);
+    assert_eq!(performer.parameter(0), Some(0.0));
+    performer.set_parameter(COUNT, 1.0);
 }
 
 /// One event: sample, then a note and velocity, or a parameter and value.
@@ -38,23 +61,22 @@ fn score() -> Vec<Event> {
     vec![
         Note(0, 36, 1.0),
         Note(0, 49, 0.9),
-        Parameter(700, 0, 62.0),
+        Parameter(700, index("kick_tune"), 2.0),
         Note(1_001, 38, 0.3),
-        Parameter(1_001, 4, 0.4),
+        Parameter(1_001, index("snare_muffle"), 0.4),
         Note(2_048, 48, 0.7),
         Note(2_049, 41, 0.8),
         Note(3_000, 51, 0.5),
-        Parameter(3_300, 15, -2.0),
+        Parameter(3_300, index("ride_tune"), -2.0),
         Note(4_000, 55, 1.0),
-        Parameter(5_000, 21, -6.0),
+        Parameter(5_000, index("master_level"), -6.0),
     ]
 }
 
 /// Renders the score in buffers of the given sizes, in turn.
 fn play(sizes: &[usize]) -> (Vec<f32>, Vec<f32>) {
     const LENGTH: usize = 9_600;
-    let mut performer = Performer::new(RATE);
-    performer.install_kit(RATE).unwrap();
+    let mut performer = ready(&KitDocument::standard());
     let (mut left, mut right) = (vec![f32::NAN; LENGTH], vec![f32::NAN; LENGTH]);
     let mut score = score().into_iter().peekable();
     let (mut now, mut sizes) = (0, sizes.iter().cycle());
@@ -83,12 +105,12 @@ fn play(sizes: &[usize]) -> (Vec<f32>, Vec<f32>) {
 #[test]
 fn values_set_before_the_first_sample_do_not_glide() {
     let start = |early: bool| {
-        let mut performer = Performer::new(RATE);
+        let mut performer = bare();
         if early {
-            performer.set_parameter(3, 300.0);
+            performer.set_parameter(index("snare_tune"), 7.0);
         }
-        performer.install_kit(RATE).unwrap();
-        performer.set_parameter(3, 300.0);
+        performer.install_kit(RATE, Pace::RealTime).unwrap();
+        performer.set_parameter(index("snare_tune"), 7.0);
         performer.note_on(38, 1.0, 9);
         let mut sound = [vec![0.0; 4_800], vec![0.0; 4_800]];
         let [left, right] = &mut sound;
@@ -108,8 +130,7 @@ fn a_reset_performer_plays_like_a_new_one() {
         performer.render(left, right);
         sound
     };
-    let mut performer = Performer::new(RATE);
-    performer.install_kit(RATE).unwrap();
+    let mut performer = ready(&KitDocument::standard());
     let first = hit(&mut performer);
     assert!(first.iter().flatten().any(|&sample| sample != 0.0));
     performer.render(&mut [0.0; 77], &mut [0.0; 77]);
@@ -128,20 +149,17 @@ fn the_cut_into_buffers_does_not_change_a_sample() {
 
 #[test]
 fn a_bend_is_the_tuning_so_many_semitones_away_until_the_next_stroke() {
-    let (index, parameter) = find("rack_tom_tune").unwrap();
-    let bent = parameter.snap(parameter.default * 2_f32.powf(0.25));
+    let (tune, semitones) = (index("rack_tom_tune"), 3.0);
     let play = |act: &dyn Fn(&mut Performer)| {
-        let mut performer = Performer::new(RATE);
-        performer.install_kit(RATE).unwrap();
+        let mut performer = ready(&KitDocument::standard());
         let mut sound = vec![0.0; 4_800];
         performer.note_on(48, 0.8, 9);
         act(&mut performer);
         performer.render(&mut sound, &mut vec![0.0; 4_800]);
         sound
     };
-    let semitones = 12.0 * (bent / parameter.default).log2();
     let by_bend = play(&|performer| performer.bend(48, semitones, 9));
-    let by_parameter = play(&|performer| performer.set_parameter(index, bent));
+    let by_parameter = play(&|performer| performer.set_parameter(tune, semitones));
     let away = by_bend.iter().zip(&by_parameter).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
     let peak = by_bend.iter().fold(0.0_f32, |peak, x| peak.max(x.abs()));
     assert!(away < 1e-3 * peak, "{away} of {peak}");
@@ -157,8 +175,7 @@ fn a_bend_is_the_tuning_so_many_semitones_away_until_the_next_stroke() {
 #[test]
 fn a_jump_of_the_transport_leaves_the_foot_where_it_is() {
     let open_and_struck = |jump: bool, pedal: f32| {
-        let mut performer = Performer::new(RATE);
-        performer.install_kit(RATE).unwrap();
+        let mut performer = ready(&KitDocument::standard());
         performer.control_change(4, pedal, 9);
         performer.render(&mut vec![0.0; 24_000], &mut vec![0.0; 24_000]);
         if jump {
@@ -173,4 +190,104 @@ fn a_jump_of_the_transport_leaves_the_foot_where_it_is() {
     assert!(open > 30.0 * closed, "{open} open, {closed} closed");
     let stayed = open_and_struck(false, 1.0);
     assert!((closed / stayed).ln().abs() < 0.7, "{closed} after the jump, {stayed} without");
+}
+
+/// The samples of a stretch.
+fn heard(performer: &mut Performer, samples: usize) -> Vec<f32> {
+    let (mut left, mut right) = (vec![0.0; samples], vec![0.0; samples]);
+    performer.render(&mut left, &mut right);
+    left.extend(right);
+    left
+}
+
+/// The standard kit with a second crash and without its kick: every piece is in another slot.
+fn other_kit() -> KitDocument {
+    let mut kit = KitDocument::standard().kit;
+    let mut crash = kit.piece(standard_slot("crash")).unwrap().clone();
+    crash.name = "crash-2".to_owned();
+    crash.place.centre[0] += 1.0;
+    kit.pieces.push(crash);
+    kit.pieces.remove(0);
+    let notes = crate::midi_map::NoteTable::standard(&kit);
+    KitDocument { kit, notes }
+}
+
+#[test]
+fn another_kit_sounds_as_if_it_had_been_there_from_the_start() {
+    let (former, other) = (KitDocument::standard(), other_kit());
+    assert_eq!(other.check(), Ok(()));
+    let strike = |performer: &mut Performer| {
+        for note in [38, 49, 48, 55, 42] {
+            assert!(performer.note_on(note, 0.8, 9));
+        }
+        heard(performer, 4_800)
+    };
+    let expected = strike(&mut ready(&other));
+    let mut performer = ready(&former);
+    performer.note_on(36, 0.5, 9);
+    heard(&mut performer, 64);
+    let put_away = performer.change_kit(Setup::new(RATE, Arc::new(other.clone())));
+    assert_eq!(*put_away.document, former);
+    assert_eq!(performer.document(), &other);
+    for index in 0..COUNT {
+        performer.set_parameter(index, default_value(index, &other.kit));
+    }
+    performer.install_kit(RATE, Pace::RealTime).unwrap();
+    assert!(performer.is_complete());
+    // What stood there fades out, and is handed back.
+    heard(&mut performer, 48_000);
+    while performer.retire().is_some() {}
+    performer.reset();
+    assert!(strike(&mut performer) == expected);
+}
+
+#[test]
+fn a_kit_without_a_piece_lets_it_fade_and_strikes_it_no_more() {
+    let mut smaller = KitDocument::standard();
+    let hat = standard_slot("hi-hat");
+    smaller.kit.pieces.truncate(hat.index());
+    smaller.notes = crate::midi_map::NoteTable::standard(&smaller.kit);
+    let mut performer = ready(&KitDocument::standard());
+    performer.note_on(46, 1.0, 9);
+    heard(&mut performer, 480);
+    let _ = performer.change_kit(Setup::new(RATE, Arc::new(smaller)));
+    assert!(!performer.note_on(46, 1.0, 9));
+    assert!(heard(&mut performer, 64).iter().any(|&sample| sample != 0.0), "it was cut off");
+    heard(&mut performer, 48_000);
+    assert!(performer.retire().is_some_and(|piece| piece.slot() == hat));
+    assert!(performer.is_complete());
+}
+
+#[test]
+fn what_a_piece_does_not_have_changes_no_sample() {
+    let kit = KitDocument::standard().kit;
+    let play = |inert: bool| {
+        let mut performer = ready(&KitDocument::standard());
+        for index in (0..COUNT).filter(|&index| inert && !is_live(index, &kit)) {
+            performer.set_parameter(index, parameters()[index].max);
+        }
+        for note in [36, 38, 49, 42] {
+            performer.note_on(note, 0.8, 9);
+        }
+        heard(&mut performer, 2_400)
+    };
+    assert!(play(true) == play(false));
+}
+
+#[test]
+fn a_foot_stays_on_the_pedal_when_the_kit_changes() {
+    let pedal = |performer: &mut Performer| {
+        let mut snapshot = KitSnapshot::default();
+        performer.snapshot(&mut snapshot);
+        snapshot.pieces[standard_slot("hi-hat").index()].rims.pedal
+    };
+    let mut performer = ready(&KitDocument::standard());
+    performer.control_change(4, 0.9, 9);
+    heard(&mut performer, 48_000);
+    let down = pedal(&mut performer);
+    let mut other = KitDocument::standard();
+    other.notes.set(38, None);
+    let _ = performer.change_kit(Setup::new(RATE, Arc::new(other)));
+    heard(&mut performer, 48_000);
+    assert_eq!(pedal(&mut performer), down);
 }

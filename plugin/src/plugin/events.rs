@@ -29,8 +29,8 @@ pub fn play<S>(
     let mut render_until = |performer: &mut Performer, notes: &mut Notes, until: usize| {
         if until > now {
             notes.strike(performer);
-            let (main, mut pieces) = buffers.stretch(now, until);
-            performer.render_outputs(main, &mut pieces);
+            let (main, mut others) = buffers.stretch(now, until);
+            performer.render_outputs(main, &mut others);
             now = until;
         }
     };
@@ -176,10 +176,11 @@ impl Message {
             What::Program => {
                 // Where nobody has moved the parameters for it, as in the framework's own program, they would be back
                 // with the next slice.
-                let program = parameters.program(number, channel);
-                if let Some(program) = program.filter(|program| parameters.are_at(program)) {
-                    performer.program_change(program, channel);
-                }
+                parameters.with_program(number, channel, |program| {
+                    if parameters.are_at(program) {
+                        performer.program_change(program, channel);
+                    }
+                });
             }
             What::NoteOn(_) | What::Place(_) | What::Bend(_) => {}
         }

@@ -1,6 +1,7 @@
 use overhear_engine::snapshot::KitSnapshot;
 
 use super::*;
+use crate::kit_document::KitDocument;
 
 const RATE: f64 = 48_000.0;
 
@@ -35,8 +36,8 @@ fn expression(timing: u32, place: Option<f32>, tuning: f32) -> NoteEvent<()> {
 
 /// Plays events through an instance's own glue: a stretch for each slice length.
 fn played(slices: &[(usize, Vec<NoteEvent<()>>)]) -> Vec<f32> {
-    let mut performer = Performer::new(RATE);
-    performer.install_kit(RATE).unwrap();
+    let mut performer = Performer::new(RATE, &KitDocument::standard(), Arc::default());
+    performer.install_kit(RATE, Pace::RealTime).unwrap();
     let mut sound = Vec::new();
     for (samples, events) in slices {
         let (mut left, mut right) = (vec![f32::NAN; *samples], vec![f32::NAN; *samples]);
@@ -89,8 +90,8 @@ fn a_program_change_that_moved_no_parameter_changes_nothing() {
     let parameters = HostParameters::default();
     parameters.read_programs();
     let sound = |program: Option<u8>| {
-        let mut performer = Performer::new(RATE);
-        performer.install_kit(RATE).unwrap();
+        let mut performer = Performer::new(RATE, &KitDocument::standard(), Arc::default());
+        performer.install_kit(RATE, Pace::RealTime).unwrap();
         let change = program.map(|program| NoteEvent::MidiProgramChange { timing: 0, channel: 9, program });
         let mut events = change.into_iter().chain([note(0)]);
         let (mut left, mut right) = (vec![0.0; 2_000], vec![0.0; 2_000]);
@@ -99,14 +100,14 @@ fn a_program_change_that_moved_no_parameter_changes_nothing() {
         play(&mut performer, &mut buffers, &parameters, || events.next());
         left
     };
-    let jazz = parameters.program(2, 9).expect("a preset of this number");
-    assert!(!parameters.are_at(jazz) && parameters.are_at(parameters.program(0, 9).unwrap()));
+    let is_at = |program| parameters.with_program(program, 9, |program| parameters.are_at(program));
+    assert_eq!((is_at(0), is_at(2), is_at(127)), (Some(true), Some(false), None));
     assert!(sound(Some(2)) == sound(None));
 }
 
 #[test]
 fn more_notes_at_a_sample_than_can_wait_are_all_struck() {
-    let mut performer = Performer::new(RATE);
+    let mut performer = Performer::new(RATE, &KitDocument::standard(), Arc::default());
     let (mut left, mut right) = ([0.0; 64], [0.0; 64]);
     let mut events = (0..40).map(|_| note(3));
     let mut main = [left.as_mut_slice(), right.as_mut_slice()];
@@ -119,7 +120,7 @@ fn more_notes_at_a_sample_than_can_wait_are_all_struck() {
 
 #[test]
 fn notes_out_of_order_and_beyond_the_slice_are_not_lost() {
-    let mut performer = Performer::new(RATE);
+    let mut performer = Performer::new(RATE, &KitDocument::standard(), Arc::default());
     let (mut left, mut right) = ([0.0; 64], [0.0; 64]);
     let mut events = [note(60), note(10), note(u32::MAX)].into_iter();
     let mut main = [left.as_mut_slice(), right.as_mut_slice()];
@@ -184,4 +185,19 @@ fn a_panic_in_the_engine_silences_the_stage_until_it_is_prepared_again() {
     assert!(!stage.guarded(|_| {}), "it stays silent");
     instance.prepare(48_000.0, false);
     assert!(instance.stage.as_mut().unwrap().guarded(|_| {}));
+}
+
+#[test]
+fn another_kit_is_there_before_it_is_played() {
+    let mut instance = Overhear::default();
+    instance.prepare(48_000.0, false);
+    let mut other = KitDocument::standard();
+    other.kit.pieces.truncate(2);
+    other.notes = crate::midi_map::NoteTable::standard(&other.kit);
+    instance.parameters.set_document(Arc::new(other.clone())).unwrap();
+    instance.prepare(48_000.0, false);
+    let performer = &mut instance.stage.as_mut().unwrap().performer;
+    assert!(*performer.document() == other && performer.is_complete());
+    let slots = [36, 38, 49].map(|note| performer.slot_of(note).map(|slot| slot.index()));
+    assert_eq!(slots, [Some(0), Some(1), None]);
 }

@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use crate::kit_file::KitFileError;
+
 /// What is wrong.
 #[derive(Debug, thiserror::Error)]
 pub enum PresetError {
@@ -15,6 +17,9 @@ pub enum PresetError {
         /// What is wrong, and what is accepted.
         reason: String,
     },
+    /// A line of the kit in a file says something that is not accepted.
+    #[error(transparent)]
+    Kit(#[from] KitFileError),
     /// No preset has that name.
     #[error("no preset is called `{name}`, accepted: {accepted}")]
     Unknown {

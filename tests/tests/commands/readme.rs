@@ -9,7 +9,7 @@ use xtask::report::page;
 use super::{Folder, SONG, root};
 
 /// Commands that take seconds.
-const SHORT: &[&str] = &["render", "hear", "modes"];
+const SHORT: &[&str] = &["kit", "render", "hear", "modes"];
 
 /// Commands that take minutes, and what is added to them here: one run of everything costs nobody's time twice, and the
 /// pages of the sources are not to be written over.

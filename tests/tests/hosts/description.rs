@@ -1,6 +1,9 @@
 //! What the plugin says of itself.
 
-use overhear::parameters::{BYPASS_ID, PARAMETERS, host_id};
+use overhear::parameters::{
+    BYPASS_ID, COUNT, SlotParameter, default_value, host_id, is_live, parameters, slot_parameter, text,
+};
+use overhear_engine::kit_spec::{KitSpec, Kind};
 use xtask::host::Bundle;
 use xtask::workspace::Format;
 
@@ -26,9 +29,9 @@ fn it_is_a_drum_instrument_with_one_stereo_output() {
 fn its_parameters_are_the_table_in_its_order() {
     let _turn = alone();
     let found = instance().parameters().unwrap();
-    assert_eq!(found.len(), PARAMETERS.len() + 1);
-    assert_eq!(found[PARAMETERS.len()].id, host_id(BYPASS_ID));
-    for (found, parameter) in found.iter().zip(&PARAMETERS) {
+    assert_eq!(found.len(), COUNT + 1);
+    assert_eq!(found[COUNT].id, host_id(BYPASS_ID));
+    for (found, parameter) in found.iter().zip(parameters()) {
         assert_eq!(found.id, host_id(parameter.id), "{}", parameter.name);
         let default = f64::from(parameter.normalized(parameter.default));
         assert!((found.default - default).abs() < 1e-6, "{}", parameter.name);
@@ -39,15 +42,38 @@ fn its_parameters_are_the_table_in_its_order() {
 #[test]
 fn values_are_shown_in_units_and_read_back() {
     let _turn = alone();
-    let mut instance = instance();
-    for parameter in &PARAMETERS {
+    let (mut instance, kit) = (instance(), KitSpec::standard());
+    for (index, parameter) in parameters().iter().enumerate() {
         let id = host_id(parameter.id);
         for plain in [parameter.min, parameter.default, parameter.max] {
             let value = f64::from(parameter.normalized(plain));
             let shown = instance.value_text(id, value).unwrap();
-            assert!(shown.ends_with(parameter.unit), "{}: {shown}", parameter.name);
+            assert_eq!(shown, text(index, plain, &kit), "{}", parameter.name);
             let back = instance.text_value(id, &shown).unwrap();
-            assert!((back - value).abs() < 1e-3, "{}: {shown} is read as {back}", parameter.name);
+            // A drum reaches less than an octave either way.
+            if is_live(index, &kit) && (plain == parameter.default || !tunes_a_drum(index, &kit)) {
+                assert!((back - value).abs() < 1e-3, "{}: {shown} is read as {back}", parameter.name);
+            } else {
+                assert_eq!(instance.value_text(id, back).unwrap(), shown, "{}", parameter.name);
+            }
         }
+    }
+}
+
+fn tunes_a_drum(index: usize, kit: &KitSpec) -> bool {
+    let Some((slot, SlotParameter::Tune)) = slot_parameter(index) else { return false };
+    kit.piece(slot).is_some_and(|piece| piece.instrument.kind() == Kind::Drum)
+}
+
+#[test]
+fn parameters_of_the_first_slots_are_those_of_the_standard_kit_s_pieces() {
+    let _turn = alone();
+    let (found, kit) = (instance().parameters().unwrap(), KitSpec::standard());
+    for (index, found) in found[..COUNT].iter().enumerate() {
+        let Some((slot, what)) = slot_parameter(index) else { continue };
+        let title = kit.piece(slot).map_or_else(|| format!("Slot {}", slot.index() + 1), |piece| piece.title.clone());
+        assert_eq!(found.name, format!("{title} {}", what.label()));
+        let default = parameters()[index].normalized(default_value(index, &kit));
+        assert!(kit.piece(slot).is_none() || (found.default - f64::from(default)).abs() < 1e-6, "{}", found.name);
     }
 }

@@ -7,7 +7,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use overhear::parameters::{PARAMETERS, find, host_id};
+use overhear::parameters::{find, host_id, parameters};
+use overhear_engine::kit_spec::KitSpec;
 use x11rb::connection::Connection;
 use x11rb::protocol::xproto::{self, ConfigureWindowAux, ConnectionExt};
 use x11rb::protocol::xtest::ConnectionExt as _;
@@ -15,8 +16,8 @@ use xtask::host::{Instance, Processor, Touch};
 use xtask::player::Blocks;
 
 use crate::score::{assert_same, notes, through_engine, through_plugin};
-use crate::window::{PATIENCE, Parent, Stop};
-use crate::{alone, instance};
+use crate::window::{PATIENCE, Parent};
+use crate::{Stop, alone, instance};
 
 const RATE: f64 = 48_000.0;
 
@@ -92,7 +93,7 @@ fn a_hand_at_the_window_strikes_the_kit_and_moves_a_parameter_by_gestures_of_the
     let _turn = alone();
     let mut instance = instance();
     let (met, stop) = (Mutex::<Met>::default(), AtomicBool::new(false));
-    let id = host_id(PARAMETERS[find("snare_tune").unwrap().0].id);
+    let id = host_id(parameters()[find("snare_tune", &KitSpec::standard()).unwrap()].id);
     let value = |instance: &mut Instance| {
         instance.parameters().unwrap().into_iter().find(|parameter| parameter.id == id).unwrap().value
     };

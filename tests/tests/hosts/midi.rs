@@ -1,14 +1,18 @@
 //! Notes, controllers and chokes through the built plugin.
 
+use std::sync::Arc;
+
+use overhear::building::Pace;
+use overhear::kit_document::KitDocument;
 use overhear::midi::maps::NoteMap;
-use overhear::midi_map;
-use overhear::parameters::{PARAMETERS, Parameter, find, host_id};
+use overhear::parameters::{COUNT, default_value, find, parameters};
 use overhear::performer::Performer;
 use overhear::presets::{FACTORY, Preset};
+use overhear_engine::kit_spec::KitSpec;
 use xtask::host::{Event, Instance, What};
 
 use crate::score::{Sound, assert_same, peak};
-use crate::{alone, instance};
+use crate::{alone, as_hosts_have_it, instance, setting};
 
 const RATE: f64 = 48_000.0;
 
@@ -36,9 +40,8 @@ fn on(key: u8) -> What {
 }
 
 fn set(instance: &mut Instance, name: &str, value: f32) {
-    let parameter = &PARAMETERS[find(name).unwrap().0];
-    let value = f64::from(parameter.normalized(value));
-    instance.set_parameters(&[(host_id(parameter.id), value)]).unwrap();
+    let index = find(name, &KitSpec::standard()).unwrap();
+    instance.set_parameters(&[as_hosts_have_it((index, value))]).unwrap();
 }
 
 fn energy(sound: &Sound, from: usize) -> f32 {
@@ -48,7 +51,7 @@ fn energy(sound: &Sound, from: usize) -> f32 {
 #[test]
 fn every_note_of_every_map_sounds_or_is_silent_as_the_tables_say() {
     let _turn = alone();
-    let mut instance = instance();
+    let (mut instance, table) = (instance(), KitDocument::standard().notes);
     for (place, map) in NoteMap::ALL.into_iter().enumerate() {
         set(&mut instance, "note_map", place as f32);
         instance
@@ -61,7 +64,7 @@ fn every_note_of_every_map_sounds_or_is_silent_as_the_tables_say() {
                     // A felt beater gets going late; any motion of the surface is heard.
                     processor.process(&[], &mut left, &mut right)?;
                     let sounds = left.iter().any(|sample| *sample != 0.0);
-                    assert_eq!(sounds, map.stroke(key).is_some(), "{map:?}, note {key}");
+                    assert_eq!(sounds, map.stroke(key, &table).is_some(), "{map:?}, note {key}");
                 }
                 Ok(())
             })
@@ -72,9 +75,9 @@ fn every_note_of_every_map_sounds_or_is_silent_as_the_tables_say() {
 #[test]
 fn notes_of_a_module_are_the_reference_notes_they_play() {
     let _turn = alone();
-    let mut instance = instance();
+    let (mut instance, table) = (instance(), KitDocument::standard().notes);
     for (place, map) in NoteMap::ALL.into_iter().enumerate().skip(1) {
-        for pad in map.pads().unwrap().iter().filter(|pad| midi_map::stroke(pad.plays).is_some()).step_by(5) {
+        for pad in map.pads().unwrap().iter().filter(|pad| table.stroke(pad.plays).is_some()).step_by(5) {
             set(&mut instance, "note_map", 0.0);
             let expected = play(&mut instance, &[(7, on(pad.plays))]);
             set(&mut instance, "note_map", place as f32);
@@ -122,8 +125,8 @@ fn controllers_reach_the_stroke_and_only_its_own() {
         assert_eq!(moved != plain, changes, "{bytes:?}");
     }
     // What was said to the performer directly sounds the same, to the sample.
-    let mut performer = Performer::new(RATE);
-    performer.install_kit(RATE).unwrap();
+    let mut performer = Performer::new(RATE, &KitDocument::standard(), Arc::default());
+    performer.install_kit(RATE, Pace::RealTime).unwrap();
     let mut expected = [vec![0.0; FRAMES], vec![0.0; FRAMES]];
     let [left, right] = &mut expected;
     performer.control_change(16, 100.0 / 127.0, 9);
@@ -186,14 +189,14 @@ fn a_program_change_loads_its_preset_at_its_sample_and_tells_the_host() {
     let (sound, moved) = play_and_tell(&mut changed, &[strokes[0], (5_000, change(9)), strokes[1]]);
     assert!(sound[0][..5_000] == plain[0][..5_000] && sound[0][6_000..] != plain[0][6_000..]);
     let found = changed.parameters().unwrap();
-    for (index, parameter) in PARAMETERS.iter().enumerate() {
-        let wanted = f64::from(parameter.normalized(preset.value(index).unwrap_or(parameter.default)));
-        assert!((found[index].value - wanted).abs() < 1e-6, "{}", parameter.name);
+    let kit = KitSpec::standard();
+    for (index, found) in found.iter().take(COUNT).enumerate() {
+        let wanted = preset.value(index, &kit).unwrap_or_else(|| default_value(index, &kit));
+        let (_, wanted) = as_hosts_have_it((index, wanted));
+        assert!((found.value - wanted).abs() < 1e-6, "{}", found.name);
     }
-    let asked = |(index, parameter): (usize, &Parameter)| {
-        Some((host_id(parameter.id), f64::from(parameter.normalized(preset.value(index)?))))
-    };
-    assert_eq!(moved, PARAMETERS.iter().enumerate().filter_map(asked).collect::<Vec<_>>());
+    let asked = preset.values_at(&kit).into_iter().map(as_hosts_have_it);
+    assert_eq!(moved, asked.collect::<Vec<_>>());
 
     // As a host that moves the same parameters itself.
     let mut by_hand = vec![strokes[0]];
@@ -216,10 +219,9 @@ fn a_program_change_loads_its_preset_at_its_sample_and_tells_the_host() {
 #[test]
 fn modulation_moves_a_parameter_away_and_leaves_its_value() {
     let _turn = alone();
-    let (index, parameter) = find("rack_tom_tune").unwrap();
-    let id = host_id(parameter.id);
-    let rest = f64::from(parameter.normalized(parameter.default));
-    let moved = f64::from(parameter.normalized(1.2 * parameter.default));
+    let (index, higher) = setting("rack_tom_tune=3 st");
+    let (id, moved) = as_hosts_have_it((index, higher));
+    let (_, rest) = as_hosts_have_it((index, parameters()[index].default));
     let strokes = [(0, on(48)), (8_000, on(48))];
     let with = |what: What| [strokes[0], (5_000, what), strokes[1]];
     let mut modulated = instance();

@@ -1,20 +1,22 @@
-//! The instrument with an output for every piece.
+//! The instrument with an output for every slot and each pair of microphones.
 
-use overhear::parameters::{find, host_id};
-use overhear_engine::piece::PieceId;
+use overhear_engine::kit::OUTPUTS;
+use overhear_engine::kit_spec::KitSpec;
+use overhear_engine::slot::Slot;
 use xtask::host::{Bundle, Event, Instance, What};
 use xtask::player::Blocks;
 use xtask::workspace::Format;
 
 use crate::score::{assert_same, notes, through_plugin};
 use crate::vst3::through_pedalboard;
-use crate::{alone, bundle_path, instance};
+use crate::{alone, as_hosts_have_it, bundle_path, instance, setting};
 
 const RATE: f64 = 48_000.0;
 
 const FRAMES: usize = 4096;
 
-fn multi() -> Instance {
+/// An instance of it.
+pub fn multi() -> Instance {
     let bundle = Bundle::load(&bundle_path(Format::Clap)).expect("a CLAP bundle");
     bundle.instantiate_id(overhear::MULTI_CLAP_ID).expect("an instance")
 }
@@ -35,13 +37,18 @@ fn struck(instance: &mut Instance, outputs: usize) -> Vec<[Vec<f32>; 2]> {
 }
 
 #[test]
-fn its_outputs_are_the_mix_and_every_piece_by_name() {
+fn its_outputs_are_the_mix_every_slot_by_the_standard_kit_s_piece_and_the_pairs_of_microphones() {
     let _turn = alone();
-    let outputs = multi().audio_outputs().unwrap();
-    assert_eq!(outputs.len(), 1 + PieceId::KIT.len());
+    let (outputs, kit) = (multi().audio_outputs().unwrap(), KitSpec::standard());
+    assert_eq!(outputs.len(), 1 + OUTPUTS);
     assert!(outputs.iter().all(|port| port.channels == 2));
-    for (port, piece) in outputs[1..].iter().zip(PieceId::KIT) {
-        assert_eq!(port.name.to_lowercase().replace(' ', "-"), piece.name());
+    let titles = Slot::ALL.map(|slot| match kit.piece(slot) {
+        Some(piece) => piece.title.clone(),
+        None => format!("Slot {}", slot.index() + 1),
+    });
+    let pairs = ["Overheads", "Room"].map(str::to_owned);
+    for (port, title) in outputs[1..].iter().zip(titles.into_iter().chain(pairs)) {
+        assert_eq!(port.name, title);
     }
 }
 
@@ -49,18 +56,19 @@ fn its_outputs_are_the_mix_and_every_piece_by_name() {
 fn every_piece_is_at_its_own_output_and_all_are_the_mix() {
     let _turn = alone();
     let mut instance = multi();
-    // The mix has the overheads and the room besides, and pieces that hear each other all sound.
-    let off = ["overheads_level", "room_level", "hearing"].map(|name| {
-        let (_, parameter) = find(name).unwrap();
-        (host_id(parameter.id), f64::from(parameter.normalized(parameter.min)))
-    });
-    instance.set_parameters(&off).unwrap();
-    let sound = struck(&mut instance, 1 + PieceId::KIT.len());
-    for (piece, output) in PieceId::KIT.into_iter().zip(&sound[1..]) {
+    // Pieces that hear each other all sound.
+    let off = as_hosts_have_it(setting("sympathetic_resonance=off"));
+    instance.set_parameters(&[off]).unwrap();
+    let (sound, kit) = (struck(&mut instance, 1 + OUTPUTS), KitSpec::standard());
+    for (slot, output) in Slot::ALL.into_iter().zip(&sound[1..]) {
         let heard = output.iter().flatten().any(|sample| *sample != 0.0);
-        assert_eq!(heard, matches!(piece, PieceId::Snare | PieceId::Ride), "{piece:?}");
+        let name = kit.piece(slot).map_or("", |piece| &piece.name);
+        assert_eq!(heard, ["snare", "ride"].contains(&name), "{slot:?}: {name}");
     }
-    // The master stands between the pieces and the mix, at -4 dB.
+    for pair in &sound[OUTPUTS - 1..] {
+        assert!(pair.iter().flatten().any(|sample| *sample != 0.0), "a pair of microphones hears nothing");
+    }
+    // The master stands between the outputs and the mix, at -4 dB.
     let master = 10.0_f32.powf(-4.0 / 20.0);
     for (channel, mix) in sound[0].iter().enumerate() {
         for (at, mixed) in mix.iter().enumerate() {
@@ -74,8 +82,8 @@ fn every_piece_is_at_its_own_output_and_all_are_the_mix() {
 fn fewer_outputs_than_declared_change_nothing_at_those_there_are() {
     let _turn = alone();
     let mut instance = multi();
-    let whole = struck(&mut instance, 1 + PieceId::KIT.len());
-    for outputs in [1, 2, 5] {
+    let whole = struck(&mut instance, 1 + OUTPUTS);
+    for outputs in [1, 2, 5, OUTPUTS] {
         assert!(struck(&mut instance, outputs)[..] == whole[..outputs], "{outputs} outputs");
     }
 }
@@ -97,6 +105,6 @@ fn vst3_with_inactive_outputs_gives_the_samples_of_clap() {
     // Pedalboard says that it renders to a file.
     instance.set_offline().unwrap();
     let clap = through_plugin(&mut instance, &score, RATE, Blocks::Fixed(512));
-    let vst3 = through_pedalboard("multi", overhear::MULTI_NAME, &score, RATE, 512);
+    let vst3 = through_pedalboard("multi", overhear::MULTI_NAME, None, &score, RATE, 512);
     assert_same(&vst3, &clap, "beside inactive outputs");
 }

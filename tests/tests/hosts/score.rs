@@ -1,9 +1,14 @@
 //! A short score that uses everything, and ways to play it.
 
-use overhear::parameters::{PARAMETERS, find, host_id};
+use std::sync::Arc;
+
+use overhear::building::Pace;
+use overhear::kit_document::KitDocument;
 use overhear::performer::{Performer, velocity_from_midi};
 use xtask::host::{Event, Instance, What};
 use xtask::player::Blocks;
+
+use crate::{as_hosts_have_it, setting};
 
 /// Something that happens at a sample.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,19 +66,20 @@ pub fn notes(rate: f64) -> Score {
 /// The notes, and knobs that turn while they ring.
 pub fn automated(rate: f64) -> Score {
     let mut score = notes(rate);
-    let mut turn = |seconds: f64, name: &str, value: f32| {
-        let index = find(name).expect("a parameter").0;
+    for (seconds, text) in [
+        (0.02, "kick_tune=62"),
+        (0.0205, "kick_tune=64.5"),
+        (0.1003, "snare_muffle=0.4"),
+        (0.21, "rack_tom_tune=155"),
+        (0.3, "ride_tune=-1.5"),
+        (0.3001, "crash_level=-9"),
+        (0.45, "master_level=-3"),
+        (0.55, "dynamics=8"),
+        (0.7, "floor_tom_muffle=1"),
+    ] {
+        let (index, value) = setting(text);
         score.push(((seconds * rate) as u64, Happening::Parameter(index, value)));
-    };
-    turn(0.02, "kick_tune", 62.0);
-    turn(0.0205, "kick_tune", 64.5);
-    turn(0.1003, "snare_muffle", 0.4);
-    turn(0.21, "rack_tom_tune", 155.0);
-    turn(0.3, "ride_tune", -1.5);
-    turn(0.3001, "crash_level", -9.0);
-    turn(0.45, "master_level", -3.0);
-    turn(0.55, "dynamics", 8.0);
-    turn(0.7, "floor_tom_muffle", 1.0);
+    }
     score.sort_by_key(|(sample, what)| (*sample, matches!(what, Happening::Note(..))));
     score
 }
@@ -85,8 +91,8 @@ fn event(happening: Happening, offset: u64) -> Event {
             What::NoteOn { channel: 9, key, velocity: velocity_from_midi(velocity) }
         }
         Happening::Parameter(index, value) => {
-            let parameter = &PARAMETERS[index];
-            What::Parameter { id: host_id(parameter.id), value: f64::from(parameter.normalized(value)) }
+            let (id, value) = as_hosts_have_it((index, value));
+            What::Parameter { id, value }
         }
     };
     Event { offset: offset as u32, what }
@@ -121,10 +127,15 @@ pub fn through_plugin(instance: &mut Instance, score: &Score, rate: f64, blocks:
     sound
 }
 
-/// Plays a score with the engine, as one long buffer cut at the happenings only.
+/// Plays a score on the standard kit with the engine, as one long buffer cut at the happenings only.
 pub fn through_engine(score: &Score, rate: f64) -> Sound {
-    let mut performer = Performer::new(rate);
-    performer.install_kit(rate).expect("a kit");
+    on_a_kit(&KitDocument::standard(), score, rate)
+}
+
+/// The same on any kit.
+pub fn on_a_kit(document: &KitDocument, score: &Score, rate: f64) -> Sound {
+    let mut performer = Performer::new(rate, document, Arc::default());
+    performer.install_kit(rate, Pace::RealTime).expect("a kit");
     let total = frames(rate) as usize;
     let mut sound = [vec![f32::NAN; total], vec![f32::NAN; total]];
     let [left, right] = &mut sound;

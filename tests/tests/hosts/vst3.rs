@@ -4,13 +4,13 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
 
-use overhear::parameters::{BYPASS_GROUP, PARAMETERS, find, host_id};
+use overhear::parameters::{BYPASS_GROUP, parameters};
 use serde_json::{Value, json};
 use xtask::player::Blocks;
 use xtask::workspace::Format;
 
 use crate::score::{Happening, Score, Sound, assert_same, frames, notes, through_plugin};
-use crate::{alone, bundle_path, here, instance};
+use crate::{alone, as_hosts_have_it, bundle_path, here, instance, setting};
 
 /// The Python that has DawDreamer.
 fn python() -> PathBuf {
@@ -23,10 +23,11 @@ fn python() -> PathBuf {
 }
 
 /// A file for one job, gone when dropped.
-struct Scratch(PathBuf);
+pub struct Scratch(pub PathBuf);
 
 impl Scratch {
-    fn new(name: &str) -> Scratch {
+    /// One of that name.
+    pub fn new(name: &str) -> Scratch {
         Scratch(std::env::temp_dir().join(format!("overhear-{}-{name}", std::process::id())))
     }
 }
@@ -40,28 +41,48 @@ impl Drop for Scratch {
 /// Place of a parameter in DawDreamer's list: the host goes through the plugin's groups, in the order in which
 /// they first appear, and within each through its parameters. The bypass comes last in its group.
 fn listed(index: usize) -> usize {
-    let first = |group: &str| PARAMETERS.iter().position(|other| other.group == group);
-    let place = |of: usize| (first(PARAMETERS[of].group), of);
-    let before = (0..PARAMETERS.len()).filter(|&other| place(other) < place(index)).count();
-    before + usize::from(first(BYPASS_GROUP) < first(PARAMETERS[index].group))
+    let table = parameters();
+    let first = |group: &str| table.iter().position(|other| other.group == group);
+    let place = |of: usize| (first(table[of].group), of);
+    let before = (0..table.len()).filter(|&other| place(other) < place(index)).count();
+    before + usize::from(first(BYPASS_GROUP) < first(table[index].group))
 }
 
 /// What is done to parameters in another host, by `(index, plain value)`.
 #[derive(Default)]
-struct Moves<'a> {
+pub struct Moves<'a> {
     /// Set before it plays.
-    parameters: &'a [(usize, f32)],
+    pub parameters: &'a [(usize, f32)],
     /// Moved with every block.
-    automation: &'a [(usize, Vec<f32>)],
-    /// File of a state to load first.
-    load: Option<&'a PathBuf>,
+    pub automation: &'a [(usize, Vec<f32>)],
+    /// File of a preset in the format's own form to load first.
+    pub preset: Option<&'a PathBuf>,
+    /// File of a state that this host has saved, to load first.
+    pub load: Option<&'a PathBuf>,
     /// File that the state is saved to in the end.
-    save: Option<&'a PathBuf>,
+    pub save: Option<&'a PathBuf>,
+}
+
+/// A state of the CLAP plugin as a file that every VST3 host can load (.vstpreset), for the plugin of an id: the id, then the
+/// state in a chunk, then a list of the chunks.
+pub fn preset_file(id: [u8; 16], clap_state: &[u8]) -> Vec<u8> {
+    const HEADER: u64 = 48;
+    // Both formats store the same text; CLAP's begins with its length.
+    let state = &clap_state[8..];
+    let class: String = id.iter().map(|byte| format!("{byte:02X}")).collect();
+    let size = state.len() as u64;
+    let mut file = b"VST3\x01\0\0\0".to_vec();
+    file.extend_from_slice(class.as_bytes());
+    file.extend_from_slice(&(HEADER + size).to_le_bytes());
+    file.extend_from_slice(state);
+    file.extend_from_slice(b"List\x01\0\0\0Comp");
+    file.extend([HEADER, size].map(u64::to_le_bytes).as_flattened());
+    file
 }
 
 /// Plays a score through the VST3 bundle.
-fn through_vst3(name: &str, score: &Score, moves: &Moves, rate: f64, block: u32) -> Sound {
-    let share = |index: usize, value: f32| PARAMETERS[index].normalized(value);
+pub fn through_vst3(name: &str, score: &Score, moves: &Moves, rate: f64, block: u32) -> Sound {
+    let share = |index: usize, value: f32| parameters()[index].normalized(value);
     let parameters =
         moves.parameters.iter().map(|&(index, value)| json!([listed(index), share(index, value)]));
     let automation = moves.automation.iter().map(|(index, values)| {
@@ -76,17 +97,27 @@ fn through_vst3(name: &str, score: &Score, moves: &Moves, rate: f64, block: u32)
         "notes": listed_notes(score),
         "parameters": parameters.collect::<Vec<_>>(),
         "automation": automation.collect::<Vec<_>>(),
+        "preset": moves.preset,
         "load": moves.load,
         "save": moves.save,
     });
     through_python(name, "hosts/vst3.py", description)
 }
 
-/// Plays a score through a plugin of the VST3 bundle in pedalboard, which uses the main output only.
-pub fn through_pedalboard(name: &str, plugin: &str, score: &Score, rate: f64, block: u32) -> Sound {
+/// Plays a score through a plugin of the VST3 bundle in pedalboard, which uses the main output only, from a preset if one
+/// is given.
+pub fn through_pedalboard(
+    name: &str,
+    plugin: &str,
+    preset: Option<&PathBuf>,
+    score: &Score,
+    rate: f64,
+    block: u32,
+) -> Sound {
     let description = json!({
         "plugin": bundle_path(Format::Vst3),
         "name": plugin,
+        "preset": preset,
         "rate": rate,
         "block": block,
         "frames": frames(rate),
@@ -142,18 +173,9 @@ fn vst3_parameters_are_those_of_clap() {
     let _turn = alone();
     let rate = 48_000.0;
     let score = notes(rate);
-    let values: Vec<_> = [("kick_tune", 61.5), ("crash_level", -12.0), ("snare_muffle", 0.5)]
-        .map(|(name, value)| (find(name).unwrap().0, value))
-        .to_vec();
+    let values = ["kick_tune=61.5", "crash_level=-12", "snare_muffle=0.5"].map(setting);
     let mut clap = instance();
-    let set: Vec<_> = values
-        .iter()
-        .map(|&(index, value)| {
-            let parameter = &PARAMETERS[index];
-            (host_id(parameter.id), f64::from(parameter.normalized(value)))
-        })
-        .collect();
-    clap.set_parameters(&set).unwrap();
+    clap.set_parameters(&values.map(as_hosts_have_it)).unwrap();
     let expected = through_plugin(&mut clap, &score, rate, Blocks::Fixed(512));
     let state = Scratch::new("parameters.state");
     let moves = Moves { parameters: &values, save: Some(&state.0), ..Moves::default() };
@@ -172,16 +194,16 @@ fn vst3_automation_is_that_of_clap() {
     let (rate, block) = (48_000.0, 480_u32);
     let score = notes(rate);
     let blocks = frames(rate).div_ceil(u64::from(block)) as usize;
-    let sweep = |name: &str, from: f32, to: f32| {
-        let (index, parameter) = find(name).unwrap();
-        let value = |at: usize| parameter.snap(from + (to - from) * at as f32 / blocks as f32);
+    let sweep = |from: &str, to: &str| {
+        let ((index, from), (_, to)) = (setting(from), setting(to));
+        let value = |at: usize| parameters()[index].snap(from + (to - from) * at as f32 / blocks as f32);
         (index, (0..=blocks).map(value).collect::<Vec<_>>())
     };
     let sweeps = [
-        sweep("kick_tune", 45.0, 70.0),
-        sweep("snare_preload", 0.05, 1.5),
-        sweep("rack_tom_muffle", 0.0, 0.8),
-        sweep("ride_level", -12.0, 3.0),
+        sweep("kick_tune=45", "kick_tune=70"),
+        sweep("snare_preload=0.05", "snare_preload=1.5"),
+        sweep("rack_tom_muffle=0", "rack_tom_muffle=0.8"),
+        sweep("ride_level=-12", "ride_level=3"),
     ];
     let mut moved = score.clone();
     for at in 0..blocks {

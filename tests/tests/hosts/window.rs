@@ -11,7 +11,7 @@ use x11rb::rust_connection::RustConnection;
 use x11rb::{COPY_DEPTH_FROM_PARENT, COPY_FROM_PARENT};
 
 use crate::score::{assert_same, notes, through_engine, through_plugin};
-use crate::{alone, instance};
+use crate::{Stop, alone, instance};
 use xtask::host::{Event, Instance, Processor, What};
 use xtask::player::Blocks;
 
@@ -121,15 +121,6 @@ fn the_editor_draws_however_late_it_is_shown() {
             .expect("the editor opens");
         parent.wait_for_text(&mut instance, &format!("shown {delay:?} late"));
         instance.close_editor().unwrap();
-    }
-}
-
-/// Tells the other thread to stop, whatever ends this one's work.
-pub struct Stop<'a>(pub &'a AtomicBool);
-
-impl Drop for Stop<'_> {
-    fn drop(&mut self) {
-        self.0.store(true, Ordering::Release);
     }
 }
 

@@ -3,16 +3,18 @@
 //! Each scene is played once, at 44.1 kHz, by a process of its own under callgrind, which knows AVX2 at most. Only what happens
 //! inside [`Workload::block`] counts.
 
+use std::path::Path;
 use std::process::{Command, Stdio};
 
 use anyhow::{Context, Result};
+use overhear::kit_document::KitDocument;
 use overhear_engine::modal::simd::level::{self, InstructionSet};
-use overhear_engine::piece::{PieceId, Quality};
+use overhear_engine::piece::Quality;
 
 use super::workload::{Scene, Workload};
 use super::{RATE, Request};
-use crate::bad_input;
 use crate::progress::Progress;
+use crate::{bad_input, settings};
 
 /// The function counted, as callgrind sees its name.
 const COUNTED: &str = "*bench::workload::Workload::block*";
@@ -27,17 +29,17 @@ pub struct Count {
 }
 
 /// The scenes counted: those of the kit, and every piece at the standard tier.
-fn scenes(quality: Quality) -> impl Iterator<Item = Scene> {
-    let kit = [Scene::Groove(quality), Scene::AllAtOnce(quality), Scene::Idle];
-    kit.into_iter().chain(PieceId::KIT.map(|piece| Scene::Piece(piece, Quality::Standard)))
+fn scenes(document: &KitDocument, quality: Quality) -> Vec<Scene> {
+    let pieces = document.kit.slots().map(|(slot, _)| Scene::Piece(slot, Quality::Standard));
+    Scene::of_kit(document, quality).into_iter().chain(pieces).collect()
 }
 
 /// Counts every scene.
 ///
 /// # Errors
 /// [`BadInput`](crate::error::BadInput) if `valgrind` is not installed; any other if it fails.
-pub fn count(request: &Request) -> Result<Vec<Count>> {
-    let scenes: Vec<Scene> = scenes(request.quality).collect();
+pub fn count(request: &Request, document: &KitDocument) -> Result<Vec<Count>> {
+    let scenes = scenes(document, request.quality);
     let mut progress = Progress::new("callgrind", scenes.len() as u64);
     let set = request.simd.unwrap_or(InstructionSet::Avx2).min(InstructionSet::Avx2);
     let mut counts = Vec::new();
@@ -47,6 +49,7 @@ pub fn count(request: &Request) -> Result<Vec<Count>> {
             .arg(format!("--toggle-collect={COUNTED}"))
             .arg(std::env::current_exe().context("the path of this program")?)
             .args(["bench-scene", &index.to_string(), request.quality.name(), set.name()])
+            .args(request.kit.iter())
             .stdout(Stdio::null())
             .output()
             .map_err(|error| {
@@ -58,7 +61,7 @@ pub fn count(request: &Request) -> Result<Vec<Count>> {
             .and_then(|(_, number)| number.trim().parse().ok())
             .with_context(|| format!("valgrind counted nothing: {}", said.trim()))?;
         counts.push(Count {
-            name: scene.name().to_owned(),
+            name: scene.name(&document.kit),
             instructions_per_s: instructions / scene.seconds(),
         });
         progress.advance(1);
@@ -66,14 +69,16 @@ pub fn count(request: &Request) -> Result<Vec<Count>> {
     Ok(counts)
 }
 
-/// What runs under callgrind: plays the scene of that number once.
+/// What runs under callgrind: plays the scene of that number once, of the standard kit or that of a file.
 ///
 /// # Errors
 /// [`BadInput`](crate::error::BadInput) if there is none, or it cannot be built.
-pub fn count_this(index: usize, quality: Quality, set: InstructionSet) -> Result<()> {
+pub fn count_this(index: usize, quality: Quality, set: InstructionSet, kit: Option<&Path>) -> Result<()> {
     level::limit(set);
-    let scene = scenes(quality).nth(index).ok_or_else(|| bad_input!("there is no scene {index}"))?;
-    let mut workload = Workload::new(&scene, RATE)?;
+    let document = settings::kit(kit)?;
+    let scenes = scenes(&document, quality);
+    let scene = *scenes.get(index).ok_or_else(|| bad_input!("there is no scene {index}"))?;
+    let mut workload = Workload::new(scene, &document, RATE)?;
     for _ in 0..workload.blocks() {
         workload.block();
     }

@@ -15,7 +15,8 @@ pub type Before = BTreeMap<String, f64>;
 /// What of a report is compared.
 #[derive(Deserialize)]
 struct Older {
-    groove: Cost,
+    /// Of the standard kit only.
+    groove: Option<Cost>,
     all_at_once: Cost,
     idle: Cost,
     pieces: BTreeMap<String, Value>,
@@ -42,10 +43,10 @@ pub fn read(path: &Path) -> Result<Before> {
 pub fn parse(text: &str) -> serde_json::Result<Before> {
     let Older { groove, all_at_once, idle, pieces } = serde_json::from_str(text)?;
     let mut before = Before::from([
-        ("groove".to_owned(), groove.calibrations),
         ("all-at-once".to_owned(), all_at_once.calibrations),
         ("idle".to_owned(), idle.calibrations),
     ]);
+    before.extend(groove.map(|groove| ("groove".to_owned(), groove.calibrations)));
     for (name, tiers) in pieces {
         flatten(&name, &tiers, &mut before);
     }

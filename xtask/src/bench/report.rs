@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use overhear_engine::kit::BLOCK;
+use overhear_engine::kit_spec::{Kind, KitSpec};
 use overhear_engine::piece::Quality;
 use serde::Serialize;
 
@@ -28,9 +29,13 @@ pub struct Report {
     runs: usize,
     quality: &'static str,
     sample_rate_hz: f64,
-    groove: Figure,
+    /// `standard`, or the file it was read from.
+    kit: String,
+    /// Of the standard kit only.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    groove: Option<Figure>,
     all_at_once: Figure,
-    pieces: BTreeMap<&'static str, PieceCost>,
+    pieces: BTreeMap<String, PieceCost>,
     idle: Idle,
     /// The longest block over the groove and all at once, of its deadline.
     worst_block_share: f64,
@@ -80,6 +85,7 @@ impl From<Cost> for Figure {
 /// All that was measured.
 pub struct Measured<'a> {
     pub request: &'a Request,
+    pub kit: &'a KitSpec,
     pub costs: Vec<(Scene, Cost)>,
     pub blocks: Vec<Blocks>,
     pub builds: Builds,
@@ -93,22 +99,23 @@ impl Report {
     /// # Panics
     /// If the kit's scenes are not among the costs.
     pub fn new(measured: Measured<'_>) -> Report {
-        let Measured { request, costs, blocks, .. } = measured;
-        let of = |wanted: &str| {
-            let found = costs.iter().find(|(scene, _)| scene.name() == wanted);
-            Figure::from(found.expect("every scene is measured").1)
+        let Measured { request, kit, costs, blocks, .. } = measured;
+        let find = |wanted: fn(&Scene) -> bool| {
+            let found = costs.iter().find(|(scene, _)| wanted(scene));
+            found.map(|&(_, cost)| Figure::from(cost))
         };
-        let mut pieces: BTreeMap<&'static str, PieceCost> = BTreeMap::new();
+        let of = |wanted| find(wanted).expect("every scene is measured");
+        let mut pieces: BTreeMap<String, PieceCost> = BTreeMap::new();
         for &(scene, cost) in &costs {
-            let Scene::Piece(piece, quality) = scene else { continue };
+            let Scene::Piece(slot, quality) = scene else { continue };
             let figure = Figure::from(cost);
             let entry = pieces
-                .entry(piece.name())
+                .entry(scene.name(kit))
                 .or_insert_with(|| PieceCost { standard: figure, tiers: BTreeMap::new() });
             if quality == Quality::Standard {
                 entry.standard = figure;
             }
-            if !piece.is_drum() {
+            if kit.piece(slot).is_some_and(|piece| piece.instrument.kind() != Kind::Drum) {
                 entry.tiers.insert(quality.name(), figure);
             }
         }
@@ -123,9 +130,10 @@ impl Report {
             runs: request.runs,
             quality: request.quality.name(),
             sample_rate_hz: request.rate,
-            groove: of("groove"),
-            all_at_once: of("all-at-once"),
-            idle: of("idle"),
+            kit: request.kit.as_ref().map_or("standard".to_owned(), |kit| kit.display().to_string()),
+            groove: find(|scene| matches!(scene, Scene::Groove(_))),
+            all_at_once: of(|scene| matches!(scene, Scene::AllAtOnce(_))),
+            idle: of(|scene| *scene == Scene::Idle),
             pieces,
             worst_block_share: Buffers::of(&blocks, 1, request.rate).within(1.0),
             block_share_percentiles: percentiles(1),
@@ -156,12 +164,14 @@ impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         writeln!(
             f,
-            "calibration loop {:.4} s, {} runs, one thread, {}, {} Hz, cymbals of the kit at {}\n",
-            self.calibration_s, self.runs, self.simd, self.sample_rate_hz, self.quality
+            "calibration loop {:.4} s, {} runs, one thread, {}, {} Hz, kit {}, its cymbals at {}\n",
+            self.calibration_s, self.runs, self.simd, self.sample_rate_hz, self.kit, self.quality
         )?;
         let before = if self.before.is_empty() { "" } else { "   before  ratio" };
         writeln!(f, "{:<20} {:>9} {:>9}  {:>18}{before}", "", "a core", "calibr.", "least to greatest")?;
-        self.row(f, "groove", &self.groove)?;
+        if let Some(groove) = &self.groove {
+            self.row(f, "groove", groove)?;
+        }
         self.row(f, "all-at-once", &self.all_at_once)?;
         self.row(f, "idle", &self.idle)?;
         for (name, PieceCost { standard, tiers }) in &self.pieces {
@@ -216,8 +226,6 @@ impl fmt::Display for Report {
 
 #[cfg(test)]
 mod tests {
-    use overhear_engine::piece::PieceId;
-
     use super::super::compare;
     use super::*;
 
@@ -226,12 +234,22 @@ mod tests {
         let cost = Cost { share: 0.05, calibrations: 0.6, spread: [0.5, 0.7], calibration_s: 0.08 };
         let quality = Quality::Standard;
         let kit = [Scene::Groove(quality), Scene::AllAtOnce(quality), Scene::Idle];
-        let crash = Quality::ALL.map(|quality| Scene::Piece(PieceId::Crash, quality));
-        let scenes = kit.into_iter().chain(crash).chain([Scene::Piece(PieceId::Kick, quality)]);
-        let request =
-            Request { runs: 7, quality, rate: 44_100.0, simd: None, compare: None, callgrind: false };
+        let standard = KitSpec::standard();
+        let slot = |name| standard.find(name).unwrap().0;
+        let crash = Quality::ALL.map(|quality| Scene::Piece(slot("crash"), quality));
+        let scenes = kit.into_iter().chain(crash).chain([Scene::Piece(slot("kick"), quality)]);
+        let request = Request {
+            kit: None,
+            runs: 7,
+            quality,
+            rate: 44_100.0,
+            simd: None,
+            compare: None,
+            callgrind: false,
+        };
         let report = Report::new(Measured {
             request: &request,
+            kit: &standard,
             costs: scenes.map(|scene| (scene, cost)).collect(),
             blocks: vec![Blocks::default()],
             builds: Builds::default(),
@@ -241,6 +259,7 @@ mod tests {
         let json = serde_json::to_value(&report).unwrap();
         for key in [
             "calibration_s",
+            "kit",
             "groove",
             "all_at_once",
             "pieces",
@@ -259,6 +278,6 @@ mod tests {
         assert_eq!(before.get("crash high"), Some(&0.6));
         let table = report.beside(before).to_string();
         assert!(table.lines().filter(|line| line.ends_with("x1.00")).count() >= 8, "{table}");
-        assert!(compare::parse("{}").unwrap_err().to_string().contains("groove"));
+        assert!(compare::parse("{}").unwrap_err().to_string().contains("all_at_once"));
     }
 }

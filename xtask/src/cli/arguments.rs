@@ -1,20 +1,23 @@
 //! What each command takes.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use anyhow::Result;
+use anyhow::{Context, Result};
 use clap::{Args, Subcommand, ValueEnum};
 use overhear::building::Pace;
-use overhear_engine::damping::Muffler;
-use overhear_engine::drum::spec::PILLOW;
+use overhear::kit_document::KitDocument;
+use overhear_engine::kit_spec::KitSpec;
 use overhear_engine::modal::simd::level::InstructionSet;
 use overhear_engine::piece::{self, BuildOptions};
+use overhear_engine::slot::Slot;
 use overhear_engine::strike::Strike;
 
+use super::alterations::Alterations;
+use crate::modes::Modes;
 use crate::player::{Blocks, Source};
-use crate::stage::Stage;
+use crate::settings::Chosen;
 use crate::wav::Bits;
-use crate::{bench, hear, realism, render, settings};
+use crate::{bench, hear, modes, realism, render, settings, stage};
 
 /// Sample rates that the engine builds for, Hz.
 const RATES: std::ops::RangeInclusive<i64> = 22_050..=768_000;
@@ -60,6 +63,8 @@ pub enum Task {
         quality: Quality,
         /// Instruction set
         simd: Simd,
+        /// A file of the kit
+        kit: Option<PathBuf>,
     },
     /// Measure and write the pages of docs/report
     Report {
@@ -78,6 +83,11 @@ pub enum Task {
         folder: Option<PathBuf>,
         #[command(subcommand)]
         task: Option<PresetTask>,
+    },
+    /// Show, begin and check kit files
+    Kit {
+        #[command(subcommand)]
+        task: KitTask,
     },
     /// Write the manual's pages that come from the code: docs/midi.md and docs/parameters.md
     Docs,
@@ -105,6 +115,34 @@ pub enum Task {
         /// The MIDI file to write
         #[arg(short, long, value_name = "FILE")]
         output: PathBuf,
+    },
+}
+
+/// What to do with kits.
+#[derive(Debug, Subcommand)]
+pub enum KitTask {
+    /// Print the complete file of a kit: the standard one if nothing is named
+    Show {
+        /// A preset, whose kit is meant, or a kit file
+        #[arg(value_name = "NAME|FILE")]
+        what: Option<String>,
+    },
+    /// Begin a kit file: the standard kit, with remarks on how to change it
+    New {
+        /// The file to write
+        file: PathBuf,
+    },
+    /// Check kit files
+    Check {
+        /// Files
+        #[arg(required = true, value_name = "FILE")]
+        files: Vec<PathBuf>,
+    },
+    /// List every constant that was fitted, to what, and what else it moves
+    Fitted {
+        /// Print one JSON list (see docs/commands.md)
+        #[arg(long)]
+        json: bool,
     },
 }
 
@@ -161,6 +199,9 @@ pub struct RenderArguments {
     /// Start from a preset: a name that `presets` lists, or a file
     #[arg(long, value_name = "NAME|FILE.toml", default_value = "default")]
     preset: String,
+    /// Play the kit of a file, in place of the preset's
+    #[arg(long, value_name = "FILE")]
+    kit: Option<PathBuf>,
     /// Move a parameter before the start, as in kick_tune=60 or ride_level=-6; repeatable
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
@@ -183,12 +224,12 @@ pub struct RenderArguments {
     #[arg(long, value_name = "PATH")]
     clap: Option<PathBuf>,
     /// Put a piece, a pair of microphones or a close microphone somewhere, metres: kick=0,.3,-.2,
-    /// overheads=-1,2,0,1,2,0, snare-mic=-.4,.8,-.3; repeatable; the engine only
+    /// overheads=-1,2,0,1,2,0, snare-mic=-.4,.8,-.3; repeatable
     #[arg(long, value_name = "NAME=X,Y,Z", allow_hyphen_values = true)]
     place: Vec<String>,
     /// Threads that render pieces beside the first, 0 to 3; does not change the sound
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(0..=3))]
-    workers: Option<u8>,
+    #[arg(long, alias = "workers", value_name = "N", value_parser = clap::value_parser!(u8).range(0..=3))]
+    render_threads: Option<u8>,
     /// Songs rendered at once; as many as there are cores if not given
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
@@ -204,11 +245,12 @@ impl RenderArguments {
     /// What is asked for.
     ///
     /// # Errors
-    /// [`BadInput`](crate::error::BadInput) for a parameter that is not one.
+    /// [`BadInput`](crate::error::BadInput) for a kit or a parameter that is not one.
     pub fn into_request(self) -> Result<render::Request> {
         let source = self.clap.map_or(Source::Engine, Source::Clap);
-        let workers = self.workers.map(|workers| format!("workers={workers}"));
-        let set: Vec<String> = self.set.into_iter().chain(workers).collect();
+        let threads = self.render_threads.map(|threads| format!("render_threads={threads}"));
+        let set: Vec<String> = self.set.into_iter().chain(threads).collect();
+        let Chosen { kit, settings } = settings::choose(&self.preset, self.kit.as_deref(), &set)?;
         Ok(render::Request {
             inputs: self.songs,
             output: self.output,
@@ -217,8 +259,8 @@ impl RenderArguments {
             style: render::Style {
                 source,
                 rate: self.rate,
-                settings: settings::preset_and_set(&self.preset, &set)?,
-                stage: Stage::parse(&self.place)?,
+                kit: KitDocument { kit: stage::place(kit.kit, &self.place)?, ..kit },
+                settings,
                 blocks: self.block,
                 bits: self.bits,
                 tail: self.tail,
@@ -255,8 +297,12 @@ impl From<Quality> for piece::Quality {
 /// Arguments of `hear`.
 #[derive(Debug, Args)]
 pub struct HearArguments {
-    /// kick, snare, rack-tom, floor-tom, crash, ride, splash or timpani
+    /// Name of a piece of the kit: kick, snare, rack-tom, floor-tom, crash, ride, splash, timpani or hi-hat of the standard
+    /// one
     piece: String,
+    /// Take the piece from the kit of a file
+    #[arg(long, value_name = "FILE")]
+    kit: Option<PathBuf>,
     /// Speed of the stroke, m/s, up to 25
     #[arg(long, value_name = "M/S", default_value_t = hear::DEFAULT_SPEED, value_parser = speed)]
     speed: f64,
@@ -266,8 +312,8 @@ pub struct HearArguments {
     /// Direction of the place, degrees from the player's side
     #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = angle)]
     angle: Option<f64>,
-    /// stick, shoulder, nylon, felt-beater, plastic-beater, timpani-mallet, hard-mallet or
-    /// yarn-mallet; what the piece is played with if not given
+    /// stick, shoulder, nylon, felt-beater, plastic-beater, timpani-mallet, hard-mallet, yarn-mallet, rimshot or
+    /// cross-stick; what the piece is played with if not given
     #[arg(long, value_name = "NAME")]
     striker: Option<String>,
     /// Tune or muffle the piece, as in snare_tune=240 or ride_muffle=.3; repeatable
@@ -285,36 +331,8 @@ pub struct HearArguments {
     /// Write the sound as 32-bit float, 20 Pa being full scale
     #[arg(long, value_name = "OUT.wav")]
     wav: Option<PathBuf>,
-    /// Switch all damping and radiation off
-    #[arg(long)]
-    lossless: bool,
-    /// Switch tension modulation and the coupling of the modes off
-    #[arg(long)]
-    linear: bool,
-    /// Build perfectly round bodies, whose pairs of modes share one frequency
-    #[arg(long)]
-    unsplit: bool,
-    /// Take off what closes a drum: the resonant head, or the timpani's kettle
-    #[arg(long)]
-    open: bool,
-    /// Give a cymbal the bell and the taper it has in the kit
-    #[arg(long)]
-    bell: bool,
-    /// Let a drum's head wrap itself around a stick's tip, as it does in the kit
-    #[arg(long)]
-    wrap: bool,
-    /// Tune a drum's other head to so many times the struck one's pitch
-    #[arg(long, value_name = "RATIO", value_parser = ratio)]
-    resonant_ratio: Option<f64>,
-    /// Make a drum's tension so uneven: mean relative difference of the two members of a pair, up to .05
-    #[arg(long, value_name = "SHARE", value_parser = unevenness)]
-    uneven: Option<f64>,
-    /// What muffles a drum: pillow, gel, ring, or gel@R,DEG at a place
-    #[arg(long, value_name = "MUFFLER", value_parser = muffler)]
-    muffler: Option<Muffler>,
-    /// Leave out what drum heads do above their complete sets of modes
-    #[arg(long)]
-    no_high_band: bool,
+    #[command(flatten)]
+    alterations: Alterations,
     /// How far up a cymbal's modes are coupled
     #[arg(long, default_value = "offline")]
     quality: Quality,
@@ -326,8 +344,8 @@ impl HearArguments {
     /// # Errors
     /// [`BadInput`](crate::error::BadInput) for a name or a parameter that is not one.
     pub fn into_request(self) -> Result<hear::Request> {
-        let piece = settings::piece(&self.piece)?;
-        let default = hear::default_strike(piece);
+        let (document, slot, kit) = one_piece(self.kit.as_deref(), &self.piece, &self.alterations)?;
+        let default = hear::default_strike(&document, slot);
         let striker = match &self.striker {
             Some(name) => hear::striker(name)?,
             None => default.striker,
@@ -338,54 +356,62 @@ impl HearArguments {
             angle: self.angle.map_or(default.angle, f64::to_radians),
             striker,
         };
-        let mut options = BuildOptions::new(f64::from(self.rate));
-        options.lossless = self.lossless;
-        options.unsplit = self.unsplit;
-        options.linear = self.linear;
-        options.high_band = !self.no_high_band;
-        options.open = self.open;
-        options.shaped = self.bell;
-        options.wraps = self.wrap;
-        options.resonant_ratio = self.resonant_ratio;
-        options.unevenness = self.uneven;
-        options.muffler = self.muffler;
-        options.quality = self.quality.into();
-        settings::check_options(piece, &options)?;
-        let settings = settings::parse_for_piece(piece, &self.set)?;
-        Ok(hear::Request { piece, strike, settings, options, seconds: self.seconds, wav: self.wav })
+        let settings = settings::parse_for_piece(&kit, &self.set)?;
+        let options =
+            BuildOptions { quality: self.quality.into(), ..BuildOptions::new(f64::from(self.rate)) };
+        Ok(hear::Request { kit, strike, settings, options, seconds: self.seconds, wav: self.wav })
     }
+}
+
+/// A kit, the slot of a piece in it, and a kit of that piece alone, changed as asked for.
+fn one_piece(
+    file: Option<&Path>,
+    name: &str,
+    alterations: &Alterations,
+) -> Result<(KitDocument, Slot, KitSpec)> {
+    let document = settings::kit(file)?;
+    let (slot, piece) = settings::piece(&document.kit, name)?;
+    let piece = alterations.apply(piece.clone())?;
+    let alone = document.kit.alone(slot).context("the slot is empty")?;
+    Ok((document, slot, KitSpec { pieces: vec![piece], ..alone }))
 }
 
 /// Arguments of `modes`.
 #[derive(Debug, Args)]
 pub struct ModesArguments {
-    /// kick, snare, rack-tom, floor-tom, crash, ride, splash or timpani
-    pub piece: String,
+    /// Name of a piece of the kit: kick, snare, rack-tom, floor-tom, crash, ride, splash, timpani or hi-hat of the standard
+    /// one
+    piece: String,
+    /// Take the piece from the kit of a file
+    #[arg(long, value_name = "FILE")]
+    kit: Option<PathBuf>,
     /// Print one JSON object (see docs/commands.md)
     #[arg(long)]
     pub json: bool,
     /// Tune or muffle the piece, as in snare_tune=240 or ride_muffle=.3; repeatable
     #[arg(long, value_name = "NAME=VALUE")]
-    pub set: Vec<String>,
+    set: Vec<String>,
     /// Sample rate, Hz
     #[arg(long, value_name = "HZ", default_value = "48000", value_parser = rate)]
-    pub rate: u32,
+    rate: u32,
     /// Take off what closes a drum: the resonant head, or the timpani's kettle
     #[arg(long)]
     open: bool,
-    /// Give a cymbal the bell and the taper it has in the kit
-    #[arg(long)]
-    bell: bool,
     /// Perfectly round bodies, whose pairs of modes share one frequency
     #[arg(long)]
     unsplit: bool,
 }
 
 impl ModesArguments {
-    /// How the piece is built.
-    pub fn options(&self) -> BuildOptions {
-        let own = BuildOptions::new(f64::from(self.rate));
-        BuildOptions { open: self.open, shaped: self.bell, unsplit: self.unsplit, ..own }
+    /// Builds the piece that is asked for and lists its modes.
+    ///
+    /// # Errors
+    /// [`BadInput`](crate::error::BadInput) for a name or a parameter that is not one.
+    pub fn run(&self) -> Result<Modes> {
+        let alterations = Alterations { open: self.open, unsplit: self.unsplit, ..Alterations::default() };
+        let (.., kit) = one_piece(self.kit.as_deref(), &self.piece, &alterations)?;
+        let settings = settings::parse_for_piece(&kit, &self.set)?;
+        modes::run(&kit, &BuildOptions::new(f64::from(self.rate)), &settings)
     }
 }
 
@@ -399,6 +425,9 @@ pub struct RealismArguments {
     #[arg(long, value_name = "M/S,M/S,...", value_delimiter = ',', value_parser = speed,
           default_values_t = realism::SPEEDS)]
     speeds: Vec<f64>,
+    /// Strike the pieces of these names in the kit of a file
+    #[arg(long, value_name = "FILE")]
+    kit: Option<PathBuf>,
     /// Move a parameter from its default, as in snare_tune=180 or offline_quality=high; repeatable
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
@@ -423,9 +452,10 @@ impl RealismArguments {
         speeds.sort_by(f64::total_cmp);
         speeds.dedup();
         let subjects = realism::subjects(&self.pieces)?;
-        let settings = settings::parse(&self.set)?;
+        let kit = settings::kit(self.kit.as_deref())?;
+        let settings = settings::parse(&self.set, &kit.kit)?;
         let pace = if self.live { Pace::RealTime } else { Pace::Offline };
-        Ok(realism::Request { subjects, speeds, settings, pace, wav: self.wav })
+        Ok(realism::Request { subjects, speeds, kit, settings, pace, wav: self.wav })
     }
 }
 
@@ -435,6 +465,9 @@ pub struct BenchArguments {
     /// Print one JSON object (see docs/commands.md)
     #[arg(long)]
     pub json: bool,
+    /// Measure the kit of a file
+    #[arg(long, value_name = "FILE")]
+    kit: Option<PathBuf>,
     /// Times that everything is measured
     #[arg(long, value_name = "N", default_value_t = bench::RUNS as u16, value_parser = clap::value_parser!(u16).range(1..))]
     runs: u16,
@@ -459,6 +492,7 @@ impl BenchArguments {
     /// What is asked for.
     pub fn into_request(self) -> bench::Request {
         bench::Request {
+            kit: self.kit,
             runs: self.runs.into(),
             quality: self.quality.into(),
             rate: self.rate.into(),
@@ -498,7 +532,7 @@ fn rate(text: &str) -> Result<u32, String> {
 }
 
 /// A number from `least` (left out if `open`) to `most`.
-fn number(text: &str, least: f64, open: bool, most: f64, unit: &str) -> Result<f64, String> {
+pub(super) fn number(text: &str, least: f64, open: bool, most: f64, unit: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value <= most && (value > least || (value == least && !open)) => Ok(value),
         _ if open => Err(format!("accepted: above {least} to {most}{unit}")),
@@ -522,31 +556,6 @@ fn share(text: &str) -> Result<f64, String> {
     number(text, 0.0, false, 1.0, " of the radius")
 }
 
-fn ratio(text: &str) -> Result<f64, String> {
-    number(text, 0.5, false, 2.5, " of the struck head's pitch")
-}
-
-fn unevenness(text: &str) -> Result<f64, String> {
-    number(text, 0.0, false, 0.05, "")
-}
-
-/// `pillow`, `gel`, `ring` or `gel@R,DEG`.
-fn muffler(text: &str) -> Result<Muffler, String> {
-    const ACCEPTED: &str = "accepted: pillow, gel, ring, gel@R,DEG as in gel@.7,90";
-    match (text, Muffler::GEL) {
-        ("pillow", _) => Ok(PILLOW),
-        ("gel", gel) => Ok(gel),
-        ("ring", _) => Ok(Muffler::RING),
-        (place, Muffler::Gel { sigma, .. }) => {
-            let place = place.strip_prefix("gel@").and_then(|place| place.split_once(','));
-            let (radius, degrees) = place.ok_or(ACCEPTED)?;
-            let radius = number(radius, 0.0, false, 0.99, " of the radius")?;
-            Ok(Muffler::Gel { sigma, radius, angle: angle(degrees)?.to_radians() })
-        }
-        _ => Err(ACCEPTED.to_owned()),
-    }
-}
-
-fn angle(text: &str) -> Result<f64, String> {
+pub(super) fn angle(text: &str) -> Result<f64, String> {
     number(text, -360.0, false, 360.0, " degrees")
 }

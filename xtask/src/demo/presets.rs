@@ -10,7 +10,7 @@ use crate::player::Source;
 use crate::render::{decibels, takes};
 use crate::song::Song;
 use crate::wav::{Bits, WavFile};
-use crate::{output::Folder, workspace};
+use crate::{output::Folder, settings, workspace};
 
 /// Length of a demonstration, s.
 const SECONDS: f64 = 30.0;
@@ -31,7 +31,8 @@ pub fn run(folder: &Path) -> Result<()> {
     for entry in library.list() {
         let preset = library.load(&entry.name).with_context(|| format!("the preset `{}`", entry.name))?;
         let mut style = style(Source::Clap(clap.clone()));
-        style.settings = preset.values.iter().map(|(&index, &value)| (index, value)).collect();
+        style.kit = settings::kit_of(&preset);
+        style.settings = settings::moved(&preset, &style.kit.kit);
         let (mut take, _) = takes(&song, &style)?;
         let samples = |seconds: f64| (seconds * f64::from(RATE)) as u64;
         take.hits.retain(|hit| hit.sample <= samples(LAST_NOTE));

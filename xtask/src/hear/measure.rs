@@ -14,7 +14,7 @@ const ONSET: f64 = 1.0;
 #[derive(Debug, Clone, Serialize)]
 pub struct Measurement {
     /// Name of the piece.
-    pub piece: &'static str,
+    pub piece: String,
     /// Sample rate, Hz.
     pub sample_rate_hz: f64,
     /// Speed of the striker, m/s.
@@ -80,7 +80,7 @@ impl Measurement {
             touched.map(|contact| exact(figure(&contact))).filter(|figure| figure.is_finite())
         };
         Measurement {
-            piece: request.piece.name(),
+            piece: request.kit.pieces.first().map(|piece| piece.name.clone()).unwrap_or_default(),
             sample_rate_hz: rate,
             speed_m_s: request.strike.speed,
             at: request.strike.radius,

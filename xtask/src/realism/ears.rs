@@ -1,11 +1,14 @@
 //! The kit as the plugin plays it, and the two ways in which a stroke on it is heard.
 
-use anyhow::{Context, Result};
+use std::sync::Arc;
+
+use anyhow::Result;
 use overhear::building::Pace;
-use overhear::parameters::{Drives, PARAMETERS};
+use overhear::kit_document::KitDocument;
+use overhear::parameters::{SlotParameter, slot_index};
 use overhear::performer::Performer;
-use overhear_engine::kit::{Control, OUTPUTS, Stereo};
-use overhear_engine::piece::PieceId;
+use overhear_engine::kit::{OUTPUTS, Stereo};
+use overhear_engine::slot::Slot;
 use overhear_engine::strike::Strike;
 use serde::Serialize;
 
@@ -57,44 +60,33 @@ impl Stand {
     ///
     /// # Errors
     /// [`BadInput`](crate::error::BadInput) if it cannot be built at the sample rate (Hz).
-    pub fn new(rate: u32, settings: &[Setting], pace: Pace) -> Result<Stand> {
+    pub fn new(rate: u32, document: &KitDocument, settings: &[Setting], pace: Pace) -> Result<Stand> {
         let rate = f64::from(rate);
-        let mut performer = Performer::new(rate);
+        let mut performer = Performer::new(rate, document, Arc::default());
         settings.iter().for_each(|&(index, value)| performer.set_parameter(index, value));
-        performer.install_kit_for(rate, pace).map_err(|error| bad_input!("{error}"))?;
+        performer.install_kit(rate, pace).map_err(|error| bad_input!("{error}"))?;
         Ok(Stand { performer, rate })
     }
 
-    /// Strikes a piece that is at rest, the pedal brought there before, and returns what each of [`Ear::ALL`] hears for so
-    /// many seconds.
-    ///
-    /// # Errors
-    /// If the piece does not stand in the kit.
-    pub fn strike(
-        &mut self,
-        piece: PieceId,
-        strike: &Strike,
-        pedal: Option<f64>,
-        seconds: f64,
-    ) -> Result<[Vec<f32>; 2]> {
-        let slot = piece.slot().with_context(|| format!("no {} in the kit", piece.name()))?;
+    /// Strikes the piece of a slot, which is at rest, its pedal brought there before, and returns what each of
+    /// [`Ear::ALL`] hears for so many seconds.
+    pub fn strike(&mut self, slot: Slot, strike: &Strike, pedal: Option<f64>, seconds: f64) -> [Vec<f32>; 2] {
         self.performer.reset();
-        let control = PARAMETERS.iter().position(|it| it.drives == Drives::Control(Control::Pedal));
-        if let (Some(index), Some(pedal)) = (control, pedal) {
-            self.performer.set_parameter(index, pedal as f32);
+        if let Some(pedal) = pedal {
+            self.performer.set_parameter(slot_index(slot, SlotParameter::Pedal), pedal as f32);
         }
         let _ = self.hear(slot, SETTLING);
-        self.performer.strike(piece, strike);
-        Ok(self.hear(slot, seconds))
+        self.performer.strike(slot, strike);
+        self.hear(slot, seconds)
     }
 
     /// Renders, and keeps a close microphone and the mix.
-    fn hear(&mut self, slot: usize, seconds: f64) -> [Vec<f32>; 2] {
+    fn hear(&mut self, slot: Slot, seconds: f64) -> [Vec<f32>; 2] {
         let frames = (seconds * self.rate) as usize;
         let mut pairs = [(); 2].map(|()| [vec![0.0_f32; frames], vec![0.0_f32; frames]]);
         let [close, mix] = &mut pairs;
         let mut outputs: [Stereo<'_>; OUTPUTS] = std::array::from_fn(|_| [&mut [][..], &mut [][..]]);
-        outputs[slot] = close.each_mut().map(|side| &mut side[..]);
+        outputs[slot.index()] = close.each_mut().map(|side| &mut side[..]);
         self.performer.render_outputs(mix.each_mut().map(|side| &mut side[..]), &mut outputs);
         pairs.map(|[left, right]| left.iter().zip(&right).map(|(l, r)| 0.5 * (l + r)).collect())
     }

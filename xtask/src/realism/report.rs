@@ -1,5 +1,7 @@
 //! The report: figures beside those of real kits, under the names of the JSON.
 
+use anyhow::Result;
+use overhear_engine::strike::Striker;
 use serde::Serialize;
 
 use super::features::{Feature, Features};
@@ -136,8 +138,13 @@ fn median(feature: Feature, places: &[Stroke]) -> Option<f64> {
 }
 
 impl PieceReport {
-    /// Sets a piece's strokes, `[speed][place]`, beside the recordings; speeds are in m/s.
-    pub fn new(subject: &Subject, heard: Ear, speeds: &[f64], strokes: &[Vec<Stroke>]) -> PieceReport {
+    /// Sets a piece's strokes with a striker, `[speed][place]`, beside the recordings; speeds are in m/s.
+    pub fn new(
+        (subject, striker): (&Subject, Striker),
+        heard: Ear,
+        speeds: &[f64],
+        strokes: &[Vec<Stroke>],
+    ) -> PieceReport {
         let features: Vec<Row> =
             reference::figures(subject.name).iter().map(|figure| Row::new(figure, strokes)).collect();
         let count = |rows: &dyn Fn(&Row) -> bool, wanted: &dyn Fn(f64) -> bool| {
@@ -155,7 +162,7 @@ impl PieceReport {
         PieceReport {
             piece: subject.name,
             heard,
-            striker: subject.strike().striker.name(),
+            striker: striker.name(),
             at: subject.places,
             features,
             slope,
@@ -174,19 +181,23 @@ impl PieceReport {
 
 impl Report {
     /// Sorts strokes, in the order of the request's subjects, speeds and places, by subject and ear.
-    pub fn new(sample_rate_hz: u32, request: &Request, strokes: &[[Stroke; 2]]) -> Report {
+    ///
+    /// # Errors
+    /// [`BadInput`](crate::error::BadInput) if the kit has no piece of a subject's name.
+    pub fn new(sample_rate_hz: u32, request: &Request, strokes: &[[Stroke; 2]]) -> Result<Report> {
         let (speeds, mut pieces, mut rest) = (&request.speeds, Vec::new(), strokes);
         for subject in &request.subjects {
+            let striker = subject.strike(&request.kit, subject.slot(&request.kit)?).striker;
             let (own, others) = rest.split_at(rest.len().min(speeds.len() * subject.places.len()));
             rest = others;
             for (ear, heard) in Ear::ALL.into_iter().enumerate() {
                 let by_speed = own.chunks(subject.places.len());
                 let heard_so = |places: &[[Stroke; 2]]| places.iter().map(|both| both[ear].clone()).collect();
                 let strokes: Vec<Vec<Stroke>> = by_speed.map(heard_so).collect();
-                pieces.push(PieceReport::new(subject, heard, speeds, &strokes));
+                pieces.push(PieceReport::new((subject, striker), heard, speeds, &strokes));
             }
         }
-        Report { sample_rate_hz: f64::from(sample_rate_hz), speeds_m_s: speeds.clone(), pieces }
+        Ok(Report { sample_rate_hz: f64::from(sample_rate_hz), speeds_m_s: speeds.clone(), pieces })
     }
 
     /// Sum of a count over all pieces as one ear hears them.
@@ -230,7 +241,7 @@ mod tests {
     #[test]
     fn what_is_missing_is_outside_and_what_is_in_range_inside() {
         let strokes = [vec![stroke(-20.0, 355.0)], vec![stroke(-10.0, 3550.0)]];
-        let report = PieceReport::new(&SUBJECTS[2], Ear::Close, &[1.5, 5.0], &strokes);
+        let report = PieceReport::new((&SUBJECTS[2], Striker::Stick), Ear::Close, &[1.5, 5.0], &strokes);
         let row = |key: &str| report.features.iter().find(|row| row.feature == key).unwrap();
         assert_eq!(row("attack_ms").inside, [true, true]);
         assert_eq!(row("centroid_0_50_ms_hz").inside, [true, false]);

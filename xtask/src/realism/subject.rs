@@ -1,12 +1,13 @@
 //! What recordings tell apart: pieces, and of the hi-hat what its pedal does.
 
 use anyhow::Result;
-use overhear::midi_map::{self, Foot};
-use overhear_engine::piece::PieceId;
+use overhear::kit_document::KitDocument;
+use overhear::midi_map::Foot;
+use overhear_engine::slot::Slot;
 use overhear_engine::strike::Strike;
 
 use crate::bad_input;
-use crate::hear;
+use crate::{hear, settings};
 
 /// A piece as it was recorded.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,31 +16,39 @@ pub struct Subject {
     pub places: [f64; 3],
     /// The piece's own name, or with what its pedal does.
     pub name: &'static str,
-    /// The piece.
-    pub piece: PieceId,
+    /// Name of the piece in the kit.
+    pub piece: &'static str,
     /// The note whose stroke and pedal it has, if not the piece's ordinary one.
     pub note: Option<u8>,
 }
 
 /// All there are recordings of, in the order of the report.
 pub const SUBJECTS: [Subject; 9] = [
-    Subject { name: "kick", places: [0.1, 0.2, 0.3], piece: PieceId::Kick, note: None },
-    Subject { name: "snare", places: [0.15, 0.25, 0.35], piece: PieceId::Snare, note: None },
-    Subject { name: "rack-tom", places: [0.2, 0.3, 0.4], piece: PieceId::RackTom, note: None },
-    Subject { name: "floor-tom", places: [0.25, 0.35, 0.45], piece: PieceId::FloorTom, note: None },
-    Subject { name: "crash", places: [0.9, 0.94, 0.97], piece: PieceId::Crash, note: None },
-    Subject { name: "ride", places: [0.5, 0.6, 0.7], piece: PieceId::Ride, note: None },
-    Subject { name: "splash", places: [0.9, 0.95, 0.97], piece: PieceId::Splash, note: None },
-    Subject { name: "hi-hat-closed", places: [0.9, 0.94, 0.97], piece: PieceId::HiHat, note: Some(42) },
-    Subject { name: "hi-hat-open", places: [0.9, 0.94, 0.97], piece: PieceId::HiHat, note: Some(46) },
+    Subject { name: "kick", places: [0.1, 0.2, 0.3], piece: "kick", note: None },
+    Subject { name: "snare", places: [0.15, 0.25, 0.35], piece: "snare", note: None },
+    Subject { name: "rack-tom", places: [0.2, 0.3, 0.4], piece: "rack-tom", note: None },
+    Subject { name: "floor-tom", places: [0.25, 0.35, 0.45], piece: "floor-tom", note: None },
+    Subject { name: "crash", places: [0.9, 0.94, 0.97], piece: "crash", note: None },
+    Subject { name: "ride", places: [0.5, 0.6, 0.7], piece: "ride", note: None },
+    Subject { name: "splash", places: [0.9, 0.95, 0.97], piece: "splash", note: None },
+    Subject { name: "hi-hat-closed", places: [0.9, 0.94, 0.97], piece: "hi-hat", note: Some(42) },
+    Subject { name: "hi-hat-open", places: [0.9, 0.94, 0.97], piece: "hi-hat", note: Some(46) },
 ];
 
 impl Subject {
-    /// How it is struck.
-    pub fn strike(&self) -> Strike {
-        let ordinary = hear::default_strike(self.piece);
-        let mapped = self.note.and_then(midi_map::stroke);
-        mapped.map_or(ordinary, |stroke| Strike {
+    /// The slot of the piece.
+    ///
+    /// # Errors
+    /// [`BadInput`](crate::error::BadInput) if the kit has no piece of that name.
+    pub fn slot(&self, document: &KitDocument) -> Result<Slot> {
+        Ok(settings::piece(&document.kit, self.piece)?.0)
+    }
+
+    /// How the piece of a slot is struck.
+    pub fn strike(&self, document: &KitDocument, slot: Slot) -> Strike {
+        let ordinary = hear::default_strike(document, slot);
+        let mapped = self.note.and_then(|note| document.notes.stroke(note));
+        mapped.filter(|stroke| stroke.slot == slot).map_or(ordinary, |stroke| Strike {
             radius: stroke.radius,
             angle: stroke.angle,
             striker: stroke.striker,
@@ -47,10 +56,10 @@ impl Subject {
         })
     }
 
-    /// Where its pedal is, from 0 (up) to 1 (down).
-    pub fn pedal(&self) -> Option<f64> {
-        match self.note.and_then(midi_map::foot) {
-            Some(Foot::Brought(pedal)) => Some(pedal),
+    /// Where the pedal of a slot is, from 0 (up) to 1 (down).
+    pub fn pedal(&self, document: &KitDocument, slot: Slot) -> Option<f64> {
+        match document.notes.foot(self.note?)? {
+            (moved, Foot::Brought(pedal)) if moved == slot => Some(pedal),
             _ => None,
         }
     }
@@ -67,7 +76,7 @@ pub fn subjects(names: &[String]) -> Result<Vec<Subject>> {
     let mut found = Vec::new();
     for name in names {
         let before = found.len();
-        found.extend(SUBJECTS.into_iter().filter(|it| it.name == name || it.piece.name() == name));
+        found.extend(SUBJECTS.into_iter().filter(|it| it.name == name || it.piece == name));
         if found.len() == before {
             let accepted = SUBJECTS.map(|subject| subject.name).join(", ");
             return Err(bad_input!("there are no recordings of `{name}`, accepted: {accepted}"));
@@ -92,9 +101,17 @@ mod tests {
     }
 
     #[test]
+    fn every_subject_is_a_piece_of_the_standard_kit() {
+        let document = KitDocument::standard();
+        assert!(SUBJECTS.iter().all(|subject| subject.slot(&document).is_ok()));
+    }
+
+    #[test]
     fn a_hi_hat_is_measured_closed_and_open() {
         let hats = subjects(&["hi-hat".to_owned()]).unwrap();
-        let pedals: Vec<_> = hats.iter().map(|hat| hat.pedal().expect("a pedal")).collect();
+        let document = KitDocument::standard();
+        let pedal = |hat: &Subject| hat.pedal(&document, hat.slot(&document).unwrap()).expect("a pedal");
+        let pedals: Vec<_> = hats.iter().map(pedal).collect();
         assert!(pedals.len() == 2 && pedals[0] > 0.6 && pedals[1] < 0.6, "{pedals:?}");
     }
 }

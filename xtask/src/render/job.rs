@@ -9,7 +9,7 @@ use anyhow::{Result, ensure};
 use super::Style;
 use super::stems::Stems;
 use crate::output::Folder;
-use crate::player::{Hit, Played, Setup, Take};
+use crate::player::{Hit, Played, Take};
 use crate::progress::Progress;
 use crate::settings;
 use crate::song::Song;
@@ -49,7 +49,7 @@ pub fn takes(song: &Song, style: &Style) -> Result<(Take, usize)> {
         if style.channel.is_some_and(|channel| channel != note.channel + 1) {
             continue;
         }
-        silent += usize::from(settings::stroke(&style.settings, note.key).is_none());
+        silent += usize::from(settings::stroke(&style.settings, &style.kit.notes, note.key).is_none());
         hits.push(Hit {
             sample: song.sample(note.time, style.rate),
             channel: note.channel,
@@ -101,8 +101,7 @@ impl Job {
 }
 
 fn play(take: &Take, style: &Style, file: &mut WavFile, mut progress: Progress) -> Result<Played> {
-    let setup = Setup { rate: style.rate, settings: style.settings.clone(), stage: style.stage };
-    let played = style.source.perform(&setup, |player| {
+    let played = style.source.perform(&style.setup(), |player| {
         take.play(player, style.blocks, |left, right| {
             progress.advance(left.len() as u64);
             file.write(&[left, right])

@@ -6,24 +6,27 @@
 use std::path::Path;
 
 use anyhow::Result;
-use overhear::parameters::find;
+use overhear::parameters::{find, parameters};
 use overhear_engine::kit::{OUTPUTS, Stereo};
-use overhear_engine::piece::PieceId;
+use overhear_engine::kit_spec::KitSpec;
+use overhear_engine::slot::SLOTS;
 
 use super::Style;
 use crate::bad_input;
-use crate::player::{EnginePlayer, Hit, LONGEST_BLOCK, Player, Setup, Take};
+use crate::player::{EnginePlayer, Hit, LONGEST_BLOCK, Player, Take};
 use crate::progress::Progress;
 use crate::wav::WavFile;
 
-/// Files of the stems, in the order of [`Kit::render_outputs`](overhear_engine::kit::Kit::render_outputs).
+/// Files of the stems.
 pub struct Stems {
-    files: Vec<WavFile>,
+    /// Each with the [output](overhear_engine::kit::Kit::render_outputs) that it takes.
+    files: Vec<(usize, WavFile)>,
 }
 
-/// Names of the stems.
-fn names() -> impl Iterator<Item = &'static str> {
-    PieceId::KIT.into_iter().map(PieceId::name).chain(["overheads", "room"])
+/// Outputs and names of the stems.
+fn names(kit: &KitSpec) -> impl Iterator<Item = (usize, &str)> {
+    let pieces = kit.slots().map(|(slot, piece)| (slot.index(), &*piece.name));
+    pieces.chain([(SLOTS, "overheads"), (SLOTS + 1, "room")])
 }
 
 impl Stems {
@@ -32,7 +35,7 @@ impl Stems {
     /// # Errors
     /// [`BadInput`](crate::error::BadInput) if one cannot be written.
     pub fn create(folder: &Path, song: &Path, style: &Style, frames: u64) -> Result<Stems> {
-        let create = |name| {
+        let create = |(output, name)| {
             let path = folder.join(format!("{name}.wav"));
             if path == song {
                 return Err(bad_input!(
@@ -40,9 +43,9 @@ impl Stems {
                     path.display(),
                 ));
             }
-            WavFile::create(&path, style.bits, style.rate, 2, frames)
+            Ok((output, WavFile::create(&path, style.bits, style.rate, 2, frames)?))
         };
-        Ok(Stems { files: names().map(create).collect::<Result<_>>()? })
+        Ok(Stems { files: names(&style.kit.kit).map(create).collect::<Result<_>>()? })
     }
 
     /// Plays the take into the files.
@@ -50,9 +53,9 @@ impl Stems {
     /// # Errors
     /// If the engine or a file fails.
     pub fn render(self, take: &Take, style: &Style, mut progress: Progress) -> Result<Vec<WavFile>> {
-        let setup = Setup { rate: style.rate, settings: style.settings.clone(), stage: style.stage };
-        let engine = EnginePlayer::new(&setup)?;
-        let (master, parameter) = find("master_level")?;
+        let engine = EnginePlayer::new(&style.setup())?;
+        let master = find("master_level", &style.kit.kit)?;
+        let parameter = &parameters()[master];
         let decibels = engine.performer.parameter(master).unwrap_or(parameter.default);
         let silent = decibels <= parameter.min;
         let buffer = || vec![0.0; LONGEST_BLOCK as usize];
@@ -66,7 +69,7 @@ impl Stems {
             progress.advance(left.len() as u64);
             Ok(())
         })?;
-        Ok(player.files)
+        Ok(player.files.into_iter().map(|(_, file)| file).collect())
     }
 }
 
@@ -74,7 +77,7 @@ struct StemPlayer {
     engine: EnginePlayer,
     /// Of the master.
     gain: f32,
-    files: Vec<WavFile>,
+    files: Vec<(usize, WavFile)>,
     /// `[output][side]`.
     buffers: Vec<[Vec<f32>; 2]>,
 }
@@ -87,8 +90,8 @@ impl Player for StemPlayer {
                 buffers.iter_mut().map(|pair| pair.each_mut().map(|side| &mut side[part.clone()])).collect();
             performer.render_outputs([&mut left[part.clone()], &mut right[part]], &mut outputs);
         });
-        for (file, pair) in files.iter_mut().zip(buffers) {
-            let [left, right] = pair.each_mut().map(|side| &mut side[..left.len()]);
+        for (output, file) in files {
+            let [left, right] = buffers[*output].each_mut().map(|side| &mut side[..left.len()]);
             left.iter_mut().chain(right.iter_mut()).for_each(|sample| *sample *= *gain);
             file.write(&[left, right])?;
         }

@@ -1,21 +1,24 @@
 //! The cascade: how a crash's energy climbs from the modes a stroke excites to those above.
 //!
-//! Each tier is struck softly, at medium speed and hard; along the way the mean frequency of the modes to
-//! 2 kHz is taken, weighted by their energy, for that is the set every tier from `standard` on couples; and
-//! of the sound, when the band above 3 kHz is strongest, also of the crash with the bell it has in the kit.
+//! The crash of the standard kit and a cap are struck softly, at medium speed and hard, at each tier; along the way the mean
+//! frequency of the modes to 2 kHz is taken, weighted by their energy, for that is the set every tier from `standard`
+//! on couples; and of the sound, when the band above 3 kHz is strongest.
 
 use std::f64::consts::TAU;
 
 use anyhow::Result;
-use overhear_engine::piece::{BuildOptions, Piece, PieceId, Quality};
+use overhear::kit_document::KitDocument;
+use overhear_engine::kit_spec::PieceSpec;
+use overhear_engine::piece::{BuildOptions, Piece, Quality};
 use overhear_engine::strike::Strike;
+use overhear_lab::{build, reference, render, render_into, slot, spec};
 
+use super::page::bodies::{CAP, PLAYED};
 use super::page::sources::{EARLIER, MEASURED};
 use super::plot::{Axis, Line, Plot};
 use super::{Claim, Page, Sheet};
 use crate::analysis::envelope;
 use crate::analysis::one_shot::OneShot;
-use crate::bad_input;
 use crate::hear;
 use crate::progress::Progress;
 
@@ -28,8 +31,7 @@ const SPEEDS: [f64; 3] = [0.3, 1.5, 5.0];
 /// Where the mean frequency is taken in the table, s after the stroke.
 const TIMES: [f64; 6] = [0.003, 0.030, 0.080, 0.250, 0.500, 1.0];
 
-/// Shapes, tiers, places and speeds at which the bloom is sought: a cap, and with a bell.
-const SHAPED: [bool; 2] = [false, true];
+/// Tiers, places and speeds at which the bloom is sought.
 const BLOOMING: [Quality; 2] = [Quality::High, Quality::Offline];
 const PLACES: [f64; 4] = [0.85, 0.92, 0.97, 1.0];
 const HARD: [f64; 4] = [1.5, 5.0, 6.0, 8.0];
@@ -45,6 +47,7 @@ const RIGID: usize = 3;
 
 /// What one stroke does.
 struct Course {
+    on: &'static str,
     tier: &'static str,
     speed: f64,
     /// Mean frequency at [`TIMES`], Hz.
@@ -58,29 +61,22 @@ struct Course {
 /// The page.
 ///
 /// # Errors
-/// If the crash cannot be built or the plot not be drawn.
+/// If the plot cannot be drawn.
 pub fn page() -> Result<Page> {
-    let linear = BuildOptions { linear: true, ..BuildOptions::new(RATE) };
-    let mut tiers = vec![("linear", linear)];
-    tiers.extend(
-        Quality::ALL.map(|quality| (quality.name(), BuildOptions { quality, ..BuildOptions::new(RATE) })),
-    );
-    let steps = tiers.len() * SPEEDS.len() + SHAPED.len() * BLOOMING.len() * PLACES.len();
+    let bodies = [(spec("crash"), PLAYED), (reference::cap_crash(), CAP)];
+    let tiers = 1 + Quality::ALL.len();
+    let steps = bodies.len() * (tiers * SPEEDS.len() + BLOOMING.len() * PLACES.len());
     let mut progress = Progress::new("cascade", steps as u64);
-    let mut courses = Vec::new();
-    for (tier, options) in tiers {
-        let mut piece = Piece::new(PieceId::Crash, &options).map_err(|error| bad_input!("{error}"))?;
-        for speed in SPEEDS {
-            courses.push(follow(&mut piece, tier, speed));
-            progress.advance(1);
-        }
+    let (mut courses, mut blooms) = (Vec::new(), Vec::new());
+    for (crash, on) in &bodies {
+        courses.extend(self::courses(crash, on, &mut progress));
+        blooms.extend(self::blooms(crash, on, &mut progress));
     }
-    let blooms = blooms(&mut progress)?;
-    let mut sheet = Sheet::new("cascade", "The cascade", ABOUT);
+    let mut sheet = Sheet::new("cascade", "The cascade", PLAYED, ABOUT);
     claims(&mut sheet, &courses, &blooms);
     sheet.plot(
         "mean",
-        "Mean frequency against time",
+        "Mean frequency of the standard kit's crash against time",
         &Plot {
             across: Axis::linear("s after the stroke", 0.0..1.0),
             up: Axis::linear("mean frequency, Hz", 200.0..900.0),
@@ -91,42 +87,55 @@ pub fn page() -> Result<Page> {
     Ok(sheet.finish())
 }
 
-const ABOUT: &str = "A 16 in crash, a cap as thick everywhere if nothing else is said, struck where it is played, with a stick's shoulder near its edge: mean frequency of its modes to 2 kHz,\n\
-     weighted by their energy, and when the sound above 3 kHz is strongest. A linear plate only fades; coupled by its\n\
-     stretching, a hard stroke climbs. `tests/tests/cymbals.rs` holds it.";
+const ABOUT: &str = "The 16 in crash of the standard kit, and the same as a cap as thick everywhere, of which mean frequencies were published; struck\n\
+     as its ordinary note strikes it, with a stick's shoulder near its edge: mean frequency of its modes to 2 kHz, weighted by their\n\
+     energy, and when the sound above 3 kHz is strongest. A linear plate only fades; coupled by its stretching, a hard stroke\n\
+     climbs. `tests/tests/cymbals.rs` holds it.";
+
+/// The stroke of the crash's ordinary note.
+fn ordinary() -> Strike {
+    hear::default_strike(&KitDocument::standard(), slot("crash"))
+}
 
 /// When the band above 3 kHz is strongest, ms, at each of the speeds [`HARD`].
 struct Bloom {
-    shaped: bool,
+    on: &'static str,
     quality: Quality,
     radius: f64,
     peaks_ms: [f64; HARD.len()],
 }
 
-/// Strikes the crash all along its edge.
-fn blooms(progress: &mut Progress) -> Result<Vec<Bloom>> {
-    let mut out = Vec::new();
-    for (shaped, quality) in SHAPED.into_iter().flat_map(|shaped| BLOOMING.map(|quality| (shaped, quality))) {
-        let options = BuildOptions { shaped, quality, ..BuildOptions::new(RATE) };
-        let mut piece = Piece::new(PieceId::Crash, &options).map_err(|error| bad_input!("{error}"))?;
-        for radius in PLACES {
-            let peaks_ms = HARD.map(|speed| {
-                piece.reset();
-                piece.strike(&Strike { speed, radius, ..hear::default_strike(PieceId::Crash) });
-                let mut sound = vec![0.0; RATE as usize];
-                piece.render(&mut sound);
-                bloom_ms(&sound)
-            });
-            out.push(Bloom { shaped, quality, radius, peaks_ms });
+/// Strikes a crash without stretching and at every tier, softly to hard.
+fn courses(crash: &PieceSpec, on: &'static str, progress: &mut Progress) -> Vec<Course> {
+    let mut tiers = vec![("linear", crash.clone().linear(), Quality::Standard)];
+    tiers.extend(Quality::ALL.map(|quality| (quality.name(), crash.clone(), quality)));
+    let mut courses = Vec::new();
+    for (tier, crash, quality) in tiers {
+        let mut piece = build(&crash, &BuildOptions { quality, ..BuildOptions::new(RATE) });
+        for speed in SPEEDS {
+            courses.push(follow(&mut piece, (on, tier), speed));
             progress.advance(1);
         }
     }
-    Ok(out)
+    courses
 }
 
-/// What a shape is called.
-fn shape(shaped: bool) -> &'static str {
-    if shaped { "with the kit's bell" } else { "cap" }
+/// Strikes a crash all along its edge.
+fn blooms(crash: &PieceSpec, on: &'static str, progress: &mut Progress) -> Vec<Bloom> {
+    let mut blooms = Vec::new();
+    for quality in BLOOMING {
+        let mut piece = build(crash, &BuildOptions { quality, ..BuildOptions::new(RATE) });
+        for radius in PLACES {
+            let peaks_ms = HARD.map(|speed| {
+                piece.reset();
+                piece.strike(&Strike { speed, radius, ..ordinary() });
+                bloom_ms(&render(&mut piece, 1.0, RATE))
+            });
+            blooms.push(Bloom { on, quality, radius, peaks_ms });
+            progress.advance(1);
+        }
+    }
+    blooms
 }
 
 fn bloom_ms(sound: &[f32]) -> f64 {
@@ -134,14 +143,14 @@ fn bloom_ms(sound: &[f32]) -> f64 {
 }
 
 fn lines(courses: &[Course], speed: f64) -> Vec<Line> {
-    let of_speed = courses.iter().filter(|course| course.speed == speed);
+    let of_speed = courses.iter().filter(|course| course.on == PLAYED && course.speed == speed);
     of_speed.map(|course| (course.tier.to_owned(), course.line.clone())).collect()
 }
 
-/// Strikes a crash where it is played and follows it for a second.
-fn follow(piece: &mut Piece, tier: &'static str, speed: f64) -> Course {
+/// Strikes a crash as its ordinary note does and follows it for a second.
+fn follow(piece: &mut Piece, (on, tier): (&'static str, &'static str), speed: f64) -> Course {
     piece.reset();
-    piece.strike(&Strike { speed, ..hear::default_strike(PieceId::Crash) });
+    piece.strike(&Strike { speed, ..ordinary() });
     let end = TIMES[TIMES.len() - 1];
     let mut stops: Vec<f64> = (1..=(end / STEP).round() as usize).map(|i| i as f64 * STEP).collect();
     stops.extend(TIMES);
@@ -151,7 +160,7 @@ fn follow(piece: &mut Piece, tier: &'static str, speed: f64) -> Course {
     for stop in stops {
         let samples = (stop * RATE).round() as usize;
         let mut part = vec![0.0; samples.saturating_sub(sound.len())];
-        piece.render(&mut part);
+        render_into(piece, &mut part);
         sound.extend(part);
         let mean = mean_frequency(piece);
         line.push((stop, mean));
@@ -159,7 +168,7 @@ fn follow(piece: &mut Piece, tier: &'static str, speed: f64) -> Course {
             at_times.push(mean);
         }
     }
-    Course { tier, speed, at_times, line, bloom_ms: bloom_ms(&sound) }
+    Course { on, tier, speed, at_times, line, bloom_ms: bloom_ms(&sound) }
 }
 
 /// Mean frequency of the modes to [`COUNTED`], weighted by their energy, Hz.
@@ -179,6 +188,27 @@ fn mean_frequency(piece: &mut Piece) -> f64 {
 
 /// What a hard stroke has to do, and a soft or a linear one must not.
 fn claims(sheet: &mut Sheet, courses: &[Course], blooms: &[Bloom]) {
+    for on in [PLAYED, CAP] {
+        let of_body: Vec<&Course> = courses.iter().filter(|course| course.on == on).collect();
+        climbs(sheet, on, &of_body);
+    }
+    // Where the crash's ordinary note strikes it.
+    let radius = ordinary().radius;
+    for Bloom { on, quality, peaks_ms, .. } in blooms.iter().filter(|bloom| bloom.radius == radius) {
+        let [soft, hard, harder, _] = peaks_ms;
+        sheet.claim(Claim {
+            what: format!("{}, at {radius}: sound above 3 kHz strongest, at 1.5, 5, 6 m/s", quality.name()),
+            on,
+            figure: format!("{soft:.0}, {hard:.0}, {harder:.0} ms"),
+            reference: "at once when soft, after more than 30 ms when hard (recordings 83 ms)".to_owned(),
+            source: MEASURED,
+            met: Some(*soft < 15.0 && *hard > 30.0 && *harder > 30.0),
+        });
+    }
+}
+
+/// How the mean frequency of one crash moves.
+fn climbs(sheet: &mut Sheet, on: &'static str, courses: &[&Course]) {
     let course = |tier: &str, speed: f64| {
         let found = courses.iter().find(|course| course.tier == tier && course.speed == speed);
         found.map_or(&[][..], |course| &course.at_times)
@@ -187,6 +217,7 @@ fn claims(sheet: &mut Sheet, courses: &[Course], blooms: &[Bloom]) {
     let linear = course("linear", 5.0);
     sheet.claim(Claim {
         what: "linear, 5 m/s, at 3, 30, 80, 250, 500 ms, 1 s".to_owned(),
+        on,
         figure: format!("{} Hz", hz(linear)),
         reference: "only falls once the stick has left".to_owned(),
         source: EARLIER,
@@ -197,8 +228,9 @@ fn claims(sheet: &mut Sheet, courses: &[Course], blooms: &[Bloom]) {
         let climb = 100.0 * (hard[1].max(hard[2]) / hard[0] - 1.0);
         sheet.claim(Claim {
             what: format!("{tier}, 5 m/s, the same times"),
+            on,
             figure: format!("{} Hz, climbs {climb:.0} % within 100 ms", hz(hard)),
-            reference: "571 646 714 702 614 435 Hz; 10 % or more".to_owned(),
+            reference: "571 646 714 702 614 435 Hz of a cap; 10 % or more".to_owned(),
             source: EARLIER,
             met: Some(climb > 10.0),
         });
@@ -206,35 +238,21 @@ fn claims(sheet: &mut Sheet, courses: &[Course], blooms: &[Bloom]) {
             soft.iter().zip(course("linear", 0.3)).map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max);
         sheet.claim(Claim {
             what: format!("{tier}, 0.3 m/s against linear"),
+            on,
             figure: format!("{:.1} % apart at most", 100.0 * apart),
             reference: "6 %".to_owned(),
             source: EARLIER,
             met: Some(apart < 0.06),
         });
     }
-    // Where the MIDI map has the crash played.
-    for Bloom { shaped, quality, peaks_ms, .. } in blooms.iter().filter(|bloom| bloom.radius == 0.97) {
-        let [soft, hard, harder, _] = peaks_ms;
-        sheet.claim(Claim {
-            what: format!(
-                "{}, {}, at .97: sound above 3 kHz strongest, at 1.5, 5, 6 m/s",
-                quality.name(),
-                shape(*shaped)
-            ),
-            figure: format!("{soft:.0}, {hard:.0}, {harder:.0} ms"),
-            reference: "at once when soft, after more than 30 ms when hard (recordings 83 ms)".to_owned(),
-            source: MEASURED,
-            met: Some(*soft < 15.0 && *hard > 30.0 && *harder > 30.0),
-        });
-    }
 }
 
 fn tables(sheet: &mut Sheet, courses: &[Course], blooms: &[Bloom]) {
     sheet.table(
-        &["tier", "m/s", "3 ms", "30 ms", "80 ms", "250 ms", "500 ms", "1 s", "above 3 kHz, ms"],
-        courses.iter().map(|Course { tier, speed, at_times, bloom_ms, .. }| {
+        &["on", "tier", "m/s", "3 ms", "30 ms", "80 ms", "250 ms", "500 ms", "1 s", "above 3 kHz, ms"],
+        courses.iter().map(|Course { on, tier, speed, at_times, bloom_ms, .. }| {
             let times = at_times.iter().map(|hz| format!("{hz:.0}"));
-            let first = [(*tier).to_owned(), format!("{speed}")];
+            let first = [(*on).to_owned(), (*tier).to_owned(), format!("{speed}")];
             first.into_iter().chain(times).chain([format!("{bloom_ms:.0}")]).collect()
         }),
     );
@@ -250,13 +268,12 @@ fn tables(sheet: &mut Sheet, courses: &[Course], blooms: &[Bloom]) {
          second: that depends on the place.",
     );
     let speeds = HARD.map(|speed| format!("{speed} m/s"));
-    let head =
-        ["tier", "shape", "at"].into_iter().chain(speeds.iter().map(String::as_str)).collect::<Vec<_>>();
+    let head = ["on", "tier", "at"].into_iter().chain(speeds.iter().map(String::as_str)).collect::<Vec<_>>();
     sheet.table(
         &head,
-        blooms.iter().map(|Bloom { shaped, quality, radius, peaks_ms }| {
+        blooms.iter().map(|Bloom { on, quality, radius, peaks_ms }| {
             let peaks = peaks_ms.iter().map(|ms| format!("{ms:.0}"));
-            let first = [quality.name().to_owned(), shape(*shaped).to_owned(), format!("{radius}")];
+            let first = [(*on).to_owned(), quality.name().to_owned(), format!("{radius}")];
             first.into_iter().chain(peaks).collect()
         }),
     );

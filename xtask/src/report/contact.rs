@@ -4,11 +4,15 @@ use std::ops::Range;
 
 use anyhow::Result;
 use overhear_engine::contact::{ContactLaw, ContactStep, Material, Tip};
-use overhear_engine::piece::PieceId;
+use overhear_engine::kit_spec::PieceSpec;
+use overhear_engine::piece::{BuildOptions, Piece};
 use overhear_engine::snapshot::StrikeSnapshot;
 use overhear_engine::strike::{Strike, Striker};
-use overhear_lab::{Chance, RATES, Spectrum, lossless_piece, piece, render, stroke, total_energy};
+use overhear_lab::{
+    Chance, RATES, Spectrum, build, lossless_piece, names, reference, render, spec, stroke, total_energy,
+};
 
+use super::page::bodies;
 use super::page::sources::{EARLIER, EXACT};
 use super::plot::{Axis, Line, Plot};
 use super::{Claim, Page, Sheet};
@@ -27,18 +31,20 @@ pub fn page() -> Result<Page> {
     let mut sheet = Sheet::new(
         "contact",
         "Contacts",
+        bodies::PLAYED,
         "The one force law against a rigid wall, where it has closed forms, and on whole pieces at the rates hosts use.\n\
          `engine/src/contact/tests.rs` and `tests/tests/contacts.rs` hold them.",
     );
     let times = hertz(&mut sheet);
     wall(&mut sheet);
     energy(&mut sheet);
-    let mut pulses = Vec::new();
-    for (name, id, strike) in [
-        ("stick's shoulder on the crash", PieceId::Crash, stroke(Striker::Shoulder, 5.0, 0.6, 0.0)),
-        ("stick's bead on the ride", PieceId::Ride, stroke(Striker::Stick, 5.0, 0.6, 0.0)),
-    ] {
-        pulses.push((name.to_owned(), fine_step(&mut sheet, name, id, &strike)));
+    let mut pulses: Vec<(String, Vec<Line>)> = Vec::new();
+    for (name, [played, cap], strike) in fine_strokes() {
+        fine_step(&mut sheet, name, (&cap, bodies::CAP), &strike);
+        fine_step(&mut sheet, name, (&played, bodies::PLAYED), &strike);
+        let rates = [44_100.0, 96_000.0, FINE_RATE];
+        let lines = rates.map(|rate| (format!("{rate} Hz"), pulse(&played, &strike, rate)));
+        pulses.push((name.to_owned(), lines.into()));
     }
     let expected = times.iter().map(|&(speed, _, hertz)| (speed, 1e6 * hertz)).collect();
     let got = times.iter().map(|&(speed, got, _)| (speed, 1e6 * got)).collect();
@@ -56,7 +62,7 @@ pub fn page() -> Result<Page> {
     let [last, most] = most.fold([0.0_f64; 2], |[x, y], point| [x.max(point.0), y.max(point.1)]);
     sheet.plot(
         "pulses",
-        "Force of one stroke at several sample rates",
+        "Force of one stroke on the standard kit's cymbals at several sample rates",
         &Plot {
             across: Axis::linear("ms after the first touch", 0.0..last),
             up: Axis::linear("N", 0.0..1.05 * most),
@@ -107,6 +113,7 @@ fn hertz(sheet: &mut Sheet) -> Vec<(f64, f64, f64)> {
     for &(speed, got, hertz) in &times {
         sheet.claim(Claim {
             what: format!("20 g steel ball on steel, {speed} m/s: contact"),
+            on: bodies::EQUATION,
             figure: format!("{:.1} us", 1e6 * got),
             reference: format!("{:.1} us, 0.2 %", 1e6 * hertz),
             source: "Hertz 1881: 2.943 (1.25 m / K)^0.4 v^-0.2",
@@ -116,6 +123,7 @@ fn hertz(sheet: &mut Sheet) -> Vec<(f64, f64, f64)> {
     let exponent = (times[3].1 / times[0].1).ln() / (times[3].0 / times[0].0).ln();
     sheet.claim(Claim {
         what: "its exponent over the speed".to_owned(),
+        on: bodies::EQUATION,
         figure: format!("{exponent:.4}"),
         reference: "-0.2, 0.001".to_owned(),
         source: "Hertz 1881",
@@ -152,6 +160,7 @@ fn wall(sheet: &mut Sheet) {
     sheet.claim(Claim {
         what: "lossless, any tip on a wall, 44.1 to 192 kHz, 0.1 to 25 m/s: energy after over before"
             .to_owned(),
+        on: bodies::EQUATION,
         figure: format!("{kept:.0e} off at most"),
         reference: "1e-4 (the earlier engine's hickory kept 29 %)".to_owned(),
         source: EXACT,
@@ -159,6 +168,7 @@ fn wall(sheet: &mut Sheet) {
     });
     sheet.claim(Claim {
         what: "restitution got for .1 to .95 asked, any tip, fine step".to_owned(),
+        on: bodies::EQUATION,
         figure: format!("{fine:.0e} off at most"),
         reference: "0.002".to_owned(),
         source: EXACT,
@@ -166,6 +176,7 @@ fn wall(sheet: &mut Sheet) {
     });
     sheet.claim(Claim {
         what: "the same of felt at 44.1 kHz".to_owned(),
+        on: bodies::EQUATION,
         figure: format!("{felt:.4} off at most"),
         reference: "0.01".to_owned(),
         source: EXACT,
@@ -180,6 +191,7 @@ fn wall(sheet: &mut Sheet) {
             1e3 * slow.time,
             slow.peak
         ),
+        on: bodies::EQUATION,
         figure: format!("contact {time:+.2} %, peak {peak:+.2} %"),
         reference: "1 %, 1.5 % (the earlier engine .8 %, 2.8 %)".to_owned(),
         source: EARLIER,
@@ -187,9 +199,25 @@ fn wall(sheet: &mut Sheet) {
     });
 }
 
-/// Where and how hard a lossless piece is struck.
-pub fn trial(id: PieceId, striker: Striker) -> Strike {
-    let mut chance = Chance::new(id as u64 * 100 + striker as u64);
+/// Strokes whose contacts are compared at several rates: what they are, the cymbal as it is played and as a cap, the stroke.
+pub fn fine_strokes() -> [(&'static str, [PieceSpec; 2], Strike); 2] {
+    [
+        (
+            "stick's shoulder on the crash",
+            [spec("crash"), reference::cap_crash()],
+            stroke(Striker::Shoulder, 5.0, 0.6, 0.0),
+        ),
+        (
+            "stick's bead on the ride",
+            [spec("ride"), reference::cap_ride()],
+            stroke(Striker::Stick, 5.0, 0.6, 0.0),
+        ),
+    ]
+}
+
+/// Where and how hard the lossless piece of a slot is struck.
+pub fn trial(slot: usize, striker: Striker) -> Strike {
+    let mut chance = Chance::new(slot as u64 * 100 + striker as u64);
     stroke(striker, chance.between(1.0, 6.0), chance.between(0.05, 0.98), chance.between(0.0, 6.0))
 }
 
@@ -197,15 +225,14 @@ pub fn trial(id: PieceId, striker: Striker) -> Strike {
 fn energy(sheet: &mut Sheet) {
     for rate in [RATES[0], RATES[3]] {
         let mut worst = 0.0_f64;
-        for id in PieceId::ALL {
-            let mut piece = lossless_piece(id, rate);
+        for (slot, name) in names().iter().enumerate() {
+            let mut piece = lossless_piece(name, rate);
             for striker in Striker::ALL {
                 piece.reset();
-                piece.strike(&trial(id, striker));
+                piece.strike(&trial(slot, striker));
                 let brought = piece.brought_energy();
-                let mut sound = [0.0; 32];
-                for _ in 0..(0.1 * rate) as usize / sound.len() {
-                    piece.render(&mut sound);
+                for _ in 0..(0.1 * rate) as usize / 32 {
+                    render(&mut piece, 32.0 / rate, rate);
                     worst = worst.max((total_energy(&piece) / brought - 1.0).abs());
                 }
             }
@@ -214,6 +241,7 @@ fn energy(sheet: &mut Sheet) {
             what: format!(
                 "lossless, every striker on every piece, 100 ms at {rate} Hz: energy about over brought"
             ),
+            on: bodies::PLAYED,
             figure: format!("{worst:.0e} off at most"),
             reference: "1e-4".to_owned(),
             source: EXACT,
@@ -228,8 +256,12 @@ struct Measured {
     spectrum: Spectrum,
 }
 
-fn measured(id: PieceId, strike: &Strike, rate: f64) -> Measured {
-    let mut piece = piece(id, rate);
+fn at_rate(spec: &PieceSpec, rate: f64) -> Piece {
+    build(spec, &BuildOptions::new(rate))
+}
+
+fn measured(spec: &PieceSpec, strike: &Strike, rate: f64) -> Measured {
+    let mut piece = at_rate(spec, rate);
     piece.strike(strike);
     let sound = render(&mut piece, 0.1, rate);
     Measured { strike: piece.last_strike(), spectrum: Spectrum::new(&sound, rate) }
@@ -266,10 +298,10 @@ impl Coarse {
 }
 
 /// Compares a stroke at the rates hosts use with the same at 176.4 kHz.
-pub fn against_fine_step(id: PieceId, strike: &Strike) -> Vec<Coarse> {
-    let fine = measured(id, strike, FINE_RATE);
+pub fn against_fine_step(spec: &PieceSpec, strike: &Strike) -> Vec<Coarse> {
+    let fine = measured(spec, strike, FINE_RATE);
     let compare = |rate: f64| {
-        let coarse = measured(id, strike, rate);
+        let coarse = measured(spec, strike, rate);
         let off = |what: fn(&StrikeSnapshot) -> f32| {
             f64::from(what(&coarse.strike)) / f64::from(what(&fine.strike)) - 1.0
         };
@@ -287,13 +319,14 @@ pub fn against_fine_step(id: PieceId, strike: &Strike) -> Vec<Coarse> {
     [44_100.0, 48_000.0, 96_000.0].map(compare).into()
 }
 
-/// Claims that a stroke is the same at hosts' rates, and returns its force over time at some.
-fn fine_step(sheet: &mut Sheet, name: &str, id: PieceId, strike: &Strike) -> Vec<Line> {
-    for coarse in against_fine_step(id, strike) {
+/// Claims that a stroke on a cymbal is the same at hosts' rates.
+fn fine_step(sheet: &mut Sheet, name: &str, (spec, on): (&PieceSpec, &'static str), strike: &Strike) {
+    for coarse in against_fine_step(spec, strike) {
         let Coarse { rate, time, impulse, peak, bands } = coarse;
         let [time, impulse, peak] = [time, impulse, peak].map(|share| 100.0 * share);
         sheet.claim(Claim {
             what: format!("{name}, 5 m/s at .6, {rate} Hz against 176.4 kHz"),
+            on,
             figure: format!(
                 "contact {time:+.2} %, impulse {impulse:+.2} %, peak {peak:+.1} %, bands {bands:.2} dB"
             ),
@@ -302,12 +335,11 @@ fn fine_step(sheet: &mut Sheet, name: &str, id: PieceId, strike: &Strike) -> Vec
             met: Some(coarse.is_the_same()),
         });
     }
-    [44_100.0, 96_000.0, FINE_RATE].map(|rate| (format!("{rate} Hz"), pulse(id, strike, rate))).into()
 }
 
 /// Force over time of a stroke's first milliseconds: ms and N.
-fn pulse(id: PieceId, strike: &Strike, rate: f64) -> Vec<(f64, f64)> {
-    let mut piece = piece(id, rate);
+fn pulse(spec: &PieceSpec, strike: &Strike, rate: f64) -> Vec<(f64, f64)> {
+    let mut piece = at_rate(spec, rate);
     piece.strike(strike);
     // What a trace holds without putting samples together: less than its steps.
     render(&mut piece, 90.0 / rate, rate);

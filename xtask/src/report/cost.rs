@@ -3,6 +3,7 @@
 use anyhow::{Context, Result};
 use serde_json::Value;
 
+use super::page::bodies::PLAYED;
 use super::page::sources::{EARLIER, GOAL};
 use super::plot::{Axis, Plot, comb};
 use super::{Claim, Page, Sheet};
@@ -20,6 +21,7 @@ pub fn page() -> Result<Page> {
     let mut sheet = Sheet::new(
         "cost",
         "Costs",
+        PLAYED,
         &format!(
             "What the instrument costs on the machine that wrote this page, one thread, {}, {} Hz: `cargo xtask bench --runs {RUNS}`. A\n\
              calibration is the time of a fixed loop ({:.4} s here), measured in turns with the instrument. Machines differ and so does\n\
@@ -36,6 +38,7 @@ pub fn page() -> Result<Page> {
         let got = of("calibrations");
         sheet.claim(Claim {
             what: name.to_owned(),
+            on: PLAYED,
             figure: format!(
                 "{got:.2} calibrations ({:.2} to {:.2}), {:.0} % of a core",
                 of("calibrations_min"),
@@ -48,6 +51,7 @@ pub fn page() -> Result<Page> {
         });
         sheet.claim(Claim {
             what: format!("{name}, against the earlier engine"),
+            on: PLAYED,
             figure: format!("{:.1} times less", earlier / got),
             reference: "less than its cost, with twice its modes".to_owned(),
             source: EARLIER,
@@ -56,6 +60,7 @@ pub fn page() -> Result<Page> {
     }
     let percent = |what: String, share: f64, most: f64| Claim {
         what,
+        on: PLAYED,
         figure: format!("{:.2} %", 100.0 * share),
         reference: format!("{most} %"),
         source: GOAL,
@@ -74,6 +79,7 @@ pub fn page() -> Result<Page> {
         let got = number(&report, &[key]);
         sheet.claim(Claim {
             what: what.to_owned(),
+            on: PLAYED,
             figure: format!("{} {unit}", super::page::figure(got)),
             reference: format!("{most} {unit}"),
             source: GOAL,
@@ -86,6 +92,7 @@ pub fn page() -> Result<Page> {
         .unwrap_or_default();
     sheet.claim(Claim::told(
         "these three builds, all processors together: what other work on the machine adds least to",
+        PLAYED,
         format!("{} CPU s", cpu.join(", ")),
         "6.5 cold, .2 warm",
         EARLIER,
@@ -118,16 +125,16 @@ fn pieces(sheet: &mut Sheet, report: &Value) -> Result<()> {
     sheet.heading("The pieces");
     sheet.text("Each by itself, the second after a stroke of 6 m/s, calibrations.");
     let tiers = ["eco", "standard", "high", "offline"];
-    let names = ["kick", "snare", "rack-tom", "floor-tom", "timpani", "crash", "ride", "splash", "hi-hat"];
+    let names = overhear_lab::names();
     let cost = |piece: &str, tier: &str| {
         let of_tier = number(report, &["pieces", piece, "tiers", tier, "calibrations"]);
         let standard = number(report, &["pieces", piece, "calibrations"]);
         if of_tier.is_nan() && tier == "standard" { standard } else { of_tier }
     };
     let cell = |value: f64| if value.is_nan() { String::new() } else { format!("{value:.2}") };
-    let row = |piece: &&str| {
+    let row = |piece: &String| {
         let cells = tiers.iter().map(|tier| cell(cost(piece, tier)));
-        std::iter::once((*piece).to_owned()).chain(cells).collect()
+        std::iter::once(piece.clone()).chain(cells).collect()
     };
     sheet.table(
         &["", "eco, 1 kHz", "standard, 2 kHz", "high, 4 kHz", "offline, 8 kHz"],
@@ -153,7 +160,7 @@ fn pieces(sheet: &mut Sheet, report: &Value) -> Result<()> {
             let (_, bar) = comb("", &[x], [0.01, cost]);
             bar
         });
-        ((*piece).to_owned(), bars.collect())
+        (piece.clone(), bars.collect())
     });
     sheet.plot(
         "pieces",

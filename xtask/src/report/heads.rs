@@ -4,11 +4,13 @@ use std::f64::consts::TAU;
 
 use anyhow::Result;
 use overhear_engine::drum::DrumSpec;
+use overhear_engine::kit_spec::PieceSpec;
 use overhear_engine::membrane::{Membrane, ModeRange, Surroundings};
-use overhear_engine::piece::{BuildOptions, ModeInfo, Piece, PieceId};
+use overhear_engine::piece::{BuildOptions, ModeInfo, Piece};
 use overhear_engine::strike::Striker;
-use overhear_lab::{build, cents, decibels, render, round_piece, stroke};
+use overhear_lab::{altered, build, cents, decibels, drum, render, round_piece, spec, stroke};
 
+use super::page::bodies;
 use super::page::sources::{EARLIER, EXACT, MEASURED};
 use super::plot::{Axis, Line, Plot, comb};
 use super::{Claim, Page, Sheet};
@@ -25,17 +27,17 @@ pub fn page() -> Result<Page> {
     let mut sheet = Sheet::new(
         "heads",
         "Heads",
+        bodies::ROUND,
         "A timpani of 26 inches, its head alone in air and over its kettle; and strokes in the centre of every round drum. Ratios of\n\
          real heads: T. D. Rossing, Science of Percussion Instruments. `tests/tests/acoustics.rs` and `tests/tests/drums.rs` hold them.",
     );
-    let open = BuildOptions { open: true, unsplit: true, ..BuildOptions::new(RATE) };
-    let timpani = build(PieceId::Timpani, &open);
+    let timpani = build(&timpani_head(), &BuildOptions::new(RATE));
     let principal = mode_of(&timpani, 1, 1).frequency_hz;
     for (m, computed, measured) in [(2, 1.470, 1.48), (3, 1.922, 1.92), (4, 2.363, 2.36), (5, 2.797, 2.78)] {
         let ratio = mode_of(&timpani, m, 1).frequency_hz / principal;
         let what = format!("head in air, no kettle: ({m},1) over (1,1)");
-        sheet.claim(Claim::near(&what, (ratio, ""), (computed, 0.01), "computed by others"));
-        sheet.claim(Claim::near(&what, (ratio, ""), (measured, 0.01), MEASURED));
+        sheet.claim(Claim::near(&what, bodies::NO_KETTLE, (ratio, ""), (computed, 0.01), "computed by others"));
+        sheet.claim(Claim::near(&what, bodies::NO_KETTLE, (ratio, ""), (measured, 0.01), MEASURED));
     }
     kettle(&mut sheet);
     centre(&mut sheet);
@@ -47,6 +49,11 @@ pub fn page() -> Result<Page> {
     Ok(sheet.finish())
 }
 
+/// A timpani's head with air on both faces, perfectly round.
+pub fn timpani_head() -> PieceSpec {
+    PieceSpec { name: "timpani-head".to_owned(), ..altered(spec("timpani"), DrumSpec::opened).round() }
+}
+
 /// The mode `(m, n)` of a drum's struck head.
 pub fn mode_of(piece: &Piece, m: u32, n: u32) -> ModeInfo {
     let of_batter = |mode: &ModeInfo| (mode.body, mode.m, mode.n) == ("batter", m, n);
@@ -54,13 +61,13 @@ pub fn mode_of(piece: &Piece, m: u32, n: u32) -> ModeInfo {
 }
 
 fn kettle(sheet: &mut Sheet) {
-    let mut timpani = round_piece(PieceId::Timpani, RATE);
-    timpani.set_tuning(130.8);
-    timpani.finish_controls();
+    let timpani = round_piece("timpani", RATE);
+    let pitch = timpani.tunings()[1];
     let principal = mode_of(&timpani, 1, 1);
-    let off = cents(principal.frequency_hz, 130.8);
+    let off = cents(principal.frequency_hz, pitch);
     sheet.claim(Claim {
-        what: "over its kettle the pedal's 130.8 Hz is the (1,1)".to_owned(),
+        what: format!("over its kettle the pedal's {pitch} Hz is the (1,1)"),
+        on: bodies::ROUND,
         figure: format!("{off:+.2} cents"),
         reference: "1 cent".to_owned(),
         source: EXACT,
@@ -69,11 +76,12 @@ fn kettle(sheet: &mut Sheet) {
     for (m, seen) in [(2, 1.505), (3, 1.98), (4, 2.44)] {
         let ratio = mode_of(&timpani, m, 1).frequency_hz / principal.frequency_hz;
         let what = format!("over its kettle: ({m},1) over (1,1)");
-        sheet.claim(Claim::near(&what, (ratio, ""), (seen, 0.01), MEASURED));
+        sheet.claim(Claim::near(&what, bodies::ROUND, (ratio, ""), (seen, 0.01), MEASURED));
     }
     let thud = mode_of(&timpani, 0, 1).t60;
     sheet.claim(Claim {
         what: "T60 of the (0,1)'s thud against the note's".to_owned(),
+        on: bodies::ROUND,
         figure: format!("{thud:.2} s against {:.2} s", principal.t60),
         reference: ".49 s against 1.7 s: less than 30 %".to_owned(),
         source: EARLIER,
@@ -82,10 +90,11 @@ fn kettle(sheet: &mut Sheet) {
 }
 
 fn centre(sheet: &mut Sheet) {
-    for id in [PieceId::Kick, PieceId::RackTom, PieceId::FloorTom, PieceId::Timpani] {
-        let down = centre_rejection(id);
+    for name in ["kick", "rack-tom", "floor-tom", "timpani"] {
+        let down = centre_rejection(name);
         sheet.claim(Claim {
-            what: format!("{}, struck in the centre, perfectly round: asymmetric modes", id.name()),
+            what: format!("{name}, struck in the centre: asymmetric modes"),
+            on: bodies::ROUND,
             figure: format!("{down:.0} dB down"),
             reference: "more than 90 dB".to_owned(),
             source: EARLIER,
@@ -95,8 +104,8 @@ fn centre(sheet: &mut Sheet) {
 }
 
 /// How far below the largest round mode the largest other one is after a stroke in the centre, dB.
-pub fn centre_rejection(id: PieceId) -> f64 {
-    let mut drum = round_piece(id, RATE);
+pub fn centre_rejection(name: &str) -> f64 {
+    let mut drum = round_piece(name, RATE);
     drum.strike(&stroke(Striker::Stick, 4.0, 0.0, 0.7));
     render(&mut drum, 0.05, RATE);
     let modes = drum.modes();
@@ -113,13 +122,15 @@ pub fn centre_rejection(id: PieceId) -> f64 {
 
 /// What is heard of a stroke, and the modes in vacuum and in air.
 fn spectrum() -> Result<Plot<'static>> {
-    let mut timpani = round_piece(PieceId::Timpani, RATE);
+    let mut timpani = round_piece("timpani", RATE);
     timpani.strike(&stroke(Striker::TimpaniMallet, 2.0, 0.75, 0.0));
     let sound = render(&mut timpani, 2.0, RATE);
     let heard = Spectrum::of_onset(&sound, RATE, 1.0);
     let tension = timpani.tensions()[0].1;
     let range = ModeRange { reference_tension: tension, limit_hz: 600.0 };
-    let vacuum = Membrane::new(DrumSpec::timpani().batter.membrane, Surroundings::Vacuum, &range)
+    let timpani_spec = drum("timpani");
+    let head = timpani_spec.membrane(&timpani_spec.batter);
+    let vacuum = Membrane::new(head, Surroundings::Vacuum, &range)
         .map_err(|error| bad_input!("{error}"))?;
     let in_vacuum: Vec<f64> =
         vacuum.modes().iter().map(|mode| vacuum.ringing(mode, tension).omega / TAU).collect();

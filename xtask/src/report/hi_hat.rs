@@ -2,10 +2,11 @@
 
 use anyhow::Result;
 use overhear_engine::hi_hat::foot::SPEED;
-use overhear_engine::piece::{Piece, PieceId};
+use overhear_engine::piece::Piece;
 use overhear_engine::strike::Striker;
 use overhear_lab::{Spectrum, decibels, lossless_piece, piece, render, stroke, total_energy};
 
+use super::page::bodies::PLAYED;
 use super::page::sources::{EXACT, GOAL};
 use super::plot::{Axis, Plot};
 use super::{Claim, Page, Sheet};
@@ -24,8 +25,9 @@ pub fn page() -> Result<Page> {
     let mut sheet = Sheet::new(
         "hi-hat",
         "Hi-hat",
-        "Two 14 in cymbals by themselves, sixteen contacts around their rims, struck near the edge; the pedal from 0 (open) to 1\n\
-         (clamped). `tests/tests/hi_hat.rs` holds these figures.",
+        PLAYED,
+        "The hi-hat of the standard kit by itself: two 14 in cymbals, sixteen contacts around their rims, struck near the edge; the\n\
+         pedal from 0 (open) to 1 (clamped). `tests/tests/hi_hat.rs` holds these figures.",
     );
     energy(&mut sheet);
     decays(&mut sheet)?;
@@ -41,7 +43,7 @@ pub fn hold(hat: &mut Piece, pedal: f64) {
 }
 
 fn energy(sheet: &mut Sheet) {
-    let mut hat = lossless_piece(PieceId::HiHat, RATE);
+    let mut hat = lossless_piece("hi-hat", RATE);
     for pedal in PLACES {
         hat.reset();
         hold(&mut hat, pedal);
@@ -55,6 +57,7 @@ fn energy(sheet: &mut Sheet) {
         let landings = hat.rims().landings;
         sheet.claim(Claim {
             what: format!("lossless, pedal at {pedal}, 5 m/s: energy over 1 s"),
+            on: PLAYED,
             figure: format!("{worst:.0e} off at most, {landings} landings of the rims"),
             reference: "1e-3".to_owned(),
             source: EXACT,
@@ -106,12 +109,13 @@ pub fn decay(hat: &mut Piece, pedal: f64) -> Decay {
 }
 
 fn decays(sheet: &mut Sheet) -> Result<()> {
-    let mut hat = piece(PieceId::HiHat, RATE);
+    let mut hat = piece("hi-hat", RATE);
     let decays = PLACES.map(|pedal| (pedal, decay(&mut hat, pedal)));
     let means: Vec<String> = decays.iter().map(|(_, decay)| format!("{:.2}", decay.mean)).collect();
     sheet.claim(Claim {
         what: "the farther down the pedal the shorter: T60, mean of the octaves from 500 Hz to 8 kHz"
             .to_owned(),
+        on: PLAYED,
         figure: format!("{} s", means.join(", ")),
         reference: "falls; open 2 to 5 s".to_owned(),
         source: GOAL,
@@ -123,6 +127,7 @@ fn decays(sheet: &mut Sheet) -> Result<()> {
     let closed = &decays[PLACES.len() - 1].1;
     sheet.claim(Claim {
         what: "clamped: T60 and mean time".to_owned(),
+        on: PLAYED,
         figure: format!("{:.2} s, {:.0} ms", closed.mean, closed.centroid_ms),
         reference: ".25 to .5 s, less than 51 ms (half again of recordings' 34)".to_owned(),
         source: GOAL,
@@ -166,9 +171,10 @@ pub fn sizzle_db(hat: &mut Piece) -> ([f64; 2], [u32; 3]) {
 }
 
 fn sizzle(sheet: &mut Sheet) {
-    let ([open, closed], landings) = sizzle_db(&mut piece(PieceId::HiHat, RATE));
+    let ([open, closed], landings) = sizzle_db(&mut piece("hi-hat", RATE));
     sheet.claim(Claim {
         what: "half open against open and closed, above 5 kHz after the stroke".to_owned(),
+        on: PLAYED,
         figure: format!("{open:+.1} and {closed:+.1} dB, {} landings", landings[1]),
         reference: "+3 dB both, more than 200 landings; open none".to_owned(),
         source: GOAL,
@@ -192,13 +198,14 @@ pub fn by_foot(hat: &mut Piece, act: impl Fn(&mut Piece)) -> (f64, f64) {
 }
 
 fn foot(sheet: &mut Sheet) {
-    let mut hat = piece(PieceId::HiHat, RATE);
+    let mut hat = piece("hi-hat", RATE);
     let mut before = [0.0; 2];
     for speed in [0.2, 0.5, 1.0, 2.0] {
         let (chick, held) = by_foot(&mut hat, |hat| hat.stamp_pedal(speed));
         let (splash, rings) = by_foot(&mut hat, |hat| hat.splash_pedal(speed));
         sheet.claim(Claim {
             what: format!("the foot alone, {speed} m/s: chick and splash"),
+            on: PLAYED,
             figure: format!("{chick:.2} Pa for {held:.2} s, {splash:.2} Pa for {rings:.2} s"),
             reference: "each a fifth louder than the slower one; under .3 s, over .8 s".to_owned(),
             source: GOAL,

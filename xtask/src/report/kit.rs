@@ -1,14 +1,17 @@
 //! The kit: delays, what pieces hear of each other, outputs that nothing changes, and sleep.
 
-use anyhow::Result;
+use anyhow::{Context, Result};
+use overhear::kit_document::KitDocument;
 use overhear_engine::air::SPEED_OF_SOUND;
 use overhear_engine::kit::{BLOCK, Control, Kit};
-use overhear_engine::layout::Layout;
-use overhear_engine::piece::{Piece, PieceId};
+use overhear_engine::kit_spec::{KitSpec, PieceSpec};
+use overhear_engine::piece::Piece;
+use overhear_engine::slot::Slot;
 use overhear_engine::snapshot::{KitSnapshot, PieceSnapshot};
 use overhear_engine::strike::{Strike, Striker};
-use overhear_lab::{Chance, kit, stroke};
+use overhear_lab::{Chance, kit, slot, standard, stroke};
 
+use super::page::bodies::PLAYED;
 use super::page::sources::{EARLIER, EXACT, GOAL};
 use super::plot::{Axis, Line, Plot};
 use super::{Claim, Page, Sheet};
@@ -27,7 +30,8 @@ pub fn page() -> Result<Page> {
     let mut sheet = Sheet::new(
         "kit",
         "The kit",
-        "All pieces where they stand by default, 44.1 kHz. `tests/tests/sympathy.rs`, `tests/tests/equivalence.rs`,\n\
+        PLAYED,
+        "All pieces of the standard kit where they stand, 44.1 kHz. `tests/tests/sympathy.rs`, `tests/tests/equivalence.rs`,\n\
          `tests/tests/workers.rs`, `tests/tests/kit.rs` and `tests/tests/sleep.rs` hold these figures.",
     );
     let mut kit = kit(RATE);
@@ -47,11 +51,12 @@ fn run(kit: &mut Kit, samples: usize) -> Vec<f32> {
     left
 }
 
-/// Landings of the snare's wires in the second after a hit on the rack tom, so far from its middle, share of the radius.
+/// Landings of the snare's wires in the second after a hit on the rack tom of the standard kit: its speed, m/s, and how
+/// far from the middle, share of the radius.
 pub fn landings(kit: &mut Kit, speed: f64, radius: f64) -> u32 {
-    let count = |kit: &Kit| kit.piece(PieceId::Snare).map_or(0, |snare| snare.wires().landings);
+    let count = |kit: &Kit| kit.piece(slot("snare")).map_or(0, |snare| snare.wires().landings);
     let before = count(kit);
-    kit.strike(PieceId::RackTom, &stroke(Striker::Stick, speed, radius, 0.0));
+    kit.strike(slot("rack-tom"), &stroke(Striker::Stick, speed, radius, 0.0));
     run(kit, RATE as usize);
     let landings = count(kit) - before;
     kit.reset();
@@ -64,21 +69,23 @@ fn wires(sheet: &mut Sheet, kit: &mut Kit) {
     let near = near.map(|(&count, want)| (want / 10.0..want * 10.0).contains(&f64::from(count)));
     sheet.claim(Claim {
         what: "rack tom at 2, 4, 6 m/s: landings of the snare's wires in 1 s".to_owned(),
+        on: PLAYED,
         figure: format!("{}, {}, {}", counts[0], counts[1], counts[2]),
         reference: "12, 152, 324: order of magnitude, rising".to_owned(),
         source: EARLIER,
         met: Some(near.into_iter().all(|near| near) && counts[0] < counts[1] && counts[1] < counts[2]),
     });
-    for (what, control, back) in
-        [("pieces deaf", Control::Hearing, 1.0), ("wires thrown off", Control::SnareWires, 1.0)]
+    for (what, control) in
+        [("pieces deaf", Control::Hearing), ("wires thrown off", Control::Wires(slot("snare")))]
     {
         kit.set(control, 0.0);
         kit.finish_controls();
         let count = landings(kit, 6.0, 0.2);
-        kit.set(control, back);
+        kit.set(control, 1.0);
         kit.finish_controls();
         sheet.claim(Claim {
             what: format!("the same at 6 m/s, {what}"),
+            on: PLAYED,
             figure: format!("{count}"),
             reference: "none".to_owned(),
             source: EARLIER,
@@ -87,11 +94,16 @@ fn wires(sheet: &mut Sheet, kit: &mut Kit) {
     }
 }
 
-/// Five pieces hit and moved about, in buffers of a size: the sound.
+/// The stroke of a piece's ordinary note.
+fn ordinary(slot: Slot) -> Strike {
+    hear::default_strike(&KitDocument::standard(), slot)
+}
+
+/// Five pieces hit, in buffers of a size: the sound.
 fn play(kit: &mut Kit, buffer: usize) -> Vec<f32> {
     kit.reset();
-    for id in [PieceId::Kick, PieceId::Snare, PieceId::Crash, PieceId::Ride, PieceId::HiHat] {
-        kit.strike(id, &hear::default_strike(id));
+    for slot in ["kick", "snare", "crash", "ride", "hi-hat"].map(slot) {
+        kit.strike(slot, &ordinary(slot));
     }
     let length = RATE as usize / 2;
     let mut sound = [Vec::new(), Vec::new()];
@@ -110,6 +122,7 @@ fn buffers(sheet: &mut Sheet, kit: &mut Kit) {
     let same = sizes.map(|size| play(kit, size) == whole);
     sheet.claim(Claim {
         what: "five pieces hit, buffers of 1, 17, 64, 512 and 8192 samples".to_owned(),
+        on: PLAYED,
         figure: if same == [true; 4] { "the same bits".to_owned() } else { format!("the same: {same:?}") },
         reference: "the same bits".to_owned(),
         source: EXACT,
@@ -118,12 +131,12 @@ fn buffers(sheet: &mut Sheet, kit: &mut Kit) {
 }
 
 /// Seconds from the last audible sound to sleep after a stroke and a hand on the piece.
-fn falls_asleep(kit: &mut Kit, id: PieceId) -> f64 {
+fn falls_asleep(kit: &mut Kit, slot: Slot) -> f64 {
     kit.reset();
-    kit.strike(id, &stroke(Striker::Stick, 5.0, 0.5, 0.2));
+    kit.strike(slot, &stroke(Striker::Stick, 5.0, 0.5, 0.2));
     run(kit, 4_410);
     // Cymbals ring for a minute: a hand stops them.
-    kit.choke(id, 1.0);
+    kit.choke(slot, 1.0);
     let (mut last, mut now) = (0, 0);
     while !kit.is_asleep() && now < 40 * RATE as usize {
         let sound = run(kit, BLOCK);
@@ -132,14 +145,15 @@ fn falls_asleep(kit: &mut Kit, id: PieceId) -> f64 {
             last = now;
         }
     }
-    kit.choke(id, 0.0);
+    kit.choke(slot, 0.0);
     (now - last) as f64 / RATE
 }
 
 fn sleep(sheet: &mut Sheet, kit: &mut Kit) {
-    let longest = PieceId::KIT.map(|id| falls_asleep(kit, id)).into_iter().fold(0.0, f64::max);
+    let longest = standard().slots().map(|(slot, _)| falls_asleep(kit, slot)).fold(0.0, f64::max);
     sheet.claim(Claim {
         what: "every piece in turn: from the last sound above -100 dBFS to sleep".to_owned(),
+        on: PLAYED,
         figure: format!("{longest:.2} s at most"),
         reference: "1 s".to_owned(),
         source: GOAL,
@@ -158,11 +172,12 @@ fn storm(sheet: &mut Sheet, kit: &mut Kit) {
     };
     // Counted from construction on.
     let before = seen(kit).0;
+    let slots: Vec<Slot> = standard().slots().map(|(slot, _)| slot).collect();
     let mut chance = Chance::new(5);
     let (mut peak, mut finite) = (0.0_f32, true);
     for i in 0..1000 {
         let strike = Strike { speed: chance.between(0.1, 8.0), ..chance.stroke(8.0) };
-        kit.strike(PieceId::KIT[i % PieceId::KIT.len()], &strike);
+        kit.strike(slots[i % slots.len()], &strike);
         for x in run(kit, 2 * RATE as usize / 1000) {
             finite &= x.is_finite();
             peak = peak.max(x.abs());
@@ -172,6 +187,7 @@ fn storm(sheet: &mut Sheet, kit: &mut Kit) {
     let struck = struck - before;
     sheet.claim(Claim {
         what: "1,000 strokes in 2 s (the test: 5,000 in 10)".to_owned(),
+        on: PLAYED,
         figure: format!("{struck} played, peak {peak:.1} of full scale, {quarantines} pieces put to rest"),
         reference: "all played, finite, below 30".to_owned(),
         source: GOAL,
@@ -181,16 +197,19 @@ fn storm(sheet: &mut Sheet, kit: &mut Kit) {
 }
 
 fn delays(sheet: &mut Sheet) -> Result<()> {
-    let layout = Layout::default();
-    let drums: Vec<usize> = (0..PieceId::KIT.len()).filter(|&at| PieceId::KIT[at].is_drum()).collect();
-    let ways = drums.iter().flat_map(|&from| drums.iter().map(move |&to| (from, to))).filter(|(a, b)| a != b);
-    let shortest = ways.min_by(|a, b| layout.way(a.0, a.1).total_cmp(&layout.way(b.0, b.1)));
-    let (from, to) = shortest.unwrap_or_default();
+    let (spec, layout) = (standard(), standard().layout());
+    let way = |from: Slot, to: Slot| layout.way(from, to).filter(|_| from != to);
+    let drums: Vec<Slot> = spec.drums().map(|(slot, _)| slot).collect();
+    let pairs = drums.iter().flat_map(|&from| drums.iter().map(move |&to| (from, to)));
+    let ways = pairs.filter_map(|(from, to)| Some((way(from, to)?, [from, to])));
+    let (shortest, ends) = ways.min_by(|a, b| a.0.total_cmp(&b.0)).context("the kit has not two drums")?;
+    let [from, to] = ends.map(|slot| name(&spec, slot));
     // Reading between samples needs one that is newer.
-    let samples = (layout.way(from, to) / SPEED_OF_SOUND * RATE).floor() as usize - 1;
+    let samples = (shortest / SPEED_OF_SOUND * RATE).floor() as usize - 1;
     sheet.claim(Claim {
         what: "shortest delay between drums".to_owned(),
-        figure: format!("{samples} samples, {} and {}", PieceId::KIT[from].name(), PieceId::KIT[to].name()),
+        on: PLAYED,
+        figure: format!("{samples} samples, {from} and {to}"),
         reference: "54, rack tom and snare".to_owned(),
         source: EXACT,
         met: Some(samples == 54),
@@ -198,34 +217,42 @@ fn delays(sheet: &mut Sheet) -> Result<()> {
     sheet.heading("Delays");
     sheet.text("From each piece (row) to each drum that hears it (column), ms.");
     let mut head = vec![""];
-    head.extend(drums.iter().map(|&to| PieceId::KIT[to].name()));
-    let delay = |from: usize, to: usize| 1e3 * layout.way(from, to) / SPEED_OF_SOUND;
-    let row = |from: usize| {
-        let cells = drums
-            .iter()
-            .map(move |&to| if to == from { String::new() } else { format!("{:.2}", delay(from, to)) });
-        std::iter::once(PieceId::KIT[from].name().to_owned()).chain(cells).collect()
-    };
-    sheet.table(&head, (0..PieceId::KIT.len()).map(row));
-    let plan = |[x, _, z]: [f64; 3]| (x, z);
-    let way = |from: usize| -> Line {
-        let place = |at: usize| plan(layout.pieces[at].centre);
-        let ways = drums.iter().filter(|&&to| to != from).flat_map(|&to| [place(from), place(to), PEN_UP]);
-        (PieceId::KIT[from].name().to_owned(), ways.collect())
-    };
-    let panel = |title: &str, drum: bool| {
-        let pieces = (0..PieceId::KIT.len()).filter(|&at| PieceId::KIT[at].is_drum() == drum);
-        (title.to_owned(), pieces.map(way).collect())
-    };
+    head.extend(drums.iter().map(|&to| name(&spec, to)));
+    let delay = |way: f64| format!("{:.2}", 1e3 * way / SPEED_OF_SOUND);
+    let rows = spec.slots().map(|(from, piece)| {
+        let cells = drums.iter().map(|&to| way(from, to).map_or_else(String::new, delay));
+        std::iter::once(piece.name.clone()).chain(cells).collect()
+    });
+    sheet.table(&head, rows);
     sheet.plot(
         "map",
         "The kit from above, the drummer below: ways of sound from each piece to the drums that hear it",
         &Plot {
             across: Axis::linear("m to the drummer's right", -1.0..1.7),
             up: Axis::linear("m toward the audience", -1.0..0.3),
-            panels: vec![panel("from drums", true), panel("from cymbals", false)],
+            panels: vec![ways_from(&spec, "from drums", true), ways_from(&spec, "from cymbals", false)],
         },
     )
+}
+
+/// Name of the piece of a slot.
+fn name(spec: &KitSpec, slot: Slot) -> &str {
+    spec.piece(slot).map_or("", |piece| &piece.name)
+}
+
+/// Ways of sound, seen from above, from every drum or every cymbal to each drum that hears it.
+fn ways_from(spec: &KitSpec, title: &str, from_drums: bool) -> (String, Vec<Line>) {
+    let plan = |piece: &PieceSpec| {
+        let [x, _, z] = piece.place.centre;
+        (x, z)
+    };
+    let drums = || spec.pieces.iter().filter(|piece| piece.drum().is_some());
+    let line = |from: &PieceSpec| -> Line {
+        let others = drums().filter(|to| to.name != from.name);
+        (from.name.clone(), others.flat_map(|to| [plan(from), plan(to), PEN_UP]).collect())
+    };
+    let shown = spec.pieces.iter().filter(|piece| piece.drum().is_some() == from_drums);
+    (title.to_owned(), shown.map(line).collect())
 }
 
 /// Between one way and the next.
@@ -234,30 +261,29 @@ const PEN_UP: (f64, f64) = (f64::NAN, f64::NAN);
 fn sympathy(sheet: &mut Sheet, kit: &mut Kit) {
     sheet.heading("Sympathy");
     sheet.text(
-        "Each piece struck as it is played, at 5 m/s: the greatest energy of each drum in the second after it, dB of the stroke's.",
+        "Each piece struck as its ordinary note strikes it, at 5 m/s: the greatest energy of each drum in the second after it, dB of\n\
+         the stroke's.",
     );
-    let drums: Vec<PieceId> = PieceId::KIT.into_iter().filter(|id| id.is_drum()).collect();
+    let spec = standard();
+    let drums: Vec<Slot> = spec.drums().map(|(slot, _)| slot).collect();
     let mut head = vec!["struck"];
-    head.extend(drums.iter().map(|id| id.name()));
+    head.extend(drums.iter().map(|&slot| name(&spec, slot)));
     let mut largest = f64::NEG_INFINITY;
-    let rows: Vec<Vec<String>> = PieceId::KIT
-        .into_iter()
-        .map(|struck| {
-            let heard = heard_by(kit, struck, &drums);
-            let cell = |(id, db): (&PieceId, &f64)| {
-                if *id == struck {
-                    return String::new();
-                }
-                largest = largest.max(*db);
-                format!("{db:.0}")
-            };
-            let cells: Vec<String> = drums.iter().zip(&heard).map(cell).collect();
-            std::iter::once(struck.name().to_owned()).chain(cells).collect()
-        })
-        .collect();
+    let mut rows: Vec<Vec<String>> = Vec::new();
+    for (struck, piece) in spec.slots() {
+        let heard = heard_by(kit, struck, &drums);
+        let others = drums.iter().zip(&heard).filter(|(slot, _)| **slot != struck);
+        largest = others.map(|(_, db)| *db).fold(largest, f64::max);
+        let cell = |(slot, db): (&Slot, &f64)| {
+            if *slot == struck { String::new() } else { format!("{db:.0}") }
+        };
+        let cells = drums.iter().zip(&heard).map(cell);
+        rows.push(std::iter::once(piece.name.clone()).chain(cells).collect());
+    }
     sheet.table(&head, rows);
     sheet.claim(Claim {
         what: "the most any drum takes of a stroke on another piece".to_owned(),
+        on: PLAYED,
         figure: format!("{largest:.0} dB"),
         reference: "less than -10 dB: energy is only lost on the way".to_owned(),
         source: GOAL,
@@ -266,16 +292,15 @@ fn sympathy(sheet: &mut Sheet, kit: &mut Kit) {
 }
 
 /// Greatest energy of each drum in the second after a stroke, dB of the stroke's.
-fn heard_by(kit: &mut Kit, struck: PieceId, drums: &[PieceId]) -> Vec<f64> {
+fn heard_by(kit: &mut Kit, struck: Slot, drums: &[Slot]) -> Vec<f64> {
     kit.reset();
-    let strike = Strike { speed: 5.0, ..hear::default_strike(struck) };
-    kit.strike(struck, &strike);
+    kit.strike(struck, &Strike { speed: 5.0, ..ordinary(struck) });
     let brought = kit.piece(struck).map_or(f64::NAN, Piece::brought_energy);
     let mut most = vec![0.0_f64; drums.len()];
     for _ in 0..RATE as usize / 441 {
         run(kit, 441);
-        for (most, &id) in most.iter_mut().zip(drums) {
-            *most = most.max(kit.piece(id).map_or(0.0, Piece::energy));
+        for (most, &slot) in most.iter_mut().zip(drums) {
+            *most = most.max(kit.piece(slot).map_or(0.0, Piece::energy));
         }
     }
     most.into_iter().map(|energy| 10.0 * (energy / brought).max(1e-30).log10()).collect()

@@ -10,12 +10,13 @@ use overhear_engine::contact::Material;
 use overhear_engine::damping::LossLaw;
 use overhear_engine::membrane::{Membrane, MembraneSpec, ModeRange, Surroundings, vacuum_tension};
 use overhear_engine::modal::{ModalBody, Mode, Port};
-use overhear_engine::piece::{Member, ModeInfo, ModeKind, Piece, PieceId};
+use overhear_engine::piece::{Member, ModeInfo, ModeKind, Piece};
 use overhear_engine::shapes::{ShapeIndex, ShapeTable};
 use overhear_engine::strike::Striker;
 use overhear_engine::surface::{Surface, SurfaceParts};
-use overhear_lab::{Spectrum, cents, piece, stroke};
+use overhear_lab::{Spectrum, cents, names, piece, render_into, render_surface, stroke};
 
+use super::page::bodies;
 use super::page::sources::EXACT;
 use super::plot::{Axis, Plot};
 use super::{Claim, Page, Sheet};
@@ -46,12 +47,14 @@ pub fn page() -> Result<Page> {
     let mut sheet = Sheet::new(
         "modal",
         "Modes",
+        bodies::PLAYED,
         "Every mode of every piece, 44.1 kHz, single precision: frequency and decay over 8 s from the phase and the size of its own\n\
          motion; deflection under a force that is laid on slowly and held. `tests/tests/acoustics.rs` holds them.",
     );
     let (off, decay) = worst_ringing();
     sheet.claim(Claim {
         what: "a mode rings at its frequency".to_owned(),
+        on: bodies::PLAYED,
         figure: format!("{off:.5} cents at most"),
         reference: "0.05 cents".to_owned(),
         source: EXACT,
@@ -59,14 +62,16 @@ pub fn page() -> Result<Page> {
     });
     sheet.claim(Claim {
         what: "a mode decays at its rate".to_owned(),
+        on: bodies::PLAYED,
         figure: format!("{:.5} % at most", 100.0 * decay),
         reference: "0.1 %".to_owned(),
         source: EXACT,
         met: Some(decay < 1e-3),
     });
-    let bent = PieceId::ALL.map(worst_deflection).into_iter().fold(0.0, f64::max);
+    let bent = names().iter().map(|name| worst_deflection(name)).fold(0.0, f64::max);
     sheet.claim(Claim {
         what: "a held force bends a piece, and each of its modes, by F / (M omega²)".to_owned(),
+        on: bodies::PLAYED,
         figure: format!("{:.4} % off at most", 100.0 * bent),
         reference: "0.1 %".to_owned(),
         source: EXACT,
@@ -75,6 +80,7 @@ pub fn page() -> Result<Page> {
     let ratios = bessel_ratios().into_iter().map(|(_, off)| off.abs()).fold(0.0, f64::max);
     sheet.claim(Claim {
         what: "eight modes of a head in vacuum, struck and heard: ratios to the lowest".to_owned(),
+        on: bodies::MEMBRANE,
         figure: format!("{ratios:.4} cents off at most"),
         reference: "1 cent of j_mn / j_01".to_owned(),
         source: EXACT,
@@ -200,7 +206,7 @@ pub fn follow(piece: &mut Piece, seconds: f64) -> Vec<(ModeInfo, Rung)> {
         modes.iter().enumerate().filter_map(|(k, mode)| Phase::new(body, k, mode.frequency_hz)).collect();
     let mut sound = vec![0.0; LOOK];
     for look in 1..=(seconds * RATE) as usize / LOOK {
-        piece.render(&mut sound);
+        render_into(piece, &mut sound);
         let time = (look * LOOK) as f64 / RATE;
         let body = piece.surface_mut().body();
         phases.iter_mut().for_each(|phase| phase.look(body, time));
@@ -211,8 +217,8 @@ pub fn follow(piece: &mut Piece, seconds: f64) -> Vec<(ModeInfo, Rung)> {
 /// Worst of all modes of all pieces: cents off, and share by which a decay is off.
 fn worst_ringing() -> (f64, f64) {
     let mut worst = (0.0_f64, 0.0_f64);
-    for id in PieceId::ALL {
-        for (mode, rung) in follow(&mut piece(id, RATE), SECONDS) {
+    for name in names() {
+        for (mode, rung) in follow(&mut piece(&name, RATE), SECONDS) {
             if mode.frequency_hz < 0.5 * RATE {
                 worst = (worst.0.max(rung.off.abs()), worst.1.max(decay_error(&mode, &rung).abs()));
             }
@@ -227,9 +233,9 @@ pub fn decay_error(mode: &ModeInfo, rung: &Rung) -> f64 {
 }
 
 /// Holds 3 N on a piece and tells by what share its deflection there, or one of a mode's, is off at most.
-pub fn worst_deflection(id: PieceId) -> f64 {
+pub fn worst_deflection(name: &str) -> f64 {
     const FORCE: f64 = 3.0;
-    let mut piece = piece(id, RATE);
+    let mut piece = piece(name, RATE);
     let surface = piece.surface_mut();
     let mut port = Port::new(surface.body().len());
     surface.shapes().fill(0.37, 0.8, port.shape_mut());
@@ -288,8 +294,7 @@ fn ideal_head() -> Surface {
 pub fn bessel_ratios() -> Vec<(f64, f64)> {
     let mut head = ideal_head();
     head.strike(&stroke(Striker::TimpaniMallet, 1.0, 0.43, 0.1));
-    let mut sound = vec![0.0; 10 * RATE as usize];
-    sound.chunks_mut(32).for_each(|block| head.render(block));
+    let sound = render_surface(&mut head, 10 * RATE as usize);
     // From when the mallet has left.
     let spectrum = Spectrum::hann(&sound[RATE as usize..], RATE);
     let lowest = spectrum.line(100.0, 5.0);

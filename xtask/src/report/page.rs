@@ -24,6 +24,8 @@ pub struct Page {
 pub struct Claim {
     /// What is claimed.
     pub what: String,
+    /// Of which instrument or body it was measured; see [`bodies`].
+    pub on: &'static str,
     /// What was measured, with its unit.
     pub figure: String,
     /// What it should be, and within what.
@@ -38,6 +40,7 @@ impl Claim {
     /// A figure that should lie within a share of another, both with their unit.
     pub fn near(
         what: &str,
+        on: &'static str,
         (value, unit): (f64, &str),
         (wanted, share): (f64, f64),
         source: &'static str,
@@ -45,6 +48,7 @@ impl Claim {
         let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
         Claim {
             what: what.to_owned(),
+            on,
             figure: format!("{}{unit}", figure(value)),
             reference: format!("{}{unit}, {} %", figure(wanted), figure(100.0 * share)),
             source,
@@ -53,8 +57,14 @@ impl Claim {
     }
 
     /// A figure that is only told.
-    pub fn told(what: &str, figure: String, reference: &str, source: &'static str) -> Claim {
-        Claim { what: what.to_owned(), figure, reference: reference.to_owned(), source, met: None }
+    pub fn told(
+        what: &str,
+        on: &'static str,
+        figure: String,
+        reference: &str,
+        source: &'static str,
+    ) -> Claim {
+        Claim { what: what.to_owned(), on, figure, reference: reference.to_owned(), source, met: None }
     }
 }
 
@@ -78,23 +88,44 @@ pub mod sources {
     pub const GOAL: &str = "our goal";
 }
 
+/// What figures are measured on: the played instrument, or a named reference beside it.
+pub mod bodies {
+    /// The played instrument: the standard kit, or a piece of it by itself.
+    pub const PLAYED: &str = "standard kit";
+    /// A piece of it without what makes it uneven.
+    pub const ROUND: &str = "standard kit, perfectly round";
+    /// A cymbal as a spherical cap, as thick everywhere, whose modes are known in closed form.
+    pub const CAP: &str = "reference: cap";
+    /// A drum on which every stroke presses on its striker's own disc, as published figures have it.
+    pub const FIXED_DISC: &str = "reference: fixed disc";
+    /// A membrane in vacuo, so thin that it does not resist bending.
+    pub const MEMBRANE: &str = "reference: membrane in vacuo";
+    /// A timpani's head with air on both faces.
+    pub const NO_KETTLE: &str = "reference: timpani head without its kettle";
+    /// No piece: an equation's own body.
+    pub const EQUATION: &str = "no piece: the equation";
+}
+
 /// A page in the making.
 pub struct Sheet {
     name: &'static str,
     title: &'static str,
     about: String,
+    on: &'static str,
     claims: Vec<Claim>,
     body: String,
     pictures: Vec<(String, Vec<u8>)>,
 }
 
 impl Sheet {
-    /// An empty page of a name, under a title, that begins with a paragraph on what is measured.
-    pub fn new(name: &'static str, title: &'static str, about: &str) -> Sheet {
+    /// An empty page of a name, under a title, that begins with a paragraph on what is measured, and on which
+    /// [bodies]; that is also what plots and tables show that do not say otherwise.
+    pub fn new(name: &'static str, title: &'static str, on: &'static str, about: &str) -> Sheet {
         Sheet {
             name,
             title,
             about: about.to_owned(),
+            on,
             claims: Vec::new(),
             body: String::new(),
             pictures: Vec::new(),
@@ -142,18 +173,20 @@ impl Sheet {
 
     /// The page.
     pub fn finish(self) -> Page {
-        let Sheet { name, title, about, claims, body, pictures } = self;
-        let mut markdown = format!("# {title}\n\n{about}\n\n`cargo xtask report {name}` writes this page.\n");
+        let Sheet { name, title, about, on, claims, body, pictures } = self;
+        let mut markdown = format!(
+            "# {title}\n\n{about}\n\nMeasured on: {on}.\n\n`cargo xtask report {name}` writes this page.\n"
+        );
         if !claims.is_empty() {
-            markdown.push_str("\n| claim | figure | should be | by | met |\n|---|---|---|---|---|\n");
+            markdown.push_str("\n| claim | measured on | figure | should be | by | met |\n|---|---|---|---|---|---|\n");
         }
-        for Claim { what, figure, reference, source, met } in &claims {
+        for Claim { what, on, figure, reference, source, met } in &claims {
             let met = match met {
                 Some(true) => MET,
                 Some(false) => MISSED,
                 None => "| told |",
             };
-            let _ = writeln!(markdown, "| {what} | {figure} | {reference} | {source} {met}");
+            let _ = writeln!(markdown, "| {what} | {on} | {figure} | {reference} | {source} {met}");
         }
         markdown.push_str(&body);
         Page { name, markdown, claims, pictures }

@@ -4,7 +4,9 @@ use std::f64::consts::TAU;
 
 use anyhow::Result;
 use overhear_engine::plate::{PlateModes, PlateSpec, edges};
+use overhear_lab::{plate, reference, spec};
 
+use super::page::bodies;
 use super::page::sources::{EARLIER, EXACT};
 use super::plot::{Axis, Plot};
 use super::{Claim, Page, Sheet};
@@ -35,6 +37,7 @@ pub fn page() -> Result<Page> {
     let mut sheet = Sheet::new(
         "plate",
         "Plates",
+        bodies::CAP,
         "The free disc and the shallow dome, before losses and air. `engine/src/plate/edges.rs`, `engine/src/plate/tests.rs` and\n\
          `tests/tests/acoustics.rs` hold them.",
     );
@@ -43,6 +46,7 @@ pub fn page() -> Result<Page> {
         let got = modes.iter().find(|mode| mode.n == n).map_or(f64::NAN, |mode| mode.root * mode.root);
         sheet.claim(Claim {
             what: format!("free disc, nu .33, ({m},{n}): lambda²"),
+            on: bodies::EQUATION,
             figure: format!("{got:.4}"),
             reference: format!("{published:.4}, 0.01 %"),
             source: "Leissa 1969",
@@ -55,28 +59,38 @@ pub fn page() -> Result<Page> {
 
 fn domes(sheet: &mut Sheet) -> Result<()> {
     let modes = |spec: &PlateSpec| PlateModes::new(spec, 1200.0).map_err(|error| bad_input!("{error}"));
-    let ring = PlateSpec::CRASH.ring_omega() / TAU;
-    sheet.claim(Claim::near("16 in crash: ring frequency", (ring, "Hz"), (546.0, 0.005), EXACT));
-    for (name, spec, (m, n), hz) in [
-        ("crash", PlateSpec::CRASH, (2, 0), 22.9),
-        ("crash", PlateSpec::CRASH, (3, 0), 54.4),
-        ("crash", PlateSpec::CRASH, (10, 0), 530.0),
-        ("crash", PlateSpec::CRASH, (0, 1), 547.4),
-        ("ride", PlateSpec::RIDE, (0, 1), 489.4),
-        ("splash", PlateSpec::SPLASH, (0, 1), 841.4),
+    let cap = plate(&reference::cap_crash());
+    let ring = cap.ring_omega() / TAU;
+    let what = "16 in crash: ring frequency";
+    sheet.claim(Claim::near(what, bodies::CAP, (ring, "Hz"), (546.0, 0.005), EXACT));
+    for (name, reference, (m, n), hz) in [
+        ("crash", reference::cap_crash(), (2, 0), 22.9),
+        ("crash", reference::cap_crash(), (3, 0), 54.4),
+        ("crash", reference::cap_crash(), (10, 0), 530.0),
+        ("crash", reference::cap_crash(), (0, 1), 547.4),
+        ("ride", reference::cap_ride(), (0, 1), 489.4),
+        ("splash", reference::cap_splash(), (0, 1), 841.4),
     ] {
-        let modes = modes(&spec)?;
-        let shell = modes.shells.iter().find(|shell| (shell.m, shell.n) == (m, n));
-        let got = shell.map_or(f64::NAN, |shell| shell.omega / TAU);
+        let of = |spec: &PlateSpec| -> Result<(f64, PlateModes)> {
+            let modes = modes(spec)?;
+            let shell = modes.shells.iter().find(|shell| (shell.m, shell.n) == (m, n));
+            Ok((shell.map_or(f64::NAN, |shell| shell.omega / TAU), modes))
+        };
+        let cap = plate(&reference);
+        let (got, modes) = of(&cap)?;
         let flat = modes.flat[m as usize].iter().find(|flat| flat.n == n);
-        let flat = flat.map_or(f64::NAN, |flat| spec.flat_omega() * flat.root * flat.root / TAU);
+        let flat = flat.map_or(f64::NAN, |flat| cap.flat_omega() * flat.root * flat.root / TAU);
         let what = format!("{name}, ({m},{n}): flat {flat:.1} Hz, domed");
-        sheet.claim(Claim::near(&what, (got, "Hz"), (hz, 0.005), EARLIER));
+        sheet.claim(Claim::near(&what, bodies::CAP, (got, "Hz"), (hz, 0.005), EARLIER));
+        let (played, _) = of(&plate(&spec(name)))?;
+        let what = format!("{name}, ({m},{n}), with its bell and its taper");
+        let figure = format!("{played:.1} Hz");
+        sheet.claim(Claim::told(&what, bodies::PLAYED, figure, "no closed form", EXACT));
     }
-    let crash = modes(&PlateSpec::CRASH)?;
+    let crash = modes(&cap)?;
     let flat = |n: u32| {
         let of_circle = crash.flat.iter().flatten().filter(move |mode| mode.n == n);
-        let hz = |root: f64| PlateSpec::CRASH.flat_omega() * root * root / TAU;
+        let hz = |root: f64| cap.flat_omega() * root * root / TAU;
         of_circle.map(|mode| (f64::from(mode.m), hz(mode.root))).filter(|point| point.1 < 1200.0).collect()
     };
     let domed = |n: u32| {
@@ -93,7 +107,7 @@ fn domes(sheet: &mut Sheet) -> Result<()> {
         (0..3).flat_map(|n| [(format!("flat, n = {n}"), flat(n)), (format!("dome, n = {n}"), domed(n))]);
     sheet.plot(
         "dome",
-        "Frequencies of the crash's modes against their nodal diameters, as a flat plate and as the dome it is",
+        "Frequencies of the cap crash's modes against their nodal diameters, as a flat plate and as the dome it is",
         &Plot {
             across: Axis::linear("nodal diameters", 0.0..16.0),
             up: Axis::log("Hz", 10.0..1300.0),

@@ -5,7 +5,10 @@ use std::sync::{Mutex, PoisonError};
 
 use anyhow::Result;
 use overhear::building::Pace;
+use overhear::kit_document::KitDocument;
+use overhear_lab::spec;
 
+use super::page::bodies::PLAYED;
 use super::page::sources::GOAL;
 use super::plot::{Axis, Line, Plot};
 use super::{Claim, Page, Sheet};
@@ -24,6 +27,7 @@ pub fn page() -> Result<Page> {
     let mut sheet = Sheet::new(
         "realism",
         "Beside recordings",
+        PLAYED,
         "Every piece in the kit as the plugin has it, struck softly to hard in three places, at its close microphone and in the full\n\
          mix, beside 3,123 one-shots of 36 acoustic kits: `cargo xtask realism`. Bounced, which tables and pictures are, cymbals are coupled to 8 kHz;\n\
          played live, to 2 kHz (`--live`; drums are the same but for the cymbals that answer them). A range is that of 10 to 90 % of the recordings; where\n\
@@ -33,6 +37,7 @@ pub fn page() -> Result<Page> {
     let request = |subjects: Vec<Subject>, pace| realism::Request {
         subjects,
         speeds: SPEEDS.to_vec(),
+        kit: KitDocument::standard(),
         settings: Vec::new(),
         pace,
         wav: None,
@@ -47,7 +52,7 @@ pub fn page() -> Result<Page> {
             }
         })?;
     let heard = heard.into_inner().unwrap_or_else(PoisonError::into_inner);
-    let cymbals = SUBJECTS.into_iter().filter(|subject| !subject.piece.is_drum()).collect();
+    let cymbals = SUBJECTS.into_iter().filter(|subject| !is_drum(subject)).collect();
     let live = realism::run(&request(cymbals, Pace::RealTime))?;
     for (report, how) in [(&report, "bounced"), (&live, "played live")] {
         shares(&mut sheet, report, how);
@@ -60,7 +65,7 @@ pub fn page() -> Result<Page> {
             [report.all(heard, |piece| piece.ranges), report.all(heard, |piece| piece.medians)];
         for (what, count) in [("in the range of recordings", ranges), ("near their median", medians)] {
             let what = format!("all pieces, {}: figures {what}", heard.name());
-            sheet.claim(Claim::told(&what, counted(count), "as many as can be", RECORDINGS));
+            sheet.claim(Claim::told(&what, PLAYED, counted(count), "as many as can be", RECORDINGS));
         }
     }
     sheet.plot(
@@ -90,6 +95,7 @@ fn shares(sheet: &mut Sheet, report: &Report, how: &str) {
                     piece.piece,
                     heard.name()
                 ),
+                on: PLAYED,
                 figure: counted(piece.firm),
                 reference: format!("{:.0} %", 100.0 * goal),
                 source: GOAL,
@@ -106,6 +112,7 @@ fn brightening(sheet: &mut Sheet, report: &Report, how: &str) {
         if let Some(slope) = &piece.slope {
             sheet.claim(Claim {
                 what: format!("{who}: growth of {} with the level, octaves per 20 dB", slope.feature),
+                on: PLAYED,
                 figure: slope.value.map_or("-".to_owned(), |value| format!("{value:.2}")),
                 reference: format!("{} within {SLOPE_WITHIN}", slope.median),
                 source: RECORDINGS,
@@ -116,6 +123,7 @@ fn brightening(sheet: &mut Sheet, report: &Report, how: &str) {
             let ms: Vec<String> = bloom.iter().map(|ms| format!("{ms:.0}")).collect();
             sheet.claim(Claim {
                 what: format!("{who}: when the band above 3 kHz peaks, soft to hard, ms"),
+                on: PLAYED,
                 figure: ms.join(", "),
                 reference: "rising; 5, 48, 114".to_owned(),
                 source: RECORDINGS,
@@ -145,7 +153,11 @@ fn spectrograms(sheet: &mut Sheet, heard: &BTreeMap<(&str, u64), Vec<f32>>) -> R
 
 /// How much of a stroke is shown, s: what is heard of it.
 fn shown(subject: &Subject) -> f64 {
-    if subject.piece.is_drum() || subject.name == "hi-hat-closed" { 1.5 } else { 4.0 }
+    if is_drum(subject) || subject.name == "hi-hat-closed" { 1.5 } else { 4.0 }
+}
+
+fn is_drum(subject: &Subject) -> bool {
+    spec(subject.piece).drum().is_some()
 }
 
 fn table(sheet: &mut Sheet, piece: &PieceReport, speeds: &[f64]) {

@@ -42,10 +42,10 @@ const GROOVE: &[(u8, f32)] =
 
 /// Pages that are counted, at rest and ringing.
 const PAGES: &[Shot] = &[
-    shot("kit", 0, 2, &[], 0),
-    shot("physics", 1, 2, &[], 0),
-    shot("mix", 2, 2, &[], 0),
-    shot("settings", 5, 2, &[], 0),
+    shot("kit", 0, "rack-tom", &[], 0),
+    shot("physics", 1, "rack-tom", &[], 0),
+    shot("mix", 2, "rack-tom", &[], 0),
+    shot("settings", 5, "rack-tom", &[], 0),
 ];
 
 /// Processor time of threads so far, by id.

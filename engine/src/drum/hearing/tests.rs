@@ -1,13 +1,11 @@
 use super::*;
-use crate::layout::Layout;
-use crate::microphones;
-use crate::piece::PieceId;
+use crate::reference;
 
 /// How loud the lowest modes of the batter with so many nodal diameters are at a point, over the loudest without.
 fn shares(spec: &DrumSpec, point: ListeningPoint) -> [f64; 4] {
     let blueprint = Blueprint::new(spec).unwrap();
-    let place = blueprint.scale.place(spec.pitch_hz.1);
-    let ears = Ears::new(&blueprint, spec, point, TAU * spec.batter.limit_hz);
+    let place = blueprint.scale.place(spec.pitch_hz);
+    let ears = Ears::new(&blueprint, spec, point, TAU * spec.batter.modes_to_hz);
     let size = |mode: &TunedMode| {
         let [re, im] = ears.transfer(mode, &place).map(f64::from);
         re.hypot(im) / mode.at(&place).mass.sqrt()
@@ -22,21 +20,18 @@ fn shares(spec: &DrumSpec, point: ListeningPoint) -> [f64; 4] {
 
 #[test]
 fn over_its_rim_a_drum_shows_modes_that_it_hardly_sends_out() {
-    for (id, spec) in [
-        (PieceId::Kick, DrumSpec::kick()),
-        (PieceId::Snare, DrumSpec::snare()),
-        (PieceId::RackTom, DrumSpec::rack_tom()),
-        (PieceId::FloorTom, DrumSpec::floor_tom()),
-    ] {
-        let far = shares(&spec, Layout::far_point(id));
-        let close = shares(&spec, microphones::over_rim(id).unwrap());
-        println!("{id:?}: (m, 1) over the loudest round mode, m = 1 to 4: close {close:.3?}, far {far:.4?}");
+    for name in ["kick", "snare", "rack-tom", "floor-tom"] {
+        let build = reference::standard(name);
+        let spec = build.spec.drum().unwrap();
+        let far = shares(spec, build.receivers.far);
+        let close = shares(spec, build.receivers.near);
+        println!("{name}: (m, 1) over the loudest round mode, m = 1 to 4: close {close:.3?}, far {far:.4?}");
         // The more nodal diameters, the less a mode sends out, and the more the near field is all there is of it.
         assert!(far[1] > 3.0 * far[2] && far[2] > 3.0 * far[3], "{far:?}");
         for (m, least) in [(2, 3.0), (3, 10.0), (4, 30.0)] {
             assert!(
                 close[m - 1] > least * far[m - 1],
-                "{id:?} ({m}, 1): {} and {}",
+                "{name} ({m}, 1): {} and {}",
                 close[m - 1],
                 far[m - 1]
             );

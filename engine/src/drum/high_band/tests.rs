@@ -2,24 +2,28 @@ use super::*;
 use crate::drum::DrumSpec;
 use crate::drum::build::Blueprint;
 use crate::drum::hearing::Hearing;
+use crate::kit_spec::PieceBuild;
 use crate::piece::BuildOptions;
+use crate::reference;
 
 const RATE: f64 = 44_100.0;
 
-fn band(blueprint: &Blueprint, spec: &DrumSpec) -> HighBand {
-    HighBand::new(&blueprint.high_band(spec, &BuildOptions::new(RATE)))
+fn band(blueprint: &Blueprint, build: &PieceBuild) -> HighBand {
+    let context = build.context(BuildOptions::new(RATE));
+    HighBand::new(&blueprint.high_band(build.spec.drum().unwrap(), &context))
 }
 
-fn rack_tom() -> (Blueprint, DrumSpec) {
-    let spec = DrumSpec::rack_tom();
-    (Blueprint::new(&spec).unwrap(), spec)
+fn rack_tom() -> (Blueprint, PieceBuild) {
+    let build = reference::standard("rack-tom");
+    (Blueprint::new(build.spec.drum().unwrap()).unwrap(), build)
 }
 
 #[test]
 fn slices_follow_on_the_complete_set_in_frequency_mass_count_and_loudness() {
-    let (blueprint, spec) = rack_tom();
-    let band = band(&blueprint, &spec);
-    let middle = (spec.pitch_hz.0 * spec.pitch_hz.2).sqrt();
+    let (blueprint, build) = rack_tom();
+    let band = band(&blueprint, &build);
+    let spec = *build.spec.drum().unwrap();
+    let middle = (spec.lowest_pitch_hz * spec.highest_pitch_hz).sqrt();
     let place = blueprint.scale.place(middle);
     let top: Vec<_> = blueprint.modes.iter().rev().filter(|mode| mode.at(&place).batter > 0.5).collect();
     let highest = top[0].at(&place);
@@ -31,8 +35,8 @@ fn slices_follow_on_the_complete_set_in_frequency_mass_count_and_loudness() {
     let members = |m: u32| if m == 0 { 1.0 } else { 2.0 };
     let low = highest.omega / 2.0_f64.sqrt();
     let (mut heard, mut count) = (0.0, 0.0);
-    let spec = DrumSpec { pitch_hz: (spec.pitch_hz.0, middle, spec.pitch_hz.2), ..spec };
-    let hearing = Hearing::new(&blueprint, &spec, spec.listening_point);
+    let spec = DrumSpec { pitch_hz: middle, ..spec };
+    let hearing = Hearing::new(&blueprint, &spec, build.receivers.near);
     let transfer: Vec<_> = hearing.transfers(&blueprint.modes, &place, middle).collect();
     let mut k = 0;
     for mode in &blueprint.modes {
@@ -52,9 +56,9 @@ fn slices_follow_on_the_complete_set_in_frequency_mass_count_and_loudness() {
 
 #[test]
 fn it_reaches_16_khz_and_no_farther() {
-    let (blueprint, spec) = rack_tom();
-    for pitch in [90.0, 140.0, 260.0] {
-        let mut band = band(&blueprint, &spec);
+    let (blueprint, build) = rack_tom();
+    for pitch in build.spec.instrument.tunings() {
+        let mut band = band(&blueprint, &build);
         band.retune(blueprint.batter.tension(&blueprint.scale.place(pitch)), &HighMuffling::NONE);
         let last = band.slices().last().unwrap().omega / TAU;
         assert!((15_500.0..=16_000.0).contains(&last), "{pitch}: {last}");
@@ -63,8 +67,8 @@ fn it_reaches_16_khz_and_no_farther() {
 
 #[test]
 fn a_waves_shape_is_zero_at_the_rim_and_one_in_the_mean() {
-    let (blueprint, spec) = rack_tom();
-    let band = band(&blueprint, &spec);
+    let (blueprint, build) = rack_tom();
+    let band = band(&blueprint, &build);
     let mut sum = 0.0;
     for (k, slice) in band.slices.iter().enumerate() {
         assert!(slice.at(1.0, k as f64).abs() < 1e-9);
@@ -77,9 +81,9 @@ fn a_waves_shape_is_zero_at_the_rim_and_one_in_the_mean() {
 
 #[test]
 fn how_a_run_is_cut_changes_no_sample() {
-    let (blueprint, spec) = rack_tom();
+    let (blueprint, build) = rack_tom();
     let play = |cuts: &[usize]| {
-        let mut band = band(&blueprint, &spec);
+        let mut band = band(&blueprint, &build);
         band.put(0, 0.3, 0.5, 0.003);
         band.put(2, 0.7, 1.5, 0.003);
         let mut sound = vec![0.0_f32; 96];
@@ -111,14 +115,15 @@ fn how_a_run_is_cut_changes_no_sample() {
 
 #[test]
 fn tuned_back_and_forth_it_is_what_it_was() {
-    let (blueprint, spec) = rack_tom();
-    let mut band = band(&blueprint, &spec);
+    let (blueprint, build) = rack_tom();
+    let mut band = band(&blueprint, &build);
     let before: Vec<SliceInfo> = band.slices().collect();
     let tension = band.spec.tensions[1];
     band.retune(3.0 * tension, &HighMuffling { even: 5.0, pad: (30.0, 0.8) });
     let ratio = band.slices().next().unwrap().omega / before[0].omega;
     let bending = {
-        let head = &spec.batter.membrane;
+        let spec = build.spec.drum().unwrap();
+        let head = spec.membrane(&spec.batter);
         head.flexural_rigidity() * (band.slices[0].zero / head.radius).powi(2)
     };
     let expected = ((3.0 * tension + bending) / (tension + bending)).sqrt();

@@ -92,13 +92,14 @@ impl<const N: usize> Hertz<N> {
                 self.force[i] = force[i] + slope[i] * change[i];
             }
             let found = self.moved(&self.force);
-            let mut unsettled = 0.0_f64;
+            // What is not a number has not settled.
+            let mut settled = true;
             for i in 0..N {
                 let scale = LAST_STEP * self.before[i].abs().max(self.free[i].abs());
-                unsettled = unsettled.max((found[i] - d[i]).abs() - scale);
+                settled &= (found[i] - d[i]).abs() <= scale;
             }
             d = found;
-            if unsettled <= 0.0 {
+            if settled {
                 self.force.iter_mut().for_each(|force| *force = force.max(0.0));
                 return true;
             }

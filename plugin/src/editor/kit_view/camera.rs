@@ -1,9 +1,13 @@
 //! The point of view: a camera that circles the kit, and what it sees through a rectangle of the screen.
 
+use std::sync::LazyLock;
+
 use egui::{Pos2, Rect, vec2};
+use overhear_engine::kit_spec::KitSpec;
 
 use crate::view::View;
 
+use super::bodies::Body;
 use super::vector::{V3, add, cross, dot, scale, sub, unit};
 
 /// Half the field of view across the shorter side, as a tangent: as of a 50 mm lens.
@@ -18,8 +22,11 @@ const PITCH: (f32, f32) = (-0.15, 1.5);
 /// Distances from the middle of the kit, m.
 const DISTANCE: (f32, f32) = (0.7, 6.0);
 
-/// Middle of the kit, m.
+/// What is looked at in the standard kit, m. *By ear*, so to say: so its picture is well filled.
 const MIDDLE: V3 = [0.08, 0.66, -0.30];
+
+/// How near and how far a small and a large kit are seen from, factors of the distance of the standard kit.
+const SIZES: (f32, f32) = (0.45, 2.5);
 
 /// Where the eye is, seen from the middle of the kit.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -64,12 +71,56 @@ impl Camera {
         }
     }
 
-    /// What is seen of it through `rect`.
-    pub fn through(&self, rect: Rect) -> Eye {
+    /// What is seen of a kit through `rect`.
+    pub fn through(&self, rect: Rect, aim: &Aim) -> Eye {
         let ((sin_yaw, cos_yaw), (sin, cos)) = (self.yaw.sin_cos(), self.pitch.sin_cos());
         let out = [sin_yaw * cos, sin, -cos_yaw * cos];
-        Eye::new(rect, MIDDLE, out, self.distance)
+        Eye::new(rect, add(MIDDLE, aim.shift), out, aim.size * self.distance)
     }
+}
+
+/// What a camera looks at: where a kit is and how large, against the standard kit, for which the picture was composed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Aim {
+    /// From what is looked at in the standard kit to what is in this one, m.
+    pub shift: V3,
+    /// Its size as a factor of the standard kit's.
+    pub size: f32,
+}
+
+impl Aim {
+    /// The standard kit.
+    pub const STANDARD: Aim = Aim { shift: [0.0; 3], size: 1.0 };
+
+    /// A kit of these bodies.
+    pub fn of(bodies: &[Body]) -> Aim {
+        static STANDARD: LazyLock<(V3, f32)> = LazyLock::new(|| extent(&Body::all(&KitSpec::standard())));
+        let ((middle, size), (usual, usual_size)) = (extent(bodies), *STANDARD);
+        let size = (size / usual_size).clamp(SIZES.0, SIZES.1);
+        // What is looked at lies beside the middle, the less the nearer the eye.
+        let beside = scale(sub(MIDDLE, usual), size - 1.0);
+        Aim { shift: add(sub(middle, usual), beside), size }
+    }
+
+    /// As far out as for the standard kit at least, and about its middle: where the room belongs to the picture.
+    pub fn in_the_room(&self) -> Aim {
+        Aim { size: self.size.max(1.0), ..Aim::STANDARD }
+    }
+}
+
+/// Middle of the box about the bodies' surfaces, and half of its diagonal along the floor, m.
+fn extent(bodies: &[Body]) -> (V3, f32) {
+    let reach = |body: &Body| [body.radius, 0.0, body.radius];
+    let fold = |start: f32, choose: fn(f32, f32) -> f32, side: f32| -> V3 {
+        std::array::from_fn(|axis| {
+            let ends = bodies.iter().map(|body| body.frame.centre[axis] + side * reach(body)[axis]);
+            ends.fold(start, choose)
+        })
+    };
+    let low = fold(f32::INFINITY, f32::min, -1.0);
+    let high = fold(f32::NEG_INFINITY, f32::max, 1.0);
+    let diagonal = sub(high, low);
+    (scale(add(low, high), 0.5), 0.5 * diagonal[0].hypot(diagonal[2]))
 }
 
 /// Perspective from a place onto a rectangle of the screen.
@@ -146,7 +197,7 @@ mod tests {
 
     #[test]
     fn from_behind_the_drummer_right_is_right_and_the_audience_is_far() {
-        let eye = Camera { yaw: 0.0, pitch: 0.5, distance: 3.0 }.through(window());
+        let eye = Camera { yaw: 0.0, pitch: 0.5, distance: 3.0 }.through(window(), &Aim::STANDARD);
         let (left, _) = eye.project([-0.5, 0.7, -0.3]);
         let (right, _) = eye.project([0.5, 0.7, -0.3]);
         assert!(left.x < right.x);
@@ -157,11 +208,21 @@ mod tests {
 
     #[test]
     fn a_ray_goes_through_what_is_seen_there() {
-        let eye = Camera::default().through(window());
+        let eye = Camera::default().through(window(), &Aim::STANDARD);
         let point = [0.3, 0.6, 0.1];
         let (at, depth) = eye.project(point);
         let there = add(eye.place(), scale(eye.ray(at), depth));
         assert!(sub(there, point).iter().all(|difference| difference.abs() < 1e-4), "{there:?}");
+    }
+
+    #[test]
+    fn the_standard_kit_is_seen_as_composed_and_a_small_one_from_nearer_about_its_own_middle() {
+        let kit = KitSpec::standard();
+        assert_eq!(Aim::of(&Body::all(&kit)), Aim::STANDARD);
+        let (timpani, _) = kit.find("timpani").unwrap();
+        let aim = Aim::of(&Body::all(&kit.alone(timpani).unwrap()));
+        assert!(aim.size < 0.6 && aim.shift[0] > 0.5, "{aim:?}");
+        assert_eq!(aim.in_the_room(), Aim::STANDARD);
     }
 
     #[test]

@@ -130,14 +130,15 @@ impl Scene {
 
 #[cfg(test)]
 mod tests {
-    use super::super::camera::Camera;
+    use super::super::camera::{Aim, Camera};
     use super::*;
     use egui::Rect;
 
     #[test]
     fn the_nearer_face_is_painted_last() {
         let rect = Rect::from_min_size(Pos2::ZERO, Vec2::splat(400.0));
-        let mut scene = Scene::new(Camera { yaw: 0.0, pitch: 0.0, distance: 3.0 }.through(rect));
+        let mut scene =
+            Scene::new(Camera { yaw: 0.0, pitch: 0.0, distance: 3.0 }.through(rect, &Aim::STANDARD));
         let mut square = |z: f32| {
             let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]]
                 .map(|[x, y]| scene.vertex([x, y, z], Color32::RED));

@@ -4,7 +4,7 @@ use std::f32::consts::TAU;
 
 use egui::Color32;
 
-use super::bodies::{Body, Frame, Kind};
+use super::bodies::{Body, Frame, Kind, Support};
 use super::light::{Finish, lit, shade};
 use super::scene::Scene;
 use super::vector::V3;
@@ -26,46 +26,60 @@ type Ring = (f32, f32);
 pub fn shell(scene: &mut Scene, body: &Body, glow: Color32, palette: &Palette) {
     let (frame, radius) = (&body.frame, body.radius);
     match body.kind {
-        Kind::Cymbal { .. } => {}
-        Kind::Kettle { depth } => {
-            // An ellipse, as bowls nearly are.
-            let rings: Vec<Ring> = (0..=8)
-                .map(|ring| {
-                    let (sin, cos) = (ring as f32 / 8.0 * 0.25 * TAU).sin_cos();
-                    (-depth * sin, radius * cos.max(0.02))
-                })
-                .collect();
-            sides(scene, frame, &rings, palette.copper, Finish::Lacquer);
-            hoop(scene, frame, radius, [0.008, -0.03], palette.chrome, Finish::Chrome);
-            lugs(scene, frame, radius, [0.0, -0.09], 6, palette);
-        }
-        Kind::Drum { depth, shell } => {
+        Kind::Cymbal { .. } | Kind::HiHat { .. } => return,
+        Kind::Head => hoop(scene, frame, radius, [0.008, -0.03], palette.chrome, Finish::Chrome),
+        Kind::Kettle { depth } => kettle(scene, body, depth, palette),
+        Kind::Drum { depth, shell, closed } => {
             let rings: Vec<Ring> =
                 (0..=ROWS).map(|row| (-depth * row as f32 / ROWS as f32, radius)).collect();
-            sides(scene, frame, &rings, shell, Finish::Lacquer);
-            other_head(scene, frame, radius, depth, palette);
-            // A bass drum's hoops are of wood and deep.
-            let wooden = radius > 0.25;
-            let (colour, finish, height) = if wooden {
-                (palette.hoop, Finish::Lacquer, 0.045)
+            sides(scene, frame, &rings, shell, Finish::Lacquer, true);
+            if closed {
+                other_head(scene, frame, radius, depth, palette);
             } else {
-                (palette.chrome, Finish::Chrome, 0.022)
-            };
-            hoop(scene, frame, radius, [0.009, 0.009 - height], colour, finish);
-            hoop(scene, frame, radius, [height - depth - 0.009, -depth - 0.009], colour, finish);
-            let ends = [-height, height - depth];
-            lugs(scene, frame, radius, ends, if wooden { 10 } else { 8 }, palette);
+                sides(scene, frame, &rings, shade(shell, 0.5, 0.0), Finish::Lacquer, false);
+            }
+            fittings(scene, body, depth, palette);
         }
     }
-    if glow != Color32::TRANSPARENT && !matches!(body.kind, Kind::Cymbal { .. }) {
+    if glow != Color32::TRANSPARENT {
         circle(scene, frame, HOOP * radius, 0.011, 2.0, glow);
     }
 }
 
-/// The sides of a body of revolution that are seen from outside.
-fn sides(scene: &mut Scene, frame: &Frame, rings: &[Ring], colour: Color32, finish: Finish) {
+fn kettle(scene: &mut Scene, body: &Body, depth: f32, palette: &Palette) {
+    let (frame, radius) = (&body.frame, body.radius);
+    // An ellipse, as bowls nearly are.
+    let rings: Vec<Ring> = (0..=8)
+        .map(|ring| {
+            let (sin, cos) = (ring as f32 / 8.0 * 0.25 * TAU).sin_cos();
+            (-depth * sin, radius * cos.max(0.02))
+        })
+        .collect();
+    sides(scene, frame, &rings, palette.copper, Finish::Lacquer, true);
+    hoop(scene, frame, radius, [0.008, -0.03], palette.chrome, Finish::Chrome);
+    lugs(scene, frame, radius, [0.0, -0.09], 6, palette);
+}
+
+/// Hoops and lugs of a shell.
+fn fittings(scene: &mut Scene, body: &Body, depth: f32, palette: &Palette) {
+    let (frame, radius) = (&body.frame, body.radius);
+    // A bass drum's hoops are of wood and deep.
+    let (colour, finish, height, count) = if body.support == Support::Spurs {
+        (palette.hoop, Finish::Lacquer, 0.045, 10)
+    } else {
+        (palette.chrome, Finish::Chrome, 0.022, 8)
+    };
+    // A shallow drum's leave some of its shell free.
+    let height = f32::min(height, 0.3 * depth);
+    hoop(scene, frame, radius, [0.009, 0.009 - height], colour, finish);
+    hoop(scene, frame, radius, [height - depth - 0.009, -depth - 0.009], colour, finish);
+    lugs(scene, frame, radius, [-height, height - depth], count, palette);
+}
+
+/// The sides of a body of revolution that are seen from outside, or from within.
+fn sides(scene: &mut Scene, frame: &Frame, rings: &[Ring], colour: Color32, finish: Finish, outside: bool) {
     for pair in rings.windows(2) {
-        band(scene, frame, [pair[0], pair[1]], colour, finish, true);
+        band(scene, frame, [pair[0], pair[1]], colour, finish, outside);
     }
 }
 

@@ -3,7 +3,6 @@
 //! Time is stretched: the tip comes down at the stroke's speed, stays for the contact time, and leaves at the speed
 //! it was measured to leave with, all of it so many times slower.
 
-use overhear_engine::piece::PieceId;
 use overhear_engine::snapshot::StrikeSnapshot;
 
 use super::bodies::Body;
@@ -81,11 +80,12 @@ impl Replay {
 /// Draws the stick of a stroke with its tip at a height (m) over where it lands.
 pub fn draw(scene: &mut Scene, body: &Body, landing: V3, height: f32, palette: &Palette) {
     let tip = add(landing, scale(body.frame.normal, height + 0.006));
-    if body.piece == PieceId::Kick {
+    if body.has_beater() {
         // A beater on its rod, which turns about the pedal.
         let chrome = [shade(palette.chrome, 0.45, 0.0), palette.chrome];
         let beater = add(tip, scale(body.frame.normal, 0.025));
-        let axle = [body.frame.centre[0], 0.09, body.frame.centre[2] - 0.10];
+        let [x, _, z] = add(body.frame.centre, scale(body.frame.ahead(), 0.10));
+        let axle = [x, 0.09, z];
         scene.rod(axle, beater, 0.004, chrome);
         let felt = [shade(palette.film, 0.55, 0.0), shade(palette.film, 0.9, 0.0)];
         scene.rod(

@@ -4,7 +4,7 @@ use std::f32::consts::TAU;
 
 use egui::Color32;
 
-use super::bodies::{Body, Frame, Kind};
+use super::bodies::{Body, Frame};
 use super::light::{Finish, lit, shade};
 use super::scene::Scene;
 use super::vector::{V3, cross, dot, scale, sub, unit};
@@ -68,11 +68,10 @@ pub fn moving(scene: &mut Scene, body: &Body, motion: &Motion<'_>, palette: &Pal
     edge(scene, &points[RADII], finish, palette);
 }
 
-/// Draws a plate that does not move at a place of its own: the lower of two cymbals, upside down.
-pub fn still(scene: &mut Scene, body: &Body, frame: Frame, palette: &Palette) {
-    let upside = Body { frame, ..*body };
-    let resting = [[0.0; ANGLES]; RADII + 1];
-    let points = points(&upside, &resting);
+/// Draws a plate that does not move.
+pub fn still(scene: &mut Scene, body: &Body, palette: &Palette) {
+    let frame = body.frame;
+    let points = points(body, &[[0.0; ANGLES]; RADII + 1]);
     let front = scene.eye.faces(frame.centre, frame.normal);
     grid(scene, &points, |scene, ring, angle| {
         let normal = normal(&points, &frame, ring, angle);
@@ -84,7 +83,7 @@ pub fn still(scene: &mut Scene, body: &Body, frame: Frame, palette: &Palette) {
 }
 
 fn finish(body: &Body) -> Finish {
-    if matches!(body.kind, Kind::Cymbal { .. }) { Finish::Bronze } else { Finish::Film }
+    if body.plate().is_some() { Finish::Bronze } else { Finish::Film }
 }
 
 fn points(body: &Body, heights: &Refined) -> Points {

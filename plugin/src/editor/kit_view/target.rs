@@ -1,20 +1,20 @@
 //! What lies under the pointer: which piece, where on it, and which note plays that.
 
 use egui::Pos2;
-use overhear_engine::piece::PieceId;
+use overhear_engine::slot::Slot;
 use overhear_engine::strike::Striker;
 
-use super::bodies::{Body, Kind};
+use super::bodies::Body;
 use super::camera::Eye;
 use super::vector::{V3, add, dot, scale, sub};
-use crate::midi_map::{BEYOND, MAP, Meaning, Row, Stroke};
-use crate::outputs::title;
+use crate::kit_document::KitDocument;
+use crate::midi_map::{Meaning, NoteTable, Row, Stroke};
 
 /// A place on a piece.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Target {
-    /// The piece, by its place in [`PieceId::KIT`].
-    pub slot: usize,
+    /// The piece.
+    pub slot: Slot,
     /// Whether it is the struck surface; otherwise it is what holds it.
     pub on_surface: bool,
     /// Distance from the centre as a share of the radius, 0 to 1.
@@ -24,19 +24,15 @@ pub struct Target {
 }
 
 impl Target {
-    pub fn piece(&self) -> PieceId {
-        PieceId::KIT[self.slot]
-    }
-
-    /// Piece, place and note in a line.
-    pub fn text(&self) -> String {
-        let name = title(self.piece());
+    /// Piece, place and note in a line; nothing where the kit has no piece.
+    pub fn text(&self, document: &KitDocument) -> String {
+        let name = document.kit.piece(self.slot).map_or("", |piece| &piece.title);
         if !self.on_surface {
             return name.to_owned();
         }
         let place = format!("{name}, {:.2} of the radius", self.radius);
-        match stroke_near(self.piece(), f64::from(self.radius)) {
-            Some((row, _)) => format!("{place} · note {} {}", row.note, row.name),
+        match stroke_near(&document.notes, self.slot, f64::from(self.radius)) {
+            Some((note, row, _)) => format!("{place} · note {note} {}", row.name),
             None => place,
         }
     }
@@ -44,20 +40,20 @@ impl Target {
 
 /// The note that strikes a piece nearest to a distance from its centre (share of the radius), and how; of strokes with
 /// the tip.
-pub fn stroke_near(piece: PieceId, radius: f64) -> Option<(&'static Row, &'static Stroke)> {
-    let strokes = MAP.iter().chain(&BEYOND).filter_map(|row| match &row.meaning {
-        Meaning::Strikes(stroke) if stroke.piece == piece => Some((row, stroke)),
+pub fn stroke_near(notes: &NoteTable, slot: Slot, radius: f64) -> Option<(u8, &Row, Stroke)> {
+    let strokes = notes.rows().filter_map(|(note, row)| match row.meaning {
+        Meaning::Strikes(stroke) if stroke.slot == slot => Some((note, row, stroke)),
         _ => None,
     });
     let tip = |stroke: &Stroke| !matches!(stroke.striker, Striker::CrossStick | Striker::RimShot);
     let away = |stroke: &Stroke| (stroke.radius - radius).abs();
-    strokes.filter(|(_, stroke)| tip(stroke)).min_by(|a, b| away(a.1).total_cmp(&away(b.1)))
+    strokes.filter(|(_, _, stroke)| tip(stroke)).min_by(|a, b| away(&a.2).total_cmp(&away(&b.2)))
 }
 
 /// What is under a place of the screen: the nearest surface or shell there.
 pub fn under(bodies: &[Body], eye: &Eye, at: Pos2) -> Option<Target> {
     let (from, ray) = (eye.place(), eye.ray(at));
-    let hits = bodies.iter().enumerate().flat_map(|(slot, body)| {
+    let hits = Slot::ALL.into_iter().zip(bodies).flat_map(|(slot, body)| {
         [on_surface(body, from, ray), on_shell(body, from, ray)].into_iter().flatten().map(
             move |(far, place)| {
                 let (radius, angle) = place.unwrap_or_default();
@@ -73,7 +69,7 @@ type Hit = (f32, Option<(f32, f32)>);
 
 fn on_surface(body: &Body, from: V3, ray: V3) -> Option<Hit> {
     let frame = &body.frame;
-    let cymbal = matches!(body.kind, Kind::Cymbal { .. });
+    let cymbal = body.plate().is_some();
     // A head is struck from its front; a plate can be touched from below but is seen there only.
     let steep = dot(ray, frame.normal);
     if steep >= -1e-4 && !cymbal {
@@ -116,17 +112,14 @@ fn on_plate(body: &Body, from_above: bool, meets: impl Fn(f32) -> (f32, f32, f32
 
 /// The nearer side of the shell, as a cylinder.
 fn on_shell(body: &Body, from: V3, ray: V3) -> Option<Hit> {
-    let depth = match body.kind {
-        Kind::Drum { depth, .. } | Kind::Kettle { depth } => depth,
-        Kind::Cymbal { .. } => return None,
-    };
+    let depth = body.kind.depth();
     let normal = body.frame.normal;
     let flat = |x: V3| sub(x, scale(normal, dot(x, normal)));
     let (start, along) = (flat(sub(from, body.frame.centre)), flat(ray));
     let (a, b) = (dot(along, along), dot(start, along));
     let c = dot(start, start) - body.radius * body.radius;
     let inside = b * b - a * c;
-    if a < 1e-6 || inside < 0.0 {
+    if depth <= 0.0 || a < 1e-6 || inside < 0.0 {
         return None;
     }
     let far = (-b - inside.sqrt()) / a;
@@ -136,15 +129,18 @@ fn on_shell(body: &Body, from: V3, ray: V3) -> Option<Hit> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::camera::Camera;
+    use super::super::camera::{Aim, Camera};
     use super::*;
     use egui::{Rect, vec2};
+    use overhear_engine::kit_spec::KitSpec;
 
     #[test]
     fn every_piece_is_found_where_it_is_seen() {
-        let bodies = Body::kit();
-        let eye = Camera::default().through(Rect::from_min_size(Pos2::ZERO, vec2(900.0, 600.0)));
-        for (slot, body) in bodies.iter().enumerate() {
+        let kit = KitSpec::standard();
+        let bodies = Body::all(&kit);
+        let window = Rect::from_min_size(Pos2::ZERO, vec2(900.0, 600.0));
+        let eye = Camera::default().through(window, &Aim::STANDARD);
+        for ((slot, piece), body) in kit.slots().zip(&bodies) {
             let mut found = 0;
             for (radius, angle) in
                 [(0.0_f32, 0.0_f32), (0.5, 0.0), (0.5, 1.6), (0.5, -1.6), (0.8, 2.6), (0.7, -2.4)]
@@ -157,21 +153,26 @@ mod tests {
                 assert!(target.on_surface);
                 let away = (target.radius * target.angle.sin() - radius * sin)
                     .hypot(target.radius * target.angle.cos() - radius * cos);
-                assert!(away < 0.01, "{:?}: {away}", body.piece);
+                assert!(away < 0.01, "{}: {away}", piece.name);
                 found += 1;
             }
-            assert!(found >= 2, "{:?} is hidden", body.piece);
+            assert!(found >= 2, "{} is hidden", piece.name);
         }
     }
 
     #[test]
     fn what_is_struck_has_a_note() {
-        for piece in PieceId::KIT {
+        let document = KitDocument::standard();
+        for (slot, _) in document.kit.slots() {
             for radius in [0.0, 0.3, 0.6, 0.95] {
-                assert!(stroke_near(piece, radius).is_some_and(|(_, stroke)| stroke.piece == piece));
+                let near = stroke_near(&document.notes, slot, radius);
+                assert!(near.is_some_and(|(_, _, stroke)| stroke.slot == slot));
             }
         }
-        let ride = |radius| stroke_near(PieceId::Ride, radius).unwrap().0.note;
+        let (slot, _) = document.kit.find("ride").unwrap();
+        let ride = |radius| stroke_near(&document.notes, slot, radius).unwrap().0;
         assert_eq!((ride(0.05), ride(0.6)), (53, 51));
+        let target = Target { slot, on_surface: true, radius: 0.05, angle: 0.0 };
+        assert_eq!(target.text(&document), "Ride, 0.05 of the radius · note 53 Ride Bell");
     }
 }

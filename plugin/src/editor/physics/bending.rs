@@ -7,9 +7,7 @@
 use std::collections::VecDeque;
 
 use egui::{Color32, Rect, Stroke, Ui};
-use overhear_engine::cymbal::CymbalSpec;
-use overhear_engine::hi_hat::HiHatSpec;
-use overhear_engine::piece::PieceId;
+use overhear_engine::kit_spec::{InstrumentSpec, PieceSpec};
 use overhear_engine::snapshot::{FieldShapes, PieceSnapshot};
 
 use super::{Moment, over_time};
@@ -21,20 +19,18 @@ use crate::monitor::STILL;
 /// Nodal diameters and circles of the motions that bend nothing: up and down, and tilting.
 const RIGID: [[u32; 2]; 2] = [[0, 0], [1, 0]];
 
-/// Thickness of a piece that is a plate, m.
-pub fn thickness(piece: PieceId) -> Option<f32> {
-    let plate = match piece {
-        PieceId::Crash => CymbalSpec::crash().shaped().plate,
-        PieceId::Ride => CymbalSpec::ride().shaped().plate,
-        PieceId::Splash => CymbalSpec::splash().shaped().plate,
-        PieceId::HiHat => HiHatSpec::default().shaped().top.plate,
-        _ => return None,
+/// Thickness of what is struck of a piece that is a plate, m.
+pub fn thickness(piece: &PieceSpec) -> Option<f32> {
+    let plate = match &piece.instrument {
+        InstrumentSpec::Drum(_) => return None,
+        InstrumentSpec::Cymbal(cymbal) => cymbal.plate(),
+        InstrumentSpec::HiHat(hat) => hat.top.plate(),
     };
     Some(plate.thickness() as f32)
 }
 
 /// Largest displacement by which a plate is bent now, in units of its thickness; nothing of what is none.
-pub fn of(piece: PieceId, state: &PieceSnapshot, shapes: Option<&FieldShapes>) -> f32 {
+pub fn of(piece: &PieceSpec, state: &PieceSnapshot, shapes: Option<&FieldShapes>) -> f32 {
     let moves = state.energy > STILL;
     let Some((thickness, shapes)) = thickness(piece).zip(shapes).filter(|_| moves) else { return 0.0 };
     let mut modes = state.displacement;
@@ -69,6 +65,7 @@ pub(super) fn show(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use overhear_engine::kit_spec::KitSpec;
     use overhear_engine::snapshot::FIELD_MODES;
 
     #[test]
@@ -76,18 +73,20 @@ mod tests {
         let mut shapes = FieldShapes { shapes: vec![[0.0; FIELD_MODES]; 2], ..FieldShapes::default() };
         shapes.shapes[1][2] = 2.0;
         let mut state = PieceSnapshot { energy: 1e-3, ..PieceSnapshot::default() };
-        let thickness = thickness(PieceId::Crash).unwrap();
+        let kit = KitSpec::standard();
+        let [(_, crash), (_, snare)] = ["crash", "snare"].map(|name| kit.find(name).unwrap());
+        let thickness = thickness(crash).unwrap();
         state.displacement[2] = 0.25 * thickness;
-        let bending = of(PieceId::Crash, &state, Some(&shapes));
+        let bending = of(crash, &state, Some(&shapes));
         assert!((bending - 0.5).abs() < 1e-6, "{bending}");
         // Swinging on its stand it stays flat.
         shapes.orders = vec![[0, 0], [2, 0], [1, 0]];
-        assert_eq!(of(PieceId::Crash, &state, Some(&shapes)), 0.0);
+        assert_eq!(of(crash, &state, Some(&shapes)), 0.0);
         shapes.orders = vec![[0, 0], [1, 0], [2, 0]];
-        assert_eq!(of(PieceId::Crash, &state, Some(&shapes)), bending);
-        assert_eq!(of(PieceId::Snare, &state, Some(&shapes)), 0.0);
-        assert_eq!(of(PieceId::Crash, &state, None), 0.0);
+        assert_eq!(of(crash, &state, Some(&shapes)), bending);
+        assert_eq!(of(snare, &state, Some(&shapes)), 0.0);
+        assert_eq!(of(crash, &state, None), 0.0);
         state.energy = 0.0;
-        assert_eq!(of(PieceId::Crash, &state, Some(&shapes)), 0.0);
+        assert_eq!(of(crash, &state, Some(&shapes)), 0.0);
     }
 }

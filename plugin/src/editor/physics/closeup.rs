@@ -1,7 +1,8 @@
 //! One piece near by: its surface as it moves, or one of its modes alone.
 
 use egui::{Align2, Rect, Sense, Ui, pos2};
-use overhear_engine::piece::PieceId;
+use overhear_engine::kit_spec::PieceSpec;
+use overhear_engine::slot::Slot;
 
 use super::{Seen, bending};
 use crate::editor::field::{self, Magnifier};
@@ -17,17 +18,16 @@ const SWING: f64 = 0.8;
 
 /// A view of one surface.
 pub struct Closeup {
-    bodies: [Body; PieceId::KIT.len()],
     magnifier: Magnifier,
     /// The piece the magnifier is about.
-    slot: usize,
+    slot: Option<Slot>,
     yaw: f32,
     pitch: f32,
 }
 
 impl Default for Closeup {
     fn default() -> Closeup {
-        Closeup { bodies: Body::kit(), magnifier: Magnifier::default(), slot: 0, yaw: 0.4, pitch: 0.62 }
+        Closeup { magnifier: Magnifier::default(), slot: None, yaw: 0.4, pitch: 0.62 }
     }
 }
 
@@ -35,9 +35,9 @@ impl Closeup {
     /// Draws the selected piece, or a mode of it.
     pub fn show(&mut self, ui: &mut Ui, rect: Rect, seen: &Seen<'_>, mode: Option<usize>) {
         let palette = theme::of(ui);
-        let slot = seen.selected;
-        if self.slot != slot {
-            (self.slot, self.magnifier) = (slot, Magnifier::default());
+        let (slot, spec) = seen.selected;
+        if self.slot != Some(slot) {
+            (self.slot, self.magnifier) = (Some(slot), Magnifier::default());
         }
         ui.painter().rect_filled(rect, theme::CORNER, palette.panel);
         let response = ui.interact(rect, ui.scope_id().with("closeup"), Sense::drag());
@@ -47,12 +47,12 @@ impl Closeup {
         let Some(shapes) = &seen.shapes else { return };
 
         // It lies flat before the eye.
-        let body = Body { frame: Frame::new([0.0; 3], [0.0, 1.0, 0.0]), ..self.bodies[slot] };
+        let body = Body { frame: Frame::new([0.0; 3], [0.0, 1.0, 0.0]), ..Body::of(spec) };
         let ((sin, cos), (rise, flat)) = (self.yaw.sin_cos(), self.pitch.sin_cos());
         let view = Rect::from_min_max(pos2(rect.min.x, rect.min.y + 18.0), rect.max);
         let eye = Eye::new(view, [0.0; 3], [sin * flat, rise, -cos * flat], 3.0 * body.radius);
         let mut scene = Scene::new(eye);
-        let modes = &seen.snapshot.pieces[slot].displacement;
+        let modes = &seen.snapshot.pieces[slot.index()].displacement;
         let (now, elapsed) = ui.input(|input| (input.time, input.unstable_dt));
         let live = field::displacement(shapes, modes);
         self.magnifier.follow(&live, elapsed);
@@ -67,14 +67,14 @@ impl Closeup {
         };
         let scaled: Vec<f32> = points.iter().map(|z| z * factor).collect();
         let heights = field::refined(&scaled);
-        let accent = palette.pieces[slot];
+        let accent = palette.pieces[slot.index()];
         let motion = Motion { heights: &heights, tint: Tint::Displacement, accent, glow: 0.0 };
         surfaces::moving(&mut scene, &body, &motion, palette);
         let painter = ui.painter_at(rect);
         painter.add(scene.finish());
         let remark = match mode {
             Some(_) => "one mode alone, slowed down".to_owned(),
-            None => self.remark(PieceId::KIT[slot], factor),
+            None => self.remark(spec, factor),
         };
         let line = rect.min.y + 14.0;
         let left = pos2(rect.min.x + 12.0, line);
@@ -84,7 +84,7 @@ impl Closeup {
     }
 
     /// How far it moves, against its thickness if it is a plate, and how much larger it is drawn.
-    fn remark(&self, piece: PieceId, factor: f32) -> String {
+    fn remark(&self, piece: &PieceSpec, factor: f32) -> String {
         let moved = self.magnifier.tallest();
         if moved < 1e-7 {
             return "at rest".to_owned();

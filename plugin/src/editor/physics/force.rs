@@ -1,15 +1,13 @@
 //! The contact force of a stroke over time.
 
 use egui::{Color32, Rect, Ui};
-use overhear_engine::piece::PieceId;
 use overhear_engine::snapshot::{FORCE_STEPS, StrikeSnapshot};
 
 use crate::editor::plot::{Plot, time_text};
-use crate::outputs::title;
 
-/// Draws the force, with contact time, peak, impulse and rebound.
-pub fn show(ui: &Ui, rect: Rect, slot: usize, strike: &StrikeSnapshot, accent: Color32) {
-    let heading = format!("{}: contact force", title(PieceId::KIT[slot]));
+/// Draws the force on the piece of a title, with contact time, peak, impulse and rebound.
+pub fn show(ui: &Ui, rect: Rect, title: &str, strike: &StrikeSnapshot, accent: Color32) {
+    let heading = format!("{title}: contact force");
     if strike.count == 0 {
         Plot::new(ui, rect, &heading, "").nothing("Strike it: the force of its latest stroke appears here");
         return;

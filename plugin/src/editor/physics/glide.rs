@@ -8,36 +8,23 @@
 use std::collections::VecDeque;
 
 use egui::{Color32, Rect, Ui};
-use overhear_engine::drum::DrumSpec;
-use overhear_engine::membrane::MembraneSpec;
-use overhear_engine::piece::PieceId;
+use overhear_engine::kit_spec::PieceSpec;
 
 use super::{Moment, over_time};
 use crate::editor::plot::Plot;
 
 /// Glide of a head whose stretch holds an energy (J) at a tension at rest (N/m), cents; nothing of what is no drum.
-pub fn cents(piece: PieceId, stretch: f32, tension: f32) -> f32 {
-    let Some(head) = head(piece) else { return 0.0 };
+pub fn cents(piece: &PieceSpec, stretch: f32, tension: f32) -> f32 {
+    let Some(drum) = piece.drum() else { return 0.0 };
     if !(stretch > 0.0 && tension > 0.0) {
         return 0.0;
     }
+    let head = drum.membrane(&drum.batter);
     let area = head.area();
     let film = &head.material;
     let stiffness = area * film.youngs_modulus * head.thickness / (16.0 * (1.0 - film.poisson_ratio));
     let added = 4.0 * (stiffness * f64::from(stretch)).sqrt() / area;
     (600.0 * (1.0 + added / f64::from(tension)).log2()) as f32
-}
-
-fn head(piece: PieceId) -> Option<MembraneSpec> {
-    let drum = match piece {
-        PieceId::Kick => DrumSpec::kick(),
-        PieceId::Snare => DrumSpec::snare(),
-        PieceId::RackTom => DrumSpec::rack_tom(),
-        PieceId::FloorTom => DrumSpec::floor_tom(),
-        PieceId::Timpani => DrumSpec::timpani(),
-        _ => return None,
-    };
-    Some(drum.batter.membrane)
 }
 
 /// Draws the glide of a drum over time.
@@ -70,6 +57,7 @@ fn settled(cents: &[f32]) -> Vec<f32> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use overhear_engine::kit_spec::KitSpec;
 
     #[test]
     fn what_swings_settles_at_its_mean_and_a_steady_glide_stays() {
@@ -82,10 +70,12 @@ mod tests {
 
     #[test]
     fn a_head_at_rest_is_at_its_pitch_and_a_stretched_one_above() {
-        assert_eq!(cents(PieceId::RackTom, 0.0, 2_000.0), 0.0);
-        assert_eq!(cents(PieceId::Crash, 1.0, 2_000.0), 0.0);
-        assert_eq!(cents(PieceId::RackTom, f32::NAN, 2_000.0), 0.0);
-        let [weak, hard] = [1e-4, 1e-2].map(|stretch| cents(PieceId::RackTom, stretch, 2_000.0));
+        let kit = KitSpec::standard();
+        let [(_, tom), (_, crash)] = ["rack-tom", "crash"].map(|name| kit.find(name).unwrap());
+        assert_eq!(cents(tom, 0.0, 2_000.0), 0.0);
+        assert_eq!(cents(crash, 1.0, 2_000.0), 0.0);
+        assert_eq!(cents(tom, f32::NAN, 2_000.0), 0.0);
+        let [weak, hard] = [1e-4, 1e-2].map(|stretch| cents(tom, stretch, 2_000.0));
         assert!(weak > 0.0 && hard > 5.0 * weak && hard < 1_200.0, "{weak} {hard}");
     }
 }

@@ -2,7 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use overhear_engine::slot::SLOTS;
+
 use super::*;
+use crate::building::Pace;
 use crate::midi::assignments::Assignment;
 use crate::performer::Performer;
 use crate::strokes::strokes;
@@ -12,7 +15,7 @@ const RATE: f64 = 48_000.0;
 
 /// What became of a stroke.
 struct Heard {
-    strikes: [u32; PieceId::KIT.len()],
+    strikes: [u32; SLOTS],
     snapshot: KitSnapshot,
     loudest: f32,
 }
@@ -39,26 +42,27 @@ fn hear(performer: &mut Performer, stroke: Stroke) -> Heard {
 fn what_is_clicked_is_heard_from_that_piece_at_that_place() {
     let mut window = Window::new();
     window.frame(Vec::new());
-    let mut performer = Performer::new(RATE);
-    performer.install_kit(RATE).unwrap();
-    for (slot, piece) in PieceId::KIT.into_iter().enumerate() {
-        let places = [(0.0_f32, 0.0_f32), (0.5, 0.4), (0.6, 1.7), (0.6, -1.8), (0.7, 2.8)];
-        let stroke = places.into_iter().find_map(|(radius, angle)| {
+    let (document, assignments) = (KitDocument::standard(), window.parameters.assignments());
+    let mut performer = Performer::new(RATE, &document, assignments);
+    performer.install_kit(RATE, Pace::RealTime).unwrap();
+    for (slot, piece) in KitSpec::standard().slots() {
+        let (at, piece) = (slot.index(), &piece.name);
+        let stroke = PLACES.into_iter().find_map(|(radius, angle)| {
             window.click(window.place(slot, radius, angle));
             // What stands before it is struck in its stead.
-            window.strokes.pop().filter(|stroke| stroke.piece == piece)
+            window.strokes.pop().filter(|stroke| stroke.slot == slot)
         });
-        let stroke = stroke.unwrap_or_else(|| panic!("{piece:?} cannot be clicked"));
+        let stroke = stroke.unwrap_or_else(|| panic!("{piece} cannot be clicked"));
         let heard = hear(&mut performer, stroke);
-        let only: [u32; PieceId::KIT.len()] = std::array::from_fn(|other| u32::from(other == slot));
-        assert_eq!(heard.strikes, only, "{piece:?}");
-        let strike = heard.snapshot.pieces[slot].strike;
+        let only: [u32; SLOTS] = std::array::from_fn(|other| u32::from(other == at));
+        assert_eq!(heard.strikes, only, "{piece}");
+        let strike = heard.snapshot.pieces[at].strike;
         let asked = (stroke.strike.radius as f32, stroke.strike.angle as f32);
-        assert_eq!((strike.radius, strike.angle), asked, "{piece:?}");
-        assert!(heard.loudest > 1e-3, "{piece:?} is not heard: {}", heard.loudest);
+        assert_eq!((strike.radius, strike.angle), asked, "{piece}");
+        assert!(heard.loudest > 1e-3, "{piece} is not heard: {}", heard.loudest);
         let peaks = heard.snapshot.pieces.map(|piece| piece.peak);
         let most = peaks.iter().copied().fold(0.0, f32::max);
-        assert_eq!(peaks[slot], most, "{piece:?} is softer than what only hears it: {peaks:?}");
+        assert_eq!(peaks[at], most, "{piece} is softer than what only hears it: {peaks:?}");
         performer.reset();
     }
 }
@@ -121,7 +125,7 @@ fn a_preset_is_saved_loaded_renamed_and_deleted_by_clicks() {
     window.enter("my kit 1");
     assert!(window.strokes.is_empty(), "what is typed strikes nothing");
     let saved = library.load("my kit 1").expect("it is saved");
-    assert_eq!(saved.value(index), Some(tuned));
+    assert_eq!(saved.value(index, &KitSpec::standard()), Some(tuned));
 
     // Another is chosen: what it has elsewhere moves, each by a gesture of the host's.
     window.click_on("my kit 1");
@@ -174,13 +178,13 @@ fn everything_stays_in_its_window_at_every_size() {
 fn the_snare_is_where_hands_of_other_tests_find_it() {
     let mut window = Window::new();
     window.frame(Vec::new());
-    let (found, known) = (window.place(1, 0.0, 0.0), pos2(437.0, 286.0));
+    let (found, known) = (window.place(slot_of("snare"), 0.0, 0.0), pos2(437.0, 286.0));
     assert!((found - known).length() < 12.0, "it is at {found}");
 }
 
 #[test]
 fn a_microphone_that_is_dragged_moves_its_pair_by_gestures_of_the_host() {
-    use crate::parameters::{PARAMETERS, Stand, find};
+    use crate::parameters::{Stand, find, parameters};
     use crate::placing::index_of;
     use overhear_engine::kit::Microphone;
 
@@ -195,10 +199,10 @@ fn a_microphone_that_is_dragged_moves_its_pair_by_gestures_of_the_host() {
     let gestures = window.obey();
     let of = |stand| index_of(Microphone::Overheads, stand).unwrap();
     let (height, depth, width) = (of(Stand::Height), of(Stand::Depth), of(Stand::Width));
-    assert_eq!(height, find("overheads_height").unwrap().0);
+    assert_eq!(height, find("overheads_height", &KitSpec::standard()).unwrap());
     let last = |index: usize| window.parameters.values()[index].unmodulated_plain_value();
     assert!(last(height) > 5.0 && last(width) > 102.0, "{} cm, {} %", last(height), last(width));
-    assert_eq!(last(depth), PARAMETERS[depth].default);
+    assert_eq!(last(depth), parameters()[depth].default);
     for index in [height, depth, width] {
         let own: Vec<_> =
             gestures.iter().filter(|(of, _)| *of == index).map(|(_, gesture)| *gesture).collect();

@@ -13,14 +13,14 @@ use clap_sys::events::{
 };
 
 use crate::host_parameters::HostParameters;
-use crate::parameters::{PARAMETERS, host_id};
+use crate::parameters::{COUNT, host_id, parameters};
 use crate::presets::Program;
 
 /// Most events of a buffer that can be written anew.
 const MOST_EVENTS: usize = 16_384;
 
 /// Most values of a buffer: some program changes' worth.
-const MOST_VALUES: usize = 16 * PARAMETERS.len();
+const MOST_VALUES: usize = 16 * COUNT;
 
 /// Status of a program change, in the upper half of MIDI's first byte.
 const PROGRAM_CHANGE: u8 = 0xC0;
@@ -57,15 +57,22 @@ impl ProgramChanges {
         unsafe {
             let count = size(events);
             let event = |index| get(events, index);
-            let program =
-                |header| program_of(header).and_then(|(number, channel)| parameters.program(number, channel));
-            if !(0..count).any(|index| program(event(index)).is_some()) {
+            let calls = |header| {
+                let named = program_of(header);
+                named.is_some_and(|(number, channel)| {
+                    parameters.with_program(number, channel, |_| ()).is_some()
+                })
+            };
+            if !(0..count).any(|index| calls(event(index))) {
                 return None;
             }
             for index in 0..count {
                 let header = event(index);
-                if let Some(program) = program(header) {
-                    self.write(program, (*header).time)?;
+                if let Some((number, channel)) = program_of(header) {
+                    let time = (*header).time;
+                    parameters
+                        .with_program(number, channel, |program| self.write(program, time))
+                        .unwrap_or(Some(()))?;
                 }
                 self.list(header)?;
             }
@@ -79,7 +86,7 @@ impl ProgramChanges {
             if self.values.len() == MOST_VALUES {
                 return None;
             }
-            let parameter = PARAMETERS.get(index)?;
+            let parameter = parameters().get(index)?;
             self.values.push(clap_event_param_value {
                 header: clap_event_header {
                     size: size_of::<clap_event_param_value>() as u32,

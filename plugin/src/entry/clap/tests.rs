@@ -7,12 +7,13 @@ use clap_sys::events::{
     clap_output_events,
 };
 use clap_sys::process::CLAP_PROCESS_CONTINUE;
-use overhear_engine::piece::PieceId;
+use overhear_engine::kit::OUTPUTS;
 
 use super::*;
+use crate::kit_document::standard_slot;
 
 pub(in crate::entry) const FRAMES: usize = 512;
-const PORTS: usize = 1 + PieceId::KIT.len();
+const PORTS: usize = 1 + OUTPUTS;
 
 unsafe extern "C" fn no_extension(_host: *const clap_host, _id: *const c_char) -> *const c_void {
     ptr::null()
@@ -147,7 +148,7 @@ pub(in crate::entry) fn struck(
 
 #[test]
 fn outputs_that_are_left_out_neither_silence_nor_change_the_others() {
-    let snare = 1 + PieceId::Snare.slot().unwrap();
+    let snare = 1 + standard_slot("snare").index();
     let mut multi = Instance::new(crate::MULTI_CLAP_ID);
     let whole = struck(&mut multi, PORTS, |_, _| {});
     assert!(whole[0][0].iter().any(|sample| *sample != 0.0));

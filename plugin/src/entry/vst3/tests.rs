@@ -2,7 +2,7 @@
 
 use std::ptr;
 
-use overhear_engine::piece::PieceId;
+use overhear_engine::kit::OUTPUTS;
 
 use nice_plug::wrapper::vst3::vst3::Steinberg::Vst::{
     Event, Event_::EventTypes_, Event__type0, IEventList, IEventListTrait, IUnitInfoTrait, NoteOnEvent,
@@ -11,8 +11,9 @@ use nice_plug::wrapper::vst3::vst3::Steinberg::Vst::{
 
 use super::*;
 use crate::entry::clap::tests::{FRAMES, Instance, struck};
+use crate::kit_document::standard_slot;
 
-const BUSES: usize = 1 + PieceId::KIT.len();
+const BUSES: usize = 1 + OUTPUTS;
 
 /// Processing instance of the instrument with an output for every piece.
 fn multi() -> Guard<OverhearMulti> {
@@ -157,7 +158,7 @@ fn every_output_is_that_of_the_other_format() {
     for (bus, (vst3, clap)) in vst3.iter().zip(&clap).enumerate() {
         assert!(vst3 == clap, "bus {bus}");
     }
-    let snare = 1 + PieceId::Snare.slot().unwrap();
+    let snare = 1 + standard_slot("snare").index();
     assert!([0, snare].iter().all(|&bus| vst3[bus][0].iter().any(|sample| *sample != 0.0)));
 }
 

@@ -77,7 +77,7 @@ impl<P: Vst3Plugin> IUnitInfoTrait for Guard<P> {
         let named =
             || self.parameters.as_ref()?.note_names().into_iter().find(|(note, _)| i16::from(*note) == pitch);
         let Ok(Some((_, title))) = catch_unwind(AssertUnwindSafe(named)) else { return kInvalidArgument };
-        write(title, name);
+        write(&title, name);
         kResultOk
     }
 

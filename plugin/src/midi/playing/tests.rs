@@ -1,7 +1,8 @@
 use super::*;
+use crate::kit_document::standard_slot;
 
 fn playing() -> Playing {
-    Playing::new(Arc::default())
+    Playing::new(Arc::default(), Arc::default())
 }
 
 fn radius(playing: &mut Playing, note: u8) -> f64 {
@@ -97,7 +98,7 @@ fn fine_velocity_lies_between_two_velocities_and_is_used_once() {
 #[test]
 fn pressure_grips_cymbals_and_lets_go() {
     let mut playing = playing();
-    assert_eq!(playing.pressure(49, 1.0, 9), Some(Grip { piece: PieceId::Crash, strength: 1.0 }));
+    assert_eq!(playing.pressure(49, 1.0, 9), Some(Grip { slot: standard_slot("crash"), strength: 1.0 }));
     assert_eq!(playing.pressure(49, 0.0, 9).unwrap().strength, 0.0);
     assert_eq!(playing.pressure(38, 1.0, 9), None, "drums are not choked");
     assert_eq!(playing.note_off(49, 9), None, "not by default");
@@ -120,20 +121,24 @@ fn the_end_of_a_note_grips_until_the_next_stroke() {
 #[test]
 fn assignments_come_before_the_map_and_are_learned() {
     let assignments = Arc::<Assignments>::default();
-    let mut playing = Playing::new(assignments.clone());
+    let mut playing = Playing::new(Arc::default(), assignments.clone());
     assignments.assign(38, Assignment::Plays(49));
-    assert_eq!(playing.note_on(38, 1.0, 9).unwrap().piece, PieceId::Crash);
+    assert_eq!(playing.note_on(38, 1.0, 9).unwrap().slot, standard_slot("crash"));
     assignments.assign(38, Assignment::Silent);
     assert_eq!(playing.note_on(38, 1.0, 9), None);
     assignments.learn(Some(36));
-    assert_eq!(playing.note_on(3, 1.0, 9).unwrap().piece, PieceId::Kick, "the learned note plays at once");
-    assert_eq!(playing.note_on(3, 1.0, 9).unwrap().piece, PieceId::Kick);
+    assert_eq!(
+        playing.note_on(3, 1.0, 9).unwrap().slot,
+        standard_slot("kick"),
+        "the learned note plays at once"
+    );
+    assert_eq!(playing.note_on(3, 1.0, 9).unwrap().slot, standard_slot("kick"));
 }
 
 #[test]
 fn unevenness_is_as_large_as_asked_and_repeats() {
     let mut playing = playing();
-    playing.style.place_spread = 0.05;
+    playing.style.position_spread = 0.05;
     playing.style.speed_spread = 1.0;
     let strikes = |playing: &mut Playing| -> Vec<Strike> {
         (0..2000).map(|_| playing.note_on(38, 1.0, 9).unwrap().strike).collect()
@@ -157,7 +162,7 @@ fn unevenness_is_as_large_as_asked_and_repeats() {
 #[test]
 fn parameters_move_the_place_and_change_the_striker() {
     let mut playing = playing();
-    let snare = PieceId::Snare.slot().unwrap();
+    let snare = standard_slot("snare").index();
     playing.style.offsets[snare] = 0.3;
     playing.style.strikers[snare] = Some(Striker::Nylon);
     let strike = playing.note_on(38, 1.0, 9).unwrap().strike;
@@ -165,4 +170,41 @@ fn parameters_move_the_place_and_change_the_striker() {
     assert_eq!(strike.striker, Striker::Nylon);
     playing.style.offsets[snare] = -1.0;
     assert_eq!(radius(&mut playing, 38), 0.0);
+}
+
+#[test]
+fn two_hi_hats_have_pedals_of_their_own_and_share_the_controller() {
+    let mut document = KitDocument::standard();
+    let hat = standard_slot("hi-hat");
+    let mut other = document.kit.piece(hat).unwrap().clone();
+    other.name = "hi-hat-2".to_owned();
+    document.kit.pieces.push(other);
+    let second = Slot::ALL[hat.index() + 1];
+    let mut row = document.notes.row(44).unwrap().clone();
+    row.meaning = crate::midi_map::Meaning::Steps(second, Foot::Chick);
+    document.notes.set(20, Some(row));
+    assert_eq!(document.check(), Ok(()));
+    let mut playing = Playing::new(Arc::new(document), Arc::default());
+    let stepped = |playing: &Playing, note| playing.foot(note, 1.0, 9).map(|(slot, foot, _)| (slot, foot));
+    assert_eq!(stepped(&playing, 44), Some((hat, Foot::Chick)));
+    assert_eq!(stepped(&playing, 20), Some((second, Foot::Chick)));
+    assert_eq!(stepped(&playing, 42), Some((hat, Foot::Brought(0.8))));
+    assert_eq!(playing.pedal(4, 0.25, 9), Some(0.25));
+    assert_eq!(playing.pedal_at(), Some(0.25));
+    assert_eq!(stepped(&playing, 42), None, "a foot is there");
+}
+
+#[test]
+fn notes_follow_the_kit() {
+    let mut document = KitDocument::standard();
+    let (crash, ride) = (standard_slot("crash"), standard_slot("ride"));
+    let row = document.notes.row(51).cloned();
+    document.notes.set(49, row);
+    document.notes.set(38, None);
+    let mut playing = playing();
+    assert_eq!(playing.note_on(49, 1.0, 9).unwrap().slot, crash);
+    let former = playing.change_kit(Arc::new(document));
+    assert_eq!(*former, KitDocument::standard());
+    assert_eq!(playing.note_on(49, 1.0, 9).unwrap().slot, ride);
+    assert_eq!(playing.note_on(38, 1.0, 9), None);
 }

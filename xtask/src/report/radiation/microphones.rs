@@ -3,30 +3,34 @@
 use std::f64::consts::PI;
 
 use overhear_engine::air::SPEED_OF_SOUND;
-use overhear_engine::kit::{Control, Kit, Microphone, OUTPUTS, Stereo};
+use overhear_engine::kit::{Control, Microphone, OUTPUTS, Stereo};
+use overhear_engine::kit_spec::PieceSpec;
 use overhear_engine::listening::ListeningPoint;
-use overhear_engine::piece::{BuildOptions, PieceId};
+use overhear_engine::piece::BuildOptions;
+use overhear_engine::slot::SLOTS;
 use overhear_engine::strike::{Strike, Striker};
-use overhear_lab::{Spectrum, build, decibels, stroke};
+use overhear_lab::{Spectrum, alone, build, decibels, kit_of, reference, spec, stroke};
 
-/// Outputs of the kit: the rack tom's own, the overheads', the room's.
-pub const RACK_TOM: usize = 2;
-/// See [`RACK_TOM`].
-pub const OVERHEADS: usize = PieceId::KIT.len();
-/// See [`RACK_TOM`].
+use crate::hear::ALONE;
+use crate::report::page::bodies::{FIXED_DISC, PLAYED};
+
+/// Outputs of a kit of one piece: its own, the overheads', the room's.
+pub const CLOSE: usize = ALONE.index();
+/// See [`CLOSE`].
+pub const OVERHEADS: usize = SLOTS;
+/// See [`CLOSE`].
 pub const ROOM: usize = OVERHEADS + 1;
 
-/// A kit with one piece, struck, both pairs so far (m) over its middle: every microphone's left output.
-fn play(id: PieceId, options: &BuildOptions, strike: &Strike, height: f64, frames: usize) -> Vec<Vec<f32>> {
-    let mut kit = Kit::new(options.sample_rate);
-    assert!(kit.install(Box::new(build(id, options))).is_none());
-    let [x, y, z] = kit.layout().pieces[id.slot().expect("of the kit")].centre;
+/// A kit of one piece, struck, both pairs so far (m) over its middle: every microphone's left output.
+fn play(piece: &PieceSpec, rate: f64, strike: &Strike, height: f64, frames: usize) -> Vec<Vec<f32>> {
+    let mut kit = kit_of(&alone(piece), rate);
+    let [x, y, z] = piece.place.centre;
     for pair in [Microphone::Overheads, Microphone::Room] {
         kit.place(pair, [[x, y + height, z]; 2]);
         kit.set(Control::Balance(pair), 0.0);
     }
     kit.finish_controls();
-    kit.strike(id, strike);
+    kit.strike(ALONE, strike);
     let mut buffers = vec![[vec![0.0_f32; frames], vec![0.0_f32; frames]]; OUTPUTS + 1];
     let mut outputs: Vec<Stereo<'_>> =
         buffers.iter_mut().map(|pair| pair.each_mut().map(|side| &mut side[..])).collect();
@@ -35,12 +39,21 @@ fn play(id: PieceId, options: &BuildOptions, strike: &Strike, height: f64, frame
     buffers.into_iter().skip(1).map(|[left, _]| left).collect()
 }
 
-/// A rack tom's stroke at every output, the pairs and the close microphone so far (m) from its middle.
-pub fn heard(distance: f64, rate: f64) -> Vec<Vec<f32>> {
-    let close = Some(ListeningPoint { distance, inclination: 0.3, azimuth: 0.4 });
-    let options = BuildOptions { close, ..BuildOptions::new(rate) };
+/// The rack tom of the standard kit, and the same with a fixed disc under the stick, whose strokes are less bright; both at
+/// the same microphones.
+pub fn rack_toms() -> [(PieceSpec, &'static str); 2] {
+    let played = spec("rack-tom");
+    let fixed_disc = PieceSpec { close: played.close, ..reference::fixed_disc_rack_tom() };
+    [(played, PLAYED), (fixed_disc, FIXED_DISC)]
+}
+
+/// A stroke on a drum at every output, the pairs and the close microphone so far (m) from its middle.
+pub fn heard(drum: &PieceSpec, distance: f64, rate: f64) -> Vec<Vec<f32>> {
+    let point = ListeningPoint { distance, inclination: 0.3, azimuth: 0.4 };
+    let close = drum.close.moved_to(point, drum.instrument.radius());
+    let drum = PieceSpec { close, ..drum.clone() };
     let strike = stroke(Striker::Stick, 4.0, 0.5, 0.3);
-    play(PieceId::RackTom, &options, &strike, distance, (0.03 * rate) as usize)
+    play(&drum, rate, &strike, distance, (0.03 * rate) as usize)
 }
 
 /// A sound between its samples (Shannon, under a window).
@@ -79,10 +92,10 @@ pub struct Farther {
     pub doubled: f64,
 }
 
-/// Moves a microphone of the rack tom away from a distance (m) and compares the sound of the first `seconds`.
-pub fn farther(output: usize, distance: f64, seconds: f64, rate: f64) -> Farther {
+/// Moves a microphone of a drum away from a distance (m) and compares the sound of the first `seconds`.
+pub fn farther(drum: &PieceSpec, output: usize, (distance, seconds): (f64, f64), rate: f64) -> Farther {
     let [near, later, half] = [distance, distance + 0.343, 2.0 * distance]
-        .map(|distance| heard(distance, rate).swap_remove(output));
+        .map(|distance| heard(drum, distance, rate).swap_remove(output));
     let until = (seconds * rate) as usize;
     let moved =
         |extra: f64| difference(&near, &later, 1e-3 * rate + extra, distance / (distance + 0.343), until);
@@ -100,17 +113,19 @@ fn line(sound: &[f32], rate: f64, hz: f64) -> f64 {
     decibels(spectrum.band(hz - 3.0, hz + 3.0).sqrt(), spectrum.band(20.0, 1000.0).sqrt())
 }
 
-/// How much of the whole the modes (2,1) and (3,1) of a drum are in its close microphone, in the overheads a metre
-/// above it and in the room's pair there, dB.
-pub fn near_field(id: PieceId, rate: f64) -> [[f64; 3]; 2] {
-    let options = BuildOptions { unsplit: true, ..BuildOptions::in_kit(id, rate) };
-    let modes = build(id, &options).modes();
+/// How much of the whole the modes (2,1) and (3,1) of a drum made perfectly round are in its close microphone, in the
+/// overheads a metre above it and in the room's pair there, dB.
+///
+/// # Panics
+/// If it has no such modes.
+pub fn near_field(drum: &PieceSpec, rate: f64) -> [[f64; 3]; 2] {
+    let drum = drum.clone().round();
+    let modes = build(&drum, &BuildOptions::new(rate)).modes();
     let strike = stroke(Striker::Stick, 4.0, 0.6, 2.5);
-    let sound = play(id, &options, &strike, 1.0, rate as usize);
-    let close = id.slot().expect("of the kit");
+    let sound = play(&drum, rate, &strike, 1.0, rate as usize);
     [2, 3].map(|m| {
         let of_batter = modes.iter().find(|mode| (mode.body, mode.m, mode.n) == ("batter", m, 1));
         let hz = of_batter.expect("a mode").frequency_hz;
-        [close, OVERHEADS, ROOM].map(|output| line(&sound[output], rate, hz))
+        [CLOSE, OVERHEADS, ROOM].map(|output| line(&sound[output], rate, hz))
     })
 }

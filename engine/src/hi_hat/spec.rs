@@ -1,0 +1,93 @@
+//! What a hi-hat is: its cymbals, what holds them, how they lie on each other.
+
+use serde::{Deserialize, Serialize};
+
+use crate::contact::Material;
+use crate::cymbal::CymbalSpec;
+use crate::damping::LossLaw;
+use crate::error::SpecError;
+use crate::numbers::{self, Numbers, Visitor};
+
+use super::rigid::Mount;
+
+/// A hi-hat's description.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct HiHatSpec {
+    /// The upper cymbal.
+    pub top: CymbalSpec,
+    /// The lower cymbal, as wide as the upper one.
+    pub bottom: CymbalSpec,
+    /// What holds the upper cymbal on the rod.
+    pub clutch: Mount,
+    /// What holds the lower cymbal.
+    pub seat: Mount,
+    /// How far the lower cymbal leans, rad, 0 to 0.05.
+    #[serde(rename = "tilt_rad")]
+    pub tilt: f64,
+    /// Toward where, rad, -2 pi to 2 pi.
+    #[serde(rename = "tilt_toward_rad")]
+    pub toward: f64,
+    /// Radius of the rims where they meet, m, 1e-4 to 1e-2.
+    #[serde(rename = "rim_radius_m")]
+    pub edge: f64,
+    /// What the upper rim is made of, as the lower one feels it.
+    pub rim: Material,
+    /// Restitution of a landing, a ratio of speeds, 0.05 to 0.95.
+    pub restitution: f64,
+    /// Decay rate that rims which are clamped together add to every mode of both.
+    pub rubbing: LossLaw,
+    /// Clamping force at which they rub half as much, N, 1 to 1000.
+    #[serde(rename = "half_rubbing_n")]
+    pub half_rubbing: f64,
+    /// Speed of a landing that a touch that lasts is as lossy as, m/s, 0.001 to 1.
+    #[serde(rename = "lasting_touch_m_s")]
+    pub lasting: f64,
+}
+
+impl Numbers for HiHatSpec {
+    fn visit(&mut self, visitor: &mut dyn Visitor) {
+        self.top.visit_part("top", visitor);
+        self.bottom.visit_part("bottom", visitor);
+        self.clutch.visit_part("clutch", visitor);
+        self.seat.visit_part("seat", visitor);
+        visitor.number("tilt_rad", &mut self.tilt, 0.0..=0.05);
+        visitor.number("tilt_toward_rad", &mut self.toward, -std::f64::consts::TAU..=std::f64::consts::TAU);
+        visitor.number("rim_radius_m", &mut self.edge, 1e-4..=1e-2);
+        self.rim.visit_part("rim", visitor);
+        visitor.number("restitution", &mut self.restitution, 0.05..=0.95);
+        self.rubbing.visit_part("rubbing", visitor);
+        visitor.number("half_rubbing_n", &mut self.half_rubbing, 1.0..=1000.0);
+        visitor.number("lasting_touch_m_s", &mut self.lasting, 1e-3..=1.0);
+    }
+}
+
+impl HiHatSpec {
+    /// Checks every number.
+    ///
+    /// # Errors
+    /// [`SpecError`] naming the first that is out of range.
+    pub fn check(&self) -> Result<(), SpecError> {
+        numbers::check(self)?;
+        for (name, half) in [("top", &self.top), ("bottom", &self.bottom)] {
+            half.check().map_err(|error| error.inside(name))?;
+            if half.stand.is_some() {
+                return Err(SpecError::refused(
+                    &format!("{name}.stand"),
+                    "is given, accepted: none, a hi-hat's cymbals are held by clutch and seat",
+                ));
+            }
+        }
+        // Rims of different radii would not meet.
+        let widths = (self.bottom.diameter - self.top.diameter).abs();
+        if widths > 0.01 * self.top.diameter {
+            return Err(SpecError::OutOfRange {
+                field: "bottom.diameter_m".to_owned(),
+                value: self.bottom.diameter,
+                min: 0.99 * self.top.diameter,
+                max: 1.01 * self.top.diameter,
+            });
+        }
+        Ok(())
+    }
+}

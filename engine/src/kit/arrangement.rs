@@ -1,0 +1,29 @@
+//! How a kit that plays becomes another one: all of it that is neither a piece nor a control.
+
+use super::room::{RoomSpec, Tail};
+use crate::kit_spec::KitSpec;
+use crate::layout::Layout;
+use crate::piece::Piece;
+use crate::slot::SLOTS;
+
+/// Where everything is to stand and in which room, worked out beforehand: built by any thread, taken over by the kit's own,
+/// dropped by any other.
+pub struct Arrangement {
+    pub(super) layout: Layout,
+    pub(super) room: RoomSpec,
+    pub(super) tail: Tail,
+    /// Pieces of slots that are to be empty, once they are not heard any more.
+    pub(super) removed: [Option<Box<Piece>>; SLOTS],
+}
+
+impl Arrangement {
+    /// That of a description, at the kit's sample rate, Hz. Allocates.
+    pub fn new(sample_rate: f64, spec: &KitSpec) -> Arrangement {
+        Arrangement {
+            layout: spec.layout(),
+            room: spec.room,
+            tail: Tail::new(&spec.room, sample_rate),
+            removed: Default::default(),
+        }
+    }
+}

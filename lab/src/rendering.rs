@@ -1,0 +1,36 @@
+//! Pieces rendered the way their kit renders them, by themselves.
+
+use overhear_engine::kit::BLOCK;
+use overhear_engine::modal::EARS;
+use overhear_engine::piece::Piece;
+use overhear_engine::surface::Surface;
+
+/// Renders a stretch of a piece, s long, at a sample rate in Hz: sound pressure at its close microphone, Pa.
+pub fn render(piece: &mut Piece, seconds: f64, sample_rate: f64) -> Vec<f32> {
+    let mut out = vec![0.0; (seconds * sample_rate).round() as usize];
+    render_into(piece, &mut out);
+    out
+}
+
+/// Renders sound pressure at a piece's close microphone, Pa, overwriting `out`; of any length.
+pub fn render_into(piece: &mut Piece, out: &mut [f32]) {
+    let mut rest = out;
+    while !rest.is_empty() {
+        let (run, later) = rest.split_at_mut(piece.run_left().min(rest.len()));
+        let mut others = [[0.0; BLOCK]; EARS - 1];
+        let [far, around] = others.each_mut().map(|row| &mut row[..run.len()]);
+        piece.render_in_air([run, far, around], None);
+        rest = later;
+    }
+}
+
+/// Renders so many samples of a surface by itself: sound pressure from near, Pa.
+pub fn render_surface(surface: &mut Surface, samples: usize) -> Vec<f32> {
+    let mut out = vec![0.0; samples];
+    for run in out.chunks_mut(BLOCK) {
+        let mut others = [[0.0; BLOCK]; EARS - 1];
+        let [far, around] = others.each_mut().map(|row| &mut row[..run.len()]);
+        surface.render_in_air([run, far, around], None);
+    }
+    out
+}

@@ -1,0 +1,213 @@
+//! Kit files: a kit and its notes as TOML that people can read and write.
+//!
+//! ```toml
+//! format = 1
+//! starts_from = "standard"     # or "nothing"; what the file does not say is as in the standard kit
+//! remove = ["timpani"]         # pieces of the start that are left out
+//!
+//! [pieces.snare]               # a piece of the start is changed field by field
+//! diameter_in = 13             # lengths in _m, _cm, _mm or _in, masses in _kg or _g, ...
+//! batter.thickness_mm = 0.3
+//! hoop = "none"                # takes a part away
+//!
+//! [pieces.crash-2]             # a piece that the start does not have
+//! like = "crash"               # starts as a copy of that one; else it has to be complete
+//! diameter_in = 18
+//! mass_kg = 1.35
+//! notes = [57]                 # MIDI notes that strike it
+//! ```
+//!
+//! The fields are those of [`KitSpec`], under the names that Serde gives them: there is no second list of them here.
+//! [`read`] lays a file over what it starts from, reads the result, and checks it; whatever is wrong is one line with the
+//! field as the file names it, its value, and what is accepted. [`write()`] makes a complete file that is read back to the last
+//! bit.
+//!
+//! Slots: pieces of the start keep their order, removed ones leave no hole, new ones follow in the file's order. A `slot` from
+//! 1 to the number of pieces puts a piece there, and those without one fill the rest in order.
+
+mod drafts;
+mod error;
+mod notes;
+mod pieces;
+mod source;
+mod typed;
+mod units;
+mod write;
+
+use std::collections::BTreeSet;
+use std::fs::File;
+use std::io::Read as _;
+use std::path::Path;
+
+use overhear_engine::kit_spec::KitSpec;
+use toml::de::DeTable;
+use toml::{Table, Value};
+
+use crate::kit_document::KitDocument;
+
+use drafts::Layers;
+use error::{Fault, quoted};
+use source::{Origins, Source};
+
+pub use error::KitFileError;
+
+/// Number of the format that is written and read.
+pub const FORMAT: i64 = 1;
+
+/// Largest file that is read, bytes.
+pub const LARGEST: usize = 1 << 20;
+
+/// What a file can start from.
+const STANDARD: &str = "standard";
+const NOTHING: &str = "nothing";
+
+/// What a file can say.
+const KEYS: [&str; 7] = ["format", "starts_from", "remove", "pieces", "microphones", "room", "silent"];
+
+/// Reads the text of a kit file, complete or partial, called `file_name` in errors.
+///
+/// # Errors
+/// [`KitFileError`] with the line, the field, its value and what is accepted, for the first thing that is wrong.
+pub fn read(file_name: &str, text: &str) -> Result<KitDocument, KitFileError> {
+    if text.len() > LARGEST {
+        return Err(KitFileError::too_large(file_name));
+    }
+    let read = Source::parse(text).and_then(document);
+    read.map_err(|fault| KitFileError::at(file_name, text.as_bytes(), fault.at, &fault.reason))
+}
+
+/// Reads a kit file that is a table inside another file of that name and text.
+///
+/// # Errors
+/// As of [`read`]; lines are those of the whole text.
+pub fn read_part(file_name: &str, text: &str, table: &DeTable<'_>) -> Result<KitDocument, KitFileError> {
+    let read = Source::of(text, table).and_then(document);
+    read.map_err(|fault| KitFileError::at(file_name, text.as_bytes(), fault.at, &fault.reason))
+}
+
+/// Reads a kit file.
+///
+/// # Errors
+/// [`KitFileError`] if the file cannot be read, or as of [`read`].
+pub fn load(path: &Path) -> Result<KitDocument, KitFileError> {
+    let name = path.display().to_string();
+    let mut bytes = Vec::new();
+    // No more than can be accepted: a path may be that of a device without an end.
+    File::open(path)
+        .and_then(|file| file.take(LARGEST as u64 + 1).read_to_end(&mut bytes))
+        .map_err(|error| KitFileError::whole(&name, &format!("cannot be read: {error}")))?;
+    if bytes.len() > LARGEST {
+        return Err(KitFileError::too_large(&name));
+    }
+    match std::str::from_utf8(&bytes) {
+        Ok(text) => read(&name, text),
+        Err(error) => {
+            let reason = "this is not text, accepted: TOML in UTF-8";
+            Err(KitFileError::at(&name, &bytes, Some(error.valid_up_to()), reason))
+        }
+    }
+}
+
+/// The text of a complete file, which [`read`] reads back as the same document, to the last bit.
+pub fn write(document: &KitDocument) -> String {
+    write::write(document)
+}
+
+/// The text of a new file for a kit of a name: a partial file that shows the commonest changes in comments.
+pub fn fresh(name: &str) -> String {
+    let name: String = name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+    include_str!("kit_file/fresh.toml").replace("{name}", &name)
+}
+
+fn document(Source { table, origins }: Source) -> Result<KitDocument, Fault> {
+    let start = head(&table, &origins)?;
+    let empty = Table::new();
+    let pieces = part(&table, "pieces", &origins)?.unwrap_or(&empty);
+    let kit = start.as_ref().map(|start| &start.kit);
+    let drafts = Layers { start: kit, removed: removed(&table, kit, &origins)?, pieces, origins: &origins }
+        .drafts()?;
+    let pieces = drafts.iter().map(|draft| pieces::read(draft, &origins)).collect::<Result<_, _>>()?;
+    let kit = KitSpec {
+        pieces,
+        microphones: whole(&table, "microphones", kit.map(|kit| write::table(&kit.microphones)), &origins)?,
+        room: whole(&table, "room", kit.map(|kit| write::table(&kit.room)), &origins)?,
+    };
+    kit.check().map_err(|error| Fault::of_spec(&error, &origins))?;
+    let reader = notes::Reader { start: start.as_ref(), kit: &kit, drafts: &drafts, origins: &origins };
+    let notes = reader.read(table.get("silent"))?;
+    Ok(KitDocument { kit, notes })
+}
+
+/// Checks what the file is, and tells what it starts from.
+fn head(table: &Table, origins: &Origins) -> Result<Option<KitDocument>, Fault> {
+    match table.get("format") {
+        Some(Value::Integer(FORMAT)) => {}
+        Some(_) => {
+            let given = origins.locate("format").literal.map_or_else(|| "no number".to_owned(), quoted);
+            return Err(Fault::of("format", origins, &format!("is {given}, accepted: {FORMAT}")));
+        }
+        None => return Err(Fault::new(0, format!("format is missing, accepted: format = {FORMAT}"))),
+    }
+    if let Some(key) = table.keys().find(|key| !KEYS.contains(&key.as_str())) {
+        return Err(Fault::of(key, origins, &format!("is not known, accepted: {}", KEYS.join(", "))));
+    }
+    match table.get("starts_from") {
+        None => Ok(Some(KitDocument::standard())),
+        Some(Value::String(from)) if from == STANDARD => Ok(Some(KitDocument::standard())),
+        Some(Value::String(from)) if from == NOTHING => Ok(None),
+        Some(_) => {
+            let given = origins.locate("starts_from").literal.map_or_else(|| "no text".to_owned(), quoted);
+            let reason = format!("is {given}, accepted: \"{STANDARD}\", \"{NOTHING}\"");
+            Err(Fault::of("starts_from", origins, &reason))
+        }
+    }
+}
+
+/// The pieces of the start that the file leaves out.
+fn removed(table: &Table, start: Option<&KitSpec>, origins: &Origins) -> Result<BTreeSet<String>, Fault> {
+    let names = match table.get("remove") {
+        None => return Ok(BTreeSet::new()),
+        Some(Value::Array(names)) => names,
+        Some(_) => {
+            return Err(Fault::of("remove", origins, "is no array, accepted: an array of names of pieces"));
+        }
+    };
+    let known: Vec<&str> = start.into_iter().flat_map(|kit| &kit.pieces).map(|piece| &*piece.name).collect();
+    let name = |(index, name): (usize, &Value)| match name {
+        Value::String(name) if known.contains(&name.as_str()) => Ok(name.clone()),
+        name => {
+            let given = name.as_str().map_or_else(|| "no text".to_owned(), quoted);
+            let accepted =
+                if known.is_empty() { "none, the file starts from nothing" } else { &known.join(", ") };
+            let reason = format!("is {given}, accepted: {accepted}");
+            Err(Fault::of(&format!("remove.{index}"), origins, &reason))
+        }
+    };
+    names.iter().enumerate().map(name).collect()
+}
+
+/// A table of the file, if it has it.
+fn part<'a>(table: &'a Table, key: &str, origins: &Origins) -> Result<Option<&'a Table>, Fault> {
+    match table.get(key) {
+        None => Ok(None),
+        Some(Value::Table(part)) => Ok(Some(part)),
+        Some(_) => Err(Fault::of(key, origins, "is no table, accepted: a table")),
+    }
+}
+
+/// A part of the kit with the file's changes.
+fn whole<T: serde::de::DeserializeOwned>(
+    table: &Table,
+    key: &str,
+    start: Option<Table>,
+    origins: &Origins,
+) -> Result<T, Fault> {
+    let mut fields = start.unwrap_or_default();
+    if let Some(changes) = part(table, key, origins)? {
+        drafts::lay_over(&mut fields, changes.clone());
+    }
+    typed::read(&Value::Table(fields), key, &[], origins)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,192 @@
+//! The pieces of a kit file laid over those that it starts from.
+
+use std::collections::BTreeSet;
+
+use overhear_engine::kit_spec::{KitSpec, PieceSpec};
+use overhear_engine::slot::SLOTS;
+use toml::{Table, Value};
+
+use super::error::{Fault, quoted};
+use super::source::Origins;
+use super::typed;
+use super::write;
+
+/// What a file says about a piece beside what it is: not part of its description.
+pub(super) const BESIDE: [&str; 4] = ["like", "slot", "notes", "position_controller"];
+
+/// A piece with the file's changes, not yet read as a description.
+pub(super) struct Draft {
+    /// Its name.
+    pub(super) name: String,
+    /// Its fields under their SI names.
+    pub(super) fields: Table,
+    /// Whether it is a piece of the start, still of the same kind: so it keeps its notes.
+    pub(super) is_kept: bool,
+    /// What the file says beside: entries of [`BESIDE`].
+    pub(super) beside: Table,
+}
+
+/// Pieces to be laid over each other.
+pub(super) struct Layers<'a> {
+    /// The kit that the file starts from, if it does.
+    pub(super) start: Option<&'a KitSpec>,
+    /// Names of its pieces that are left out.
+    pub(super) removed: BTreeSet<String>,
+    /// What the file says about pieces.
+    pub(super) pieces: &'a Table,
+    /// Where it says so.
+    pub(super) origins: &'a Origins,
+}
+
+impl Layers<'_> {
+    /// All pieces in the order of their slots.
+    pub(super) fn drafts(&self) -> Result<Vec<Draft>, Fault> {
+        let mut names: Vec<&str> = self.start.map_or(Vec::new(), |kit| {
+            kit.pieces.iter().map(|piece| &*piece.name).filter(|name| self.kept(name).is_some()).collect()
+        });
+        let new: Vec<&str> =
+            self.pieces.keys().map(String::as_str).filter(|name| self.kept(name).is_none()).collect();
+        names.extend(new);
+        if !(1..=SLOTS).contains(&names.len()) {
+            let first_too_many = names.get(SLOTS).map(|name| format!("pieces.{name}"));
+            let at = self.origins.locate(&first_too_many.unwrap_or_else(|| "remove".to_owned())).at;
+            return Err(Fault::new(at, format!("pieces are {}, accepted: 1 to {SLOTS}", names.len())));
+        }
+        let drafts = names.into_iter().map(|name| self.draft(name)).collect::<Result<_, _>>()?;
+        self.ordered(drafts)
+    }
+
+    /// The piece of the start of that name, if it is not left out.
+    fn kept(&self, name: &str) -> Option<&PieceSpec> {
+        self.start_of(name).filter(|_| !self.removed.contains(name))
+    }
+
+    fn start_of(&self, name: &str) -> Option<&PieceSpec> {
+        self.start?.pieces.iter().find(|piece| piece.name == name)
+    }
+
+    fn draft(&self, name: &str) -> Result<Draft, Fault> {
+        let mut beside = Table::new();
+        if let Some(table) = self.pieces.get(name).and_then(Value::as_table) {
+            let said = BESIDE.into_iter().filter_map(|key| Some((key.to_owned(), table.get(key)?.clone())));
+            beside.extend(said);
+        }
+        let fields = self.fields(name, &mut vec![name])?;
+        let is_kept =
+            self.kept(name).is_some_and(|piece| write::fields(piece).get("kind") == fields.get("kind"));
+        Ok(Draft { name: name.to_owned(), fields, is_kept, beside })
+    }
+
+    /// The fields of a piece; `way` leads from whose `like` it is to itself.
+    fn fields<'b>(&'b self, name: &'b str, way: &mut Vec<&'b str>) -> Result<Table, Fault> {
+        let path = format!("pieces.{name}");
+        let changes = match self.pieces.get(name) {
+            None => None,
+            Some(Value::Table(table)) => Some(table),
+            Some(_) => return Err(Fault::of(&path, self.origins, "is no table, accepted: a table")),
+        };
+        let mut fields = match (self.kept(name), changes.and_then(|changes| changes.get("like"))) {
+            (Some(_), Some(_)) => {
+                let reason = "is given, accepted: only for a piece that the start does not have";
+                return Err(Fault::of(&format!("{path}.like"), self.origins, reason));
+            }
+            (Some(piece), None) => write::fields(piece),
+            (None, Some(like)) => self.likeness(name, like, way)?,
+            (None, None) => Table::new(),
+        };
+        let mut changes = changes.cloned().unwrap_or_default();
+        BESIDE.iter().for_each(|key| drop(changes.remove(*key)));
+        lay_over(&mut fields, changes);
+        Ok(fields)
+    }
+
+    /// The fields that a piece takes over from the one it is like.
+    fn likeness<'b>(&'b self, name: &str, like: &'b Value, way: &mut Vec<&'b str>) -> Result<Table, Fault> {
+        let path = format!("pieces.{name}.like");
+        let refuse = |reason: String| Err(Fault::of(&path, self.origins, &reason));
+        let Value::String(other) = like else {
+            return refuse("is no text, accepted: the name of a piece".to_owned());
+        };
+        // Its own name means what the start has, which the file leaves out.
+        let is_here = other != name && (self.pieces.contains_key(other) || self.kept(other).is_some());
+        let mut fields = match self.start_of(other) {
+            _ if is_here && way.contains(&&**other) => {
+                return refuse(format!("is {}, which is like `{name}` itself", quoted(other)));
+            }
+            _ if is_here => {
+                way.push(other);
+                let fields = self.fields(other, way)?;
+                way.pop();
+                fields
+            }
+            Some(piece) => write::fields(piece),
+            None => {
+                let start = self.start.into_iter().flat_map(|kit| &kit.pieces).map(|piece| &piece.name);
+                let known: BTreeSet<&str> = start
+                    .chain(self.pieces.keys())
+                    .map(String::as_str)
+                    .filter(|known| *known != name)
+                    .collect();
+                let known: Vec<&str> = known.into_iter().collect();
+                return refuse(format!("is {}, accepted: {}", quoted(other), known.join(", ")));
+            }
+        };
+        fields.remove("title");
+        Ok(fields)
+    }
+
+    /// Those that name their slot go there, the others fill the rest in order.
+    fn ordered(&self, drafts: Vec<Draft>) -> Result<Vec<Draft>, Fault> {
+        let count = drafts.len();
+        let mut slots: Vec<Option<Draft>> = (0..count).map(|_| None).collect();
+        let mut others = Vec::new();
+        for draft in drafts {
+            let Some(slot) = draft.beside.get("slot") else {
+                others.push(draft);
+                continue;
+            };
+            let path = format!("pieces.{}.slot", draft.name);
+            let number: u32 = typed::read(slot, &path, &[], self.origins)?;
+            let Some(place) = slots.get_mut((number as usize).wrapping_sub(1)) else {
+                let reason = format!("is {number}, accepted: 1 to {count}, as many as there are pieces");
+                return Err(Fault::of(&path, self.origins, &reason));
+            };
+            if let Some(other) = place {
+                let reason =
+                    format!("is {number}, which pieces.{} has, accepted: a slot of its own", other.name);
+                return Err(Fault::of(&path, self.origins, &reason));
+            }
+            *place = Some(draft);
+        }
+        let mut others = others.into_iter();
+        Ok(slots.into_iter().filter_map(|draft| draft.or_else(|| others.next())).collect())
+    }
+}
+
+/// Changes a table field by field. A text `none` takes an entry away; a table of another kind replaces the former.
+pub(super) fn lay_over(table: &mut Table, changes: Table) {
+    let kind = |table: &Table| table.get("kind").cloned();
+    if let (Some(own), Some(other)) = (kind(table), kind(&changes))
+        && own != other
+    {
+        table.clear();
+    }
+    for (key, change) in changes {
+        let is_text = key == "title" || matches!(table.get(&key), Some(Value::String(_)));
+        match change {
+            Value::String(text) if text == NONE && !is_text => drop(table.remove(&key)),
+            Value::Table(changes) => {
+                let mut part = match table.remove(&key) {
+                    Some(Value::Table(part)) => part,
+                    _ => Table::new(),
+                };
+                lay_over(&mut part, changes);
+                table.insert(key, Value::Table(part));
+            }
+            change => drop(table.insert(key, change)),
+        }
+    }
+}
+
+/// What takes away a part that a piece can do without.
+pub(super) const NONE: &str = "none";

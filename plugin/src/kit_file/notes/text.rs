@@ -1,0 +1,54 @@
+//! Notes as text.
+
+use std::fmt::Write as _;
+
+use overhear_engine::slot::Slot;
+
+use crate::midi_map::{Foot, Meaning, NoteTable, Row, Stroke};
+
+use super::super::write::{number, string};
+use super::entry::{CHICK, SPLASH};
+
+/// Writes the notes of a slot's piece, and its controller.
+pub(in crate::kit_file) fn write(text: &mut String, table: &NoteTable, slot: Slot) {
+    if let Some(controller) = table.position_controller(slot) {
+        let _ = writeln!(text, "position_controller = {controller}");
+    }
+    let ordinary = table.ordinary(slot);
+    let (mut lines, mut strikes) = (String::new(), false);
+    for (note, Row { name, meaning, pedal }) in table.rows() {
+        let what = match *meaning {
+            Meaning::Strikes(Stroke { slot: struck, radius, angle, striker }) if struck == slot => {
+                let pedal = pedal.map_or(String::new(), |pedal| format!(", pedal = {}", number(pedal)));
+                // The first stroke is the ordinary one if none says otherwise.
+                let said = match (ordinary, strikes) {
+                    (Some(ordinary), true) if ordinary == note => ", ordinary = true",
+                    (None, _) => ", ordinary = false",
+                    _ => "",
+                };
+                strikes = true;
+                let (at, angle, stick) = (number(radius), number(angle), string(striker.name()));
+                format!("at = {at}, angle_rad = {angle}, stick = {stick}{pedal}{said}")
+            }
+            Meaning::Steps(stepped, foot) if stepped == slot => match foot {
+                Foot::Brought(place) => format!("foot = {}", number(place)),
+                Foot::Chick => format!("foot = {}", string(CHICK)),
+                Foot::Splash => format!("foot = {}", string(SPLASH)),
+            },
+            _ => continue,
+        };
+        let _ = writeln!(lines, "  {{ note = {note}, name = {}, {what} }},", string(name));
+    }
+    if !lines.is_empty() {
+        let _ = writeln!(text, "notes = [\n{lines}]");
+    }
+}
+
+/// Writes the notes that are in the table and silent.
+pub(in crate::kit_file) fn write_silent(text: &mut String, table: &NoteTable) {
+    let silent = table.rows().filter(|(_, row)| row.meaning == Meaning::Silent);
+    let lines: String = silent.map(|(note, row)| format!("{note} = {}\n", string(&row.name))).collect();
+    if !lines.is_empty() {
+        let _ = write!(text, "\n# Notes that nothing in the kit sounds like.\n[silent]\n{lines}");
+    }
+}

@@ -1,0 +1,188 @@
+//! Documents drawn by chance.
+
+use std::ops::RangeInclusive;
+
+use overhear_engine::damping::Muffler;
+use overhear_engine::drum::{HeadContact, PitchOf, ShellSpec};
+use overhear_engine::kit_spec::{InstrumentSpec, KitSpec, PieceSpec};
+use overhear_engine::listening::ListeningPoint;
+use overhear_engine::microphones::CloseSpec;
+use overhear_engine::numbers::{Numbers as _, Visitor};
+use overhear_engine::piece::Idealization;
+use overhear_engine::slot::Slot;
+use overhear_engine::strike::Striker;
+
+use crate::kit_document::KitDocument;
+use crate::midi_map::{Foot, Meaning, NoteTable, Row, Stroke};
+
+/// Draws by chance (xorshift); the same seed draws the same.
+pub struct Draw(u64);
+
+impl Draw {
+    pub fn new(seed: u64) -> Draw {
+        Draw(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1)
+    }
+
+    pub fn below(&mut self, end: usize) -> usize {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as usize % end.max(1)
+    }
+
+    /// From 0 to 1.
+    pub fn unit(&mut self) -> f64 {
+        self.below(1 << 30) as f64 / f64::from((1 << 30) - 1)
+    }
+
+    pub fn one_in(&mut self, count: usize) -> bool {
+        self.below(count) == 0
+    }
+
+    pub fn of<T: Copy>(&mut self, all: &[T]) -> T {
+        all[self.below(all.len())]
+    }
+
+    /// A number of a range: anywhere in it, at an end, or of few digits.
+    fn number(&mut self, accepted: &RangeInclusive<f64>) -> f64 {
+        let (min, max) = (*accepted.start(), *accepted.end());
+        let x = (min + (max - min) * self.unit()).clamp(min, max);
+        match self.below(8) {
+            0 => min,
+            1 => max,
+            2 | 3 => format!("{x:.2e}").parse::<f64>().unwrap().clamp(min, max),
+            _ => x,
+        }
+    }
+}
+
+/// Draws some of the numbers that it visits anew.
+struct Numbers<'a> {
+    draw: &'a mut Draw,
+    rarely: usize,
+}
+
+impl Visitor for Numbers<'_> {
+    fn number(&mut self, _name: &str, value: &mut f64, accepted: RangeInclusive<f64>) {
+        if self.draw.one_in(self.rarely) || !accepted.contains(value) {
+            *value = self.draw.number(&accepted);
+        }
+    }
+
+    fn enter(&mut self, _part: &str) {}
+
+    fn leave(&mut self) {}
+}
+
+/// A document that passes its check.
+pub fn document(seed: u64) -> KitDocument {
+    let draw = &mut Draw::new(seed);
+    let standard = KitSpec::standard();
+    let count = 1 + draw.below(16);
+    let pieces = (0..count).map(|slot| piece(draw, &standard, slot)).collect();
+    let mut kit = KitSpec { pieces, ..standard };
+    for x in kit.microphones.overheads.as_flattened_mut() {
+        *x += draw.unit();
+    }
+    kit.room.time = draw.number(&(0.05..=5.0));
+    kit.room.corners[1][draw.below(3)] += draw.unit();
+    kit.room.reflected[draw.below(3)][draw.below(2)] = draw.number(&(0.0..=0.99));
+    let notes = notes(draw, &kit);
+    let document = KitDocument { kit, notes };
+    document.check().unwrap_or_else(|error| panic!("seed {seed}: {error}"));
+    document
+}
+
+fn piece(draw: &mut Draw, standard: &KitSpec, slot: usize) -> PieceSpec {
+    let like = &standard.pieces[draw.below(standard.pieces.len())];
+    for _ in 0..20 {
+        let mut piece = like.clone();
+        piece.name = format!("p{slot}-{}", draw.below(1000));
+        piece.title =
+            draw.of(&["Kick", " \"Big\" \\ drum ", "C'est #1", "Trommel \u{fc}", "none", "[x]"]).to_owned();
+        parts(draw, &mut piece);
+        let rarely = draw.of(&[2, 4, 10, 1000]);
+        piece.visit(&mut Numbers { draw, rarely });
+        // Far enough from the others for any size.
+        let at = slot as f64;
+        piece.place.centre =
+            [(at % 4.0) * 4.0 - 8.0 + draw.unit(), draw.unit(), (at / 4.0).floor() * 4.0 - 8.0];
+        if piece.check().is_ok() {
+            return piece;
+        }
+    }
+    let place =
+        overhear_engine::kit_spec::PlaceSpec { centre: [slot as f64 * 2.0 - 15.0, 0.5, 18.0], ..like.place };
+    PieceSpec { name: format!("q{slot}"), place, ..like.clone() }
+}
+
+/// Parts that it may have or not, and of which kind they are.
+fn parts(draw: &mut Draw, piece: &mut PieceSpec) {
+    if draw.one_in(3) {
+        let point = ListeningPoint { distance: 0.4, inclination: 0.5, azimuth: -0.3 };
+        piece.close = draw.of(&[CloseSpec::OVER_RIM, CloseSpec::beside(point)]);
+    }
+    let mut yes = || draw.one_in(5);
+    piece.ideal = Idealization { lossless: yes(), linear: yes(), round: yes() };
+    match &mut piece.instrument {
+        InstrumentSpec::Drum(drum) => {
+            let pillow = Muffler::Pillow { sigma: 20.0, flow: 100.0 };
+            drum.muffler = draw.of(&[Muffler::GEL, Muffler::RING, pillow]);
+            drum.evenness.seed = draw.of(&[0, 7, u32::MAX]);
+            drum.contact = draw.of(&[HeadContact::Wraps, HeadContact::FixedDisc]);
+            drum.pitch_of = draw.of(&[PitchOf::BatterAlone, PitchOf::PrincipalHeard]);
+            drum.batter.plies = draw.of(&[1, 2]);
+            drum.high_band = draw.one_in(2);
+            if draw.one_in(4) {
+                drum.hoop = None;
+            }
+            if draw.one_in(4) {
+                (drum.resonant, drum.wires, piece.defaults.preload) = (None, None, None);
+                let kettle = ShellSpec::Kettle { volume: 0.1, air_q: 50.0 };
+                drum.shell = draw.of(&[None, Some(kettle), drum.shell]);
+            }
+        }
+        InstrumentSpec::Cymbal(cymbal) => {
+            if draw.one_in(3) {
+                cymbal.bell = None;
+            }
+        }
+        InstrumentSpec::HiHat(hat) => {
+            if draw.one_in(3) {
+                hat.top.bell = None;
+            }
+        }
+    }
+}
+
+fn notes(draw: &mut Draw, kit: &KitSpec) -> NoteTable {
+    let mut table = NoteTable::default();
+    let slots: Vec<(Slot, bool)> = kit
+        .slots()
+        .map(|(slot, piece)| (slot, matches!(piece.instrument, InstrumentSpec::HiHat(_))))
+        .collect();
+    for note in 0..128 {
+        let (slot, hat) = draw.of(&slots);
+        let place = draw.number(&(0.0..=1.0));
+        let angle = draw.number(&(-6.0..=6.0));
+        let stroke = Meaning::Strikes(Stroke { slot, radius: place, angle, striker: draw.of(&Striker::ALL) });
+        let foot = draw.of(&[Foot::Chick, Foot::Splash, Foot::Brought(place)]);
+        let meaning = match draw.below(6) {
+            0 | 1 => continue,
+            2 => Meaning::Silent,
+            3 if hat => Meaning::Steps(slot, foot),
+            _ => stroke,
+        };
+        let strikes = matches!(meaning, Meaning::Strikes(_));
+        let pedal = (hat && strikes && draw.one_in(2)).then_some(place);
+        let name = draw.of(&["Hand \"Clap\"", "none", "A # b", " \\ "]).to_owned();
+        table.set(note, Some(Row { name, meaning, pedal }));
+        if strikes && draw.one_in(3) {
+            table.set_ordinary(slot, Some(note));
+        }
+    }
+    for (slot, _) in slots {
+        table.set_position_controller(slot, draw.of(&[None, Some(16), Some(19)]));
+    }
+    table
+}

@@ -1,0 +1,123 @@
+//! How values of parameters move the kit and the playing.
+
+use overhear_engine::kit::{Control, Microphone};
+use overhear_engine::slot::Slot;
+use overhear_engine::strike::Striker;
+
+use super::{Performer, flushed};
+use crate::midi::maps::NoteMap;
+use crate::midi::playing::ChokeRule;
+use crate::parameters::{Drives, Manner, SlotParameter, default_value, is_live, parameters, slot_index};
+use crate::placing;
+
+impl Performer {
+    /// Moves a parameter, by its place in the [table](parameters), to a plain value from the next sample
+    /// on; before the first note and sample it is there at once. The value is
+    /// [snapped](crate::parameters::Parameter::snap); what is not a number is the kit's default. An unchanged value and an
+    /// unknown index do nothing.
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn set_parameter(&mut self, index: usize, value: f32) {
+        let Some(parameter) = parameters().get(index) else {
+            return;
+        };
+        if std::mem::replace(&mut self.asked[index], value) == value {
+            return;
+        }
+        let value =
+            if value.is_nan() { default_value(index, &self.document().kit) } else { parameter.snap(value) };
+        if std::mem::replace(&mut self.values[index], value) != value {
+            self.apply(index);
+        }
+    }
+
+    /// Lets a parameter's value act.
+    pub(super) fn apply(&mut self, index: usize) {
+        let (Some(parameter), Some(value)) = (parameters().get(index), self.values.get(index)) else {
+            return;
+        };
+        let value = f64::from(*value);
+        match parameter.drives {
+            Drives::Slot(slot, what) => {
+                if is_live(index, &self.document().kit) {
+                    self.apply_to(slot, what, value);
+                }
+            }
+            Drives::Control(control) => flushed(|| self.kit.set(control, value)),
+            Drives::Stand(pair, _) => self.place(pair),
+            Drives::Playing(manner) => self.set_manner(manner, value),
+            // The builder reads it; new pieces will arrive.
+            Drives::Building(_) => {}
+        }
+    }
+
+    fn apply_to(&mut self, slot: Slot, what: SlotParameter, value: f64) {
+        let (control, value) = match what {
+            SlotParameter::Tune => return self.tune(slot),
+            SlotParameter::Muffle => (Control::Muffling(slot), value),
+            SlotParameter::Level => (Control::Level(slot), value),
+            SlotParameter::Pan => (Control::Pan(slot), value / 100.0),
+            SlotParameter::Preload => (Control::Preload(slot), value),
+            SlotParameter::Wires => (Control::Wires(slot), value),
+            SlotParameter::Pedal => (Control::Pedal(slot), value),
+            SlotParameter::Position => {
+                self.playing.style.offsets[slot.index()] = value;
+                return;
+            }
+            SlotParameter::Stick => {
+                let striker = (value as usize).checked_sub(1).and_then(|at| Striker::ALL.get(at).copied());
+                self.playing.style.strikers[slot.index()] = striker;
+                return;
+            }
+        };
+        flushed(|| self.kit.set(control, value));
+    }
+
+    /// Puts a pair of microphones where the parameters want it.
+    pub(super) fn place(&mut self, pair: Microphone) {
+        let (usual, layout) = (self.document().kit.microphones, self.kit.layout());
+        let (usual, present) = match pair {
+            Microphone::Room => (usual.room, layout.room),
+            Microphone::Overheads | Microphone::Close(_) => (usual.overheads, layout.overheads),
+        };
+        let places = placing::places(usual, pair, &|index| self.values.get(index).copied());
+        // What stays where it is must not fade over.
+        if places != present {
+            flushed(|| self.kit.place(pair, places));
+        }
+    }
+
+    fn set_manner(&mut self, manner: Manner, value: f64) {
+        let style = &mut self.playing.style;
+        let place = value as usize;
+        match manner {
+            Manner::Dynamics => style.dynamics = value,
+            Manner::Curve => style.curve = value,
+            Manner::PositionSpread => style.position_spread = value / 100.0,
+            Manner::SpeedSpread => style.speed_spread = value,
+            Manner::Map => style.map = NoteMap::ALL.get(place).copied().unwrap_or_default(),
+            Manner::Channel => style.channel = place.checked_sub(1).map(|channel| channel as u8),
+            Manner::Chokes => style.chokes = ChokeRule::ALL.get(place).copied().unwrap_or_default(),
+            Manner::FollowsPosition => style.follows_position = value >= 0.5,
+            Manner::FollowsPrograms => style.follows_programs = value >= 0.5,
+        }
+    }
+
+    pub(super) fn bend_piece(&mut self, slot: Slot, semitones: f64) {
+        if std::mem::replace(&mut self.bends[slot.index()], semitones) != semitones {
+            self.tune(slot);
+        }
+    }
+
+    /// Brings the piece of a slot to the pitch that its parameter and its bend come to.
+    pub(super) fn tune(&mut self, slot: Slot) {
+        let semitones =
+            f64::from(self.values[slot_index(slot, SlotParameter::Tune)]) + self.bends[slot.index()];
+        // In single precision, as every value that is asked for: it does not matter to a bit whether a drum is at its own
+        // pitch or has been asked for it in Hz.
+        let own = f64::from(self.own[slot.index()] as f32);
+        let tuning = own * libm::exp2(semitones / 12.0);
+        flushed(|| self.kit.set(Control::Tuning(slot), tuning));
+    }
+}
