@@ -9,9 +9,10 @@ fn main() {
     // As an installed dependency there is no lock file of the workspace beside it.
     let libraries = fs::read(&lock).unwrap_or_else(|_| env!("CARGO_PKG_VERSION").into());
     // A checkout may end lines in another way.
-    let mark = libraries.into_iter().filter(|&byte| byte != b'\r').fold(0xcbf2_9ce4_8422_2325_u64, |mark, byte| {
-        (mark ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
-    });
+    let mark =
+        libraries.into_iter().filter(|&byte| byte != b'\r').fold(0xcbf2_9ce4_8422_2325_u64, |mark, byte| {
+            (mark ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+        });
     // Sums may be ordered in another way on another kind of processor.
     let target = env::var("TARGET").unwrap_or_default();
     println!("cargo::rustc-env=OVERHEAR_LIBRARIES_MARK={mark:016x}-{target}");

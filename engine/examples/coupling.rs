@@ -10,14 +10,19 @@ use std::f64::consts::TAU;
 use std::hint::black_box;
 use std::time::Instant;
 
+use overhear_engine::kit_spec::{InstrumentSpec, KitSpec};
 use overhear_engine::modal::simd::{Kernels, LANES};
 use overhear_engine::modal::{Row, zero_row};
-use overhear_engine::plate::{PlateModes, PlateSpec, PlateTables};
+use overhear_engine::plate::{PlateModes, PlateTables};
 use overhear_engine::potential::Potential;
 use overhear_engine::von_karman::{CoupledPair, VonKarman, airy::AiryOrder};
 
 fn main() {
-    let plate = PlateModes::new(&PlateSpec::CRASH, 21_000.0).expect("a crash");
+    let kit = KitSpec::standard();
+    let Some(InstrumentSpec::Cymbal(crash)) = kit.find("crash").map(|(_, piece)| piece.instrument) else {
+        return eprintln!("no crash in the standard kit");
+    };
+    let plate = PlateModes::new(&crash.plate(), 21_000.0).expect("a crash");
     let (orders, extent) = plate.table_extent(21_000.0);
     let tables = PlateTables::new(orders, extent);
     println!("to Hz   modes  coefficients   transform us   tables us");

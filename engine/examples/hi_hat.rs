@@ -6,7 +6,10 @@
 use std::hint::black_box;
 
 use overhear_engine::hi_hat::foot::SPEED;
-use overhear_engine::piece::{BuildOptions, Piece, PieceId, Quality};
+use overhear_engine::kit::BLOCK;
+use overhear_engine::kit_spec::KitSpec;
+use overhear_engine::modal::EARS;
+use overhear_engine::piece::{BuildOptions, Piece, Quality};
 use overhear_engine::strike::{Strike, Striker};
 
 const RATE: f64 = 44_100.0;
@@ -22,9 +25,14 @@ fn strike(piece: &mut Piece, speed: f64) {
 }
 
 fn render(piece: &mut Piece, seconds: f64) {
-    let mut out = vec![0.0; (seconds * RATE) as usize];
-    piece.render(&mut out);
-    black_box(out);
+    let mut left = (seconds * RATE) as usize;
+    while left > 0 {
+        let run = piece.run_left().min(left);
+        let mut ears = [[0.0; BLOCK]; EARS];
+        piece.render_in_air(ears.each_mut().map(|ear| &mut ear[..run]), None);
+        black_box(ears);
+        left -= run;
+    }
 }
 
 /// Seconds the calibration loop takes.
@@ -56,10 +64,13 @@ fn cost(piece: &mut Piece, pedal: f64, play: impl Fn(&mut Piece)) -> f64 {
 }
 
 fn main() {
+    let kit = KitSpec::standard();
+    let (slot, _) = kit.find("hi-hat").expect("a hi-hat");
+    let build = kit.build(slot).expect("a piece in its slot");
     println!("cost in calibrations   a stroke  eighths");
     for quality in [Quality::Standard, Quality::High] {
         let options = BuildOptions { quality, ..BuildOptions::new(RATE) };
-        let mut piece = Piece::new(PieceId::HiHat, &options).expect("a hi-hat");
+        let mut piece = Piece::new(slot, &build, &options).expect("a hi-hat");
         for pedal in [0.0, 0.25, 0.5, 0.75, 0.9, 1.0] {
             let once = cost(&mut piece, pedal, |piece| {
                 strike(piece, 6.0);

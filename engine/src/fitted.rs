@@ -10,7 +10,7 @@ pub struct Fitted {
     pub name: &'static str,
     /// Value, in the unit.
     pub value: f64,
-    /// Unit of the value and the range; empty for a plain number.
+    /// Unit of the value and the range; `1` for a plain number.
     pub unit: &'static str,
     /// What it was fitted to.
     pub to: &'static str,
@@ -38,7 +38,7 @@ macro_rules! fitted {
 
 fitted! {
     // Heads.
-    PLY_BOND = 0.6, "", "ply_bond";
+    PLY_BOND = 0.6, "1", "ply_bond";
         to "how recorded toms brighten with the stroke"; tried "0.4 to 0.8: at 0.4 and 0.8 one of two toms is outside";
         moves "contact disc and brightness of every two-ply head";
     KICK_BATTER_LOSS = 6.0, "1/s", "pieces.kick.batter.loss.constant_1_s";
@@ -69,23 +69,23 @@ fitted! {
         to "by ear: a pad as drummers place it"; tried "not recorded"; moves "what full muffling takes";
     RING_SIGMA = 60.0, "1/s", "ring_sigma";
         to "by ear: a ring as they are sold"; tried "not recorded"; moves "what full muffling takes";
-    AIR_Q = 60.0, "", "pieces.kick.shell.air_q";
+    AIR_Q = 60.0, "1", "pieces.kick.shell.air_q";
         to "by ear: losses at the wall and through the vent"; tried "not recorded"; moves "decay of modes of the enclosed air";
     // Hoops, sticks, wires.
-    HOOP_Q = 50.0, "", "pieces.snare.hoop.q";
+    HOOP_Q = 50.0, "1", "pieces.snare.hoop.q";
         to "by ear: gaskets, rods and the head take much"; tried "not recorded"; moves "rimshots and cross-sticks";
     DRUM_MASS = 3.5, "kg", "pieces.snare.hoop.drum_mass_kg";
         to "by ear: a drum on its stand"; tried "not recorded"; moves "the thud of a rimshot";
     DRUM_STAND_HZ = 15.0, "Hz", "pieces.snare.hoop.stand_hz";
         to "by ear: a drum on its stand"; tried "not recorded"; moves "the thud of a rimshot";
-    DRUM_STAND_Q = 2.0, "", "pieces.snare.hoop.stand_q";
+    DRUM_STAND_Q = 2.0, "1", "pieces.snare.hoop.stand_q";
         to "by ear: a drum on its stand"; tried "not recorded"; moves "the thud of a rimshot";
-    STICK_Q = 20.0, "", "stick_q";
+    STICK_Q = 20.0, "1", "stick_q";
         to "by ear: a stick's bending in a hand"; tried "not recorded"; moves "the click of sticks";
     FELT_STIFFNESS = 1e10, "N/m^3", "felt_beater_stiffness";
         to "published force and contact of a kick's felt, and how recorded kicks brighten"; tried "6e8 with an exponent of 2.3 (the first) and this";
         moves "the kick's attack";
-    FELT_EXPONENT = 3.0, "", "felt_beater_exponent";
+    FELT_EXPONENT = 3.0, "1", "felt_beater_exponent";
         to "the same; literature: 2.2 to 3.5 of hammers and mallets"; tried "2.3 and 3"; moves "the kick's dynamics";
     SNARE_PRELOAD = 0.08, "N", "pieces.snare.defaults.preload_n";
         to "how much brighter a hard stroke buzzes in recordings (the literature's strainers: 0.15)"; tried "0.15 (the first) and 0.08";
@@ -121,7 +121,7 @@ fitted! {
         to "recorded splashes"; tried "some dozen shapes each"; moves "the splash's bell";
     SPLASH_BELL_RISE = 0.013, "m", "pieces.splash.bell.rise_m";
         to "recorded splashes"; tried "some dozen shapes each"; moves "the splash's bell";
-    CYMBAL_TAPER = 0.8, "", "pieces.crash.taper";
+    CYMBAL_TAPER = 0.8, "1", "pieces.crash.taper";
         to "recorded crashes and splashes"; tried "1 (as thick everywhere) and 0.8"; moves "high modes of every cymbal";
     CYMBAL_TAPE_SIGMA = 40.0, "1/s", "pieces.crash.muffler.sigma_1_s";
         to "by ear: a strip of tape near the edge"; tried "not recorded"; moves "what full muffling takes";
@@ -145,7 +145,7 @@ fitted! {
         to "recorded decays of closed hats, 0.43 to 0.27 s"; tried "not recorded"; moves "closed and half-open hats";
     HAT_RUBBING_PER_KHZ = 0.6, "1/s", "pieces.hi-hat.rubbing.per_khz_1_s";
         to "recorded decays of closed hats, 0.43 to 0.27 s"; tried "not recorded"; moves "closed and half-open hats";
-    HAT_TOUCHING = 0.6, "", "pedal_touching";
+    HAT_TOUCHING = 0.6, "1", "pedal_touching";
         to "by ear: where on the pedal's way the rims meet"; tried "not recorded"; moves "half-open hats";
     HAT_SETTLING = 0.003, "s", "hat_settling";
         to "by ear: when a touch of the rims becomes as lossy as one that lasts"; tried "not recorded"; moves "chicks";
@@ -158,15 +158,15 @@ fitted! {
         to "49 of 60 figures of recorded kicks, snares and toms inside"; tried "nine places, 0.05 to 0.5"; moves "every drum close by";
     OVER_RIM_AZIMUTH = 2.5, "rad", "pieces.snare.close.azimuth_rad";
         to "out of the way of sticks"; tried "not recorded"; moves "modes with nodal diameters close by";
-    OVER_RIM_GAIN = 0.28, "", "pieces.snare.close.gain";
+    OVER_RIM_GAIN = 0.28, "1", "pieces.snare.close.gain";
         to "a stroke at 6 m/s as loud as from half a metre"; tried "not recorded"; moves "the mix";
     CYMBAL_CLOSE_INCLINATION = 1.1, "rad", "pieces.crash.close.inclination_rad";
         to "balance of recorded rides, within 2 dB"; tried "not recorded"; moves "every cymbal close by";
     ROOM_SOFT_HZ = 18_000.0, "Hz", "room.soft_hz";
         to "decay at 8 kHz of recorded drums"; tried "5,000 and 18,000"; moves "the room's highs";
-    ROOM_FLOOR = 0.6, "", "room.reflected";
+    ROOM_FLOOR = 0.6, "1", "room.reflected";
         to "by ear: carpet; ceiling 0.65, walls 0.7 to 0.75: treated"; tried "not recorded"; moves "early reflections";
-    CLIP_KNEE = 0.85, "", "clip_knee";
+    CLIP_KNEE = 0.85, "1", "clip_knee";
         to "by ear: where the safety clip begins to bend"; tried "not recorded"; moves "nothing below it";
 }
 

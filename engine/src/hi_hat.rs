@@ -24,6 +24,7 @@ pub mod edge;
 pub mod foot;
 pub mod half;
 pub mod pair;
+mod rest;
 pub mod rigid;
 pub mod rims;
 mod spec;

@@ -19,6 +19,7 @@ mod leaving;
 mod line;
 mod mix;
 mod post;
+mod retained;
 pub mod room;
 
 pub use arrangement::Arrangement;
@@ -28,17 +29,17 @@ pub use post::{Crew, Post};
 
 use crate::hi_hat::SPLASHING;
 use crate::hi_hat::foot::SPEED;
-use crate::kit_spec::{KitSpec, Kind, PieceSpec};
+use crate::kit_spec::{Kind, KitSpec};
 use crate::layout::{Layout, Pair};
 use crate::piece::Piece;
 use crate::slot::{SLOTS, Slot};
 use crate::snapshot::KitSnapshot;
 use crate::strike::Strike;
-use crate::surface::wires::PRELOAD;
 
 use air::Air;
 use gain::{Gain, GainRun};
 use mix::{Desk, PAIRS};
+use retained::RetainedControls;
 
 /// Longest stretch a piece renders at once, samples.
 pub const BLOCK: usize = 32;
@@ -55,37 +56,14 @@ const SETTLE_BLOCKS: u64 = 128;
 /// A gain for every piece over a run.
 type GainRuns = [GainRun; SLOTS];
 
-/// What a piece is to take over when it is installed.
-#[derive(Debug, Clone, Copy)]
-struct Seat {
-    tuning: f64,
-    muffling: f64,
-    preload: f64,
-    wires: bool,
-    pedal: f64,
-}
-
 /// Two outputs of one length: left, right; full scale is 1.
 pub type Stereo<'a> = [&'a mut [f32]; 2];
-
-impl Seat {
-    /// As a piece of that description stands before anybody moves its controls.
-    fn of(piece: Option<&PieceSpec>) -> Seat {
-        Seat {
-            tuning: piece.map_or(1.0, |piece| piece.instrument.tunings()[1]),
-            muffling: piece.map_or(0.0, |piece| piece.defaults.muffle),
-            preload: piece.and_then(|piece| piece.defaults.preload).unwrap_or(*PRELOAD.start()),
-            wires: true,
-            pedal: 0.0,
-        }
-    }
-}
 
 /// The drum kit. Owns its pieces; renders them; the only way sound leaves the engine.
 pub struct Kit {
     /// `[slot]`: pieces with their runs; one is missing only while a [`Crew`] has not brought it back.
     posts: [Option<Box<Post>>; SLOTS],
-    seats: [Seat; SLOTS],
+    retained: [RetainedControls; SLOTS],
     /// Slots that are to hold a piece.
     wanted: [bool; SLOTS],
     crew: Option<Box<dyn Crew>>,
@@ -107,7 +85,7 @@ impl Kit {
     pub fn new(sample_rate: f64, spec: &KitSpec) -> Kit {
         Kit {
             posts: std::array::from_fn(|_| Some(Box::new(Post::new(sample_rate)))),
-            seats: Slot::ALL.map(|slot| Seat::of(spec.piece(slot))),
+            retained: Slot::ALL.map(|slot| RetainedControls::of(spec.piece(slot))),
             wanted: Slot::ALL.map(|slot| spec.piece(slot).is_some()),
             crew: None,
             air: Air::new(sample_rate, &spec.layout(), &spec.room),
@@ -177,12 +155,12 @@ impl Kit {
     pub fn install(&mut self, mut piece: Box<Piece>) -> Option<Box<Piece>> {
         let slot = piece.slot();
         let Some(post) = self.posts[slot.index()].as_mut() else { return Some(piece) };
-        let seat = &self.seats[slot.index()];
-        piece.set_tuning(seat.tuning);
-        piece.set_muffling(seat.muffling);
-        piece.set_preload(seat.preload);
-        piece.throw_wires(seat.wires);
-        piece.press_pedal(seat.pedal, SPEED.1);
+        let retained = &self.retained[slot.index()];
+        piece.set_tuning(retained.tuning);
+        piece.set_muffling(retained.muffling);
+        piece.set_preload(retained.preload);
+        piece.throw_wires(retained.wires);
+        piece.press_pedal(retained.pedal, SPEED.1);
         piece.finish_controls();
         piece.align((self.clock % BLOCK as u64) as usize);
         self.wanted[slot.index()] = true;
@@ -200,7 +178,8 @@ impl Kit {
     pub fn arrange(&mut self, mut arrangement: Box<Arrangement>) -> Box<Arrangement> {
         self.wanted = arrangement.layout.pieces.map(|place| place.is_some());
         self.air.arrange(&mut arrangement);
-        for ((post, wanted), removed) in self.posts.iter_mut().zip(self.wanted).zip(&mut arrangement.removed) {
+        for ((post, wanted), removed) in self.posts.iter_mut().zip(self.wanted).zip(&mut arrangement.removed)
+        {
             if let Some(post) = post.as_mut().filter(|_| !wanted) {
                 *removed = post.piece.take().and_then(|piece| post.leaving.see_off(piece));
             }
@@ -284,23 +263,23 @@ impl Kit {
 
     /// Moves a control of a piece, and of whatever takes its place.
     fn adjust(&mut self, slot: Slot, control: Control, value: f64) {
-        let seat = &mut self.seats[slot.index()];
+        let retained = &mut self.retained[slot.index()];
         let piece = self.posts[slot.index()].as_mut().and_then(|post| post.piece.as_mut());
         match control {
             Control::Preload(_) => {
-                seat.preload = value;
+                retained.preload = value;
                 piece.into_iter().for_each(|piece| piece.set_preload(value));
             }
             Control::Wires(_) => {
-                seat.wires = value >= 0.5;
+                retained.wires = value >= 0.5;
                 piece.into_iter().for_each(|piece| piece.throw_wires(value >= 0.5));
             }
             Control::Muffling(_) => {
-                seat.muffling = value;
+                retained.muffling = value;
                 piece.into_iter().for_each(|piece| piece.set_muffling(value));
             }
             _ => {
-                seat.tuning = value;
+                retained.tuning = value;
                 piece.into_iter().for_each(|piece| piece.set_tuning(value));
             }
         }
@@ -314,8 +293,8 @@ impl Kit {
     /// Lets somebody step on a slot's pedal, which is then left at a place, 0 to 1, given where it was; on a
     /// piece that comes later it is there at once.
     fn step_on(&mut self, slot: Slot, left: impl FnOnce(f64) -> f64, step: impl FnOnce(&mut Piece)) {
-        let seat = &mut self.seats[slot.index()];
-        seat.pedal = left(seat.pedal);
+        let retained = &mut self.retained[slot.index()];
+        retained.pedal = left(retained.pedal);
         if let Some(piece) = self.mut_piece(slot) {
             step(piece);
         }

@@ -137,7 +137,7 @@ impl InstrumentSpec {
     /// Lowest, own and highest tuning: Hz of a drum, ratio of a cymbal.
     pub fn tunings(&self) -> [f64; 3] {
         match self {
-            InstrumentSpec::Drum(drum) => [drum.lowest_pitch_hz, drum.pitch_hz, drum.highest_pitch_hz],
+            InstrumentSpec::Drum(drum) => drum.pitches(),
             InstrumentSpec::Cymbal(_) | InstrumentSpec::HiHat(_) => {
                 let (low, own, high) = CymbalSpec::TUNING;
                 [low, own, high]
@@ -216,8 +216,6 @@ impl PieceSpec {
             // Cymbals hang above.
             InstrumentSpec::Cymbal(_) | InstrumentSpec::HiHat(_) => (0.0, 0.0),
         };
-        // PHASE 1: to a millimetre, as the table of places had it.
-        let [depth, radius] = [depth, radius].map(|x: f64| (1000.0 * x).round() / 1000.0);
         Placement::new(centre, facing, depth, radius)
     }
 

@@ -144,7 +144,8 @@ mod tests {
         let mut crowded = layout;
         crowded.pieces.iter_mut().flatten().for_each(|piece| piece.centre = [0.0, 0.7, 0.0]);
         let drums: Vec<Slot> = kit.drums().map(|(slot, _)| slot).collect();
-        for (&a, &b) in drums.iter().flat_map(|a| drums.iter().filter(move |b| *b != a).map(move |b| (a, b))) {
+        for (&a, &b) in drums.iter().flat_map(|a| drums.iter().filter(move |b| *b != a).map(move |b| (a, b)))
+        {
             let [from, to] = [a, b].map(|slot| layout.pieces[slot.index()].unwrap());
             let shells = from.radius + to.radius;
             assert!(shells > NEAREST && crowded.way(a, b).unwrap() >= shells, "{a:?} {b:?}");

@@ -143,35 +143,11 @@ impl Piece {
         }
     }
 
-    /// Renders sound pressure at the piece's listening point, Pa, overwriting `out`. Any length;
-    /// how time is cut into calls does not change a sample.
-    ///
-    /// # Real-time
-    /// No allocation, no lock.
-    pub fn render(&mut self, out: &mut [f32]) {
-        let mut rest = out;
-        while !rest.is_empty() {
-            if self.phase == 0 {
-                self.begin_block();
-            }
-            let run = rest.len().min(BLOCK - self.phase);
-            let (now, later) = rest.split_at_mut(run);
-            if self.asleep {
-                now.fill(0.0);
-            } else {
-                self.voice.surface_mut().render(now);
-            }
-            self.phase = (self.phase + run) % BLOCK;
-            self.unglided += run;
-            rest = later;
-        }
-    }
-
     /// Renders sound pressure at the close microphone, far away as at a metre, and what other pieces hear as at a
-    /// metre, Pa, while sound from elsewhere arrives. At most to the end of the piece's block.
+    /// metre, Pa, overwriting `out`, while sound from elsewhere arrives. At most to the end of the piece's block; how time
+    /// is cut into calls does not change a sample.
     ///
-    /// As [`render`](Self::render), but what cannot be heard any more falls asleep, and what sleeps wakes when sound above
-    /// [`AUDIBLE`] reaches it.
+    /// What cannot be heard any more falls asleep, and what sleeps wakes when sound above [`AUDIBLE`] reaches it.
     ///
     /// # Real-time
     /// No allocation, no lock.

@@ -128,7 +128,9 @@ impl Striker {
             }
             // Hardens as dense felt does. *Literature*: exponents of hammers and mallets, 2.2 to 3.5; its other numbers are
             // *fitted*.
-            Striker::FeltBeater => StrikerSpec::felt(110.0, fitted::FELT_STIFFNESS, fitted::FELT_EXPONENT, 0.5, 4.5),
+            Striker::FeltBeater => {
+                StrikerSpec::felt(110.0, fitted::FELT_STIFFNESS, fitted::FELT_EXPONENT, 0.5, 4.5)
+            }
             Striker::PlasticBeater => StrikerSpec::solid(110.0, Material::PLASTIC, 25.0, 0.5, 8.0),
             Striker::TimpaniMallet => StrikerSpec::felt(25.0, 3e8, 2.5, 0.6, 7.0),
             Striker::HardMallet => StrikerSpec::felt(25.0, 1e10, 2.5, 0.6, 4.5),

@@ -373,16 +373,6 @@ impl Surface {
         }
     }
 
-    /// Renders sound pressure at the near ear, Pa, overwriting `out`. At most [`MAX_RUN`] samples.
-    ///
-    /// # Real-time
-    /// As [`render_in_air`](Self::render_in_air).
-    pub fn render(&mut self, out: &mut [f32]) {
-        let mut others = [[0.0; MAX_RUN]; 2];
-        let [far, few] = others.each_mut().map(|row| &mut row[..out.len()]);
-        self.render_in_air([out, far, few], None);
-    }
-
     /// Renders sound pressure at each ear, Pa, overwriting `out`, while sound from elsewhere arrives: at the listening
     /// point, far away as at a metre, and as far as it goes all around, what other pieces hear. At most
     /// [`MAX_RUN`] samples.

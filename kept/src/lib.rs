@@ -43,13 +43,16 @@ pub fn forget() {
     AGE.fetch_add(1, Ordering::AcqRel);
 }
 
+/// A result with its age and its key.
+type Held<T> = (u64, Vec<u8>, Arc<T>);
+
 /// Results of one kind; the latest are held.
 pub struct Kept<T> {
     kind: &'static str,
     mark: &'static str,
     most: usize,
-    /// Age and key of each, latest last.
-    held: Mutex<Vec<(u64, Vec<u8>, Arc<T>)>>,
+    /// Latest last.
+    held: Mutex<Vec<Held<T>>>,
 }
 
 impl<T: Serialize + DeserializeOwned> Kept<T> {
@@ -62,11 +65,7 @@ impl<T: Serialize + DeserializeOwned> Kept<T> {
     ///
     /// # Errors
     /// What `make` says.
-    pub fn get<E>(
-        &self,
-        key: &impl Serialize,
-        make: impl FnOnce() -> Result<T, E>,
-    ) -> Result<Shared<T>, E> {
+    pub fn get<E>(&self, key: &impl Serialize, make: impl FnOnce() -> Result<T, E>) -> Result<Shared<T>, E> {
         // A description that cannot be packed is not kept.
         let Ok(key) = postcard::to_stdvec(key) else { return Ok(Arc::new(make()?)) };
         if let Some(held) = self.held(&key) {
@@ -104,7 +103,7 @@ impl<T: Serialize + DeserializeOwned> Kept<T> {
         Some(result)
     }
 
-    fn lock(&self) -> std::sync::MutexGuard<'_, Vec<(u64, Vec<u8>, Arc<T>)>> {
+    fn lock(&self) -> std::sync::MutexGuard<'_, Vec<Held<T>>> {
         // Whole after a panic elsewhere: entries are only added and taken out.
         self.held.lock().unwrap_or_else(PoisonError::into_inner)
     }

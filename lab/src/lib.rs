@@ -17,8 +17,8 @@ pub use chance::Chance;
 pub use rendering::{render, render_into, render_surface};
 pub use spectrum::Spectrum;
 pub use standard::{
-    alone, altered, build, context, drum, kit, kit_of, lossless_piece, member, names, piece, plate, round_piece,
-    slot, spec, standard,
+    alone, altered, build, context, drum, kit, kit_of, lossless_piece, member, names, piece, plate,
+    round_piece, slot, spec, standard,
 };
 
 /// Sample rates that hosts use, Hz.

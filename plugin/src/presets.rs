@@ -127,7 +127,7 @@ impl Preset {
         Some(slot_index(own, what))
     }
 
-    /// Every value that loading the preset at a kit sets, by place in the table.
+    /// Every value that loading the preset at a kit sets, by place in the table, each in its parameter's unit.
     pub fn values_at(&self, kit: &KitSpec) -> Vec<(usize, f32)> {
         (0..COUNT).filter_map(|index| Some((index, self.value(index, kit)?))).collect()
     }

@@ -3,20 +3,31 @@
 use std::f64::consts::TAU;
 
 use overhear_engine::damping::Muffler;
-use overhear_engine::drum::spec::PILLOW;
-use overhear_engine::drum::{Drum, DrumSpec};
-use overhear_engine::piece::{BuildOptions, ModeInfo, ModeKind, Piece, PieceId};
+use overhear_engine::drum::{Drum, DrumSpec, ResonantSpec};
+use overhear_engine::kit_spec::PieceSpec;
+use overhear_engine::piece::{BuildOptions, ModeInfo, ModeKind, Piece};
+use overhear_engine::split::Splitting;
 use overhear_engine::strike::{Strike, Striker};
-use overhear_tests::{Spectrum, build, cents, decibels, piece, render, stroke};
+use overhear_tests::{
+    Spectrum, alone, altered, build, cents, context, decibels, drum, names, piece, reference, render,
+    render_into, render_surface, round_piece, spec, stroke,
+};
 use xtask::hear::{Measurement, Request};
 use xtask::report;
 use xtask::report::heads::mode_of;
 
 const RATE: f64 = 44_100.0;
 
-/// A piece with its high band or without.
-fn with_high_band(id: PieceId, high_band: bool) -> Piece {
-    build(id, &BuildOptions { high_band, ..BuildOptions::new(RATE) })
+/// The drums of the standard kit.
+const DRUMS: [&str; 5] = ["kick", "snare", "rack-tom", "floor-tom", "timpani"];
+
+fn options() -> BuildOptions {
+    BuildOptions::new(RATE)
+}
+
+/// A drum of the kit with its high band or without.
+fn with_high_band(name: &str, high_band: bool) -> Piece {
+    build(&altered(spec(name), |drum| DrumSpec { high_band, ..drum }), &options())
 }
 
 /// Amplitude of a sound between two frequencies, Hz.
@@ -27,7 +38,7 @@ fn loudness(spectrum: &Spectrum, low: f64, high: f64) -> f64 {
 #[test]
 fn the_high_band_adds_ten_decibels_to_a_tom_above_4_khz_up_to_16_khz_and_leaves_its_contact() {
     let [with, without] = [true, false].map(|high_band| {
-        let mut tom = with_high_band(PieceId::RackTom, high_band);
+        let mut tom = with_high_band("rack-tom", high_band);
         tom.strike(&stroke(Striker::Stick, 4.0, 0.4, 0.2));
         let sound = render(&mut tom, 1.0, RATE);
         // From when the stick has left: what rings.
@@ -54,32 +65,21 @@ fn the_high_band_adds_ten_decibels_to_a_tom_above_4_khz_up_to_16_khz_and_leaves_
 
 #[test]
 fn modes_of_the_high_band_run_on_from_the_complete_set_to_16_khz() {
-    for id in [PieceId::Kick, PieceId::Snare, PieceId::RackTom, PieceId::FloorTom, PieceId::Timpani] {
-        let modes = with_high_band(id, true).modes();
+    for name in DRUMS {
+        let modes = with_high_band(name, true).modes();
         let hz = |kind| {
             let of_kind = modes.iter().filter(move |mode| mode.kind == kind && mode.body == "batter");
             of_kind.map(|mode| mode.frequency_hz).collect::<Vec<_>>()
         };
         let (complete, sampled) = (hz(ModeKind::Complete), hz(ModeKind::Sampled));
         let top = complete.iter().copied().fold(0.0, f64::max);
-        assert!((0.9..1.1).contains(&(sampled[0] / top)), "{id:?}: {top}, then {}", sampled[0]);
+        assert!((0.9..1.1).contains(&(sampled[0] / top)), "{name}: {top}, then {}", sampled[0]);
         assert!(*sampled.last().unwrap() > 15_500.0 && *sampled.last().unwrap() <= 16_000.0);
         let widest = sampled.windows(2).map(|pair| pair[1] / pair[0]).fold(0.0, f64::max);
         // Two slices of a fortieth of an octave.
-        assert!(widest < 2.0_f64.powf(0.05), "{id:?}: {widest}");
-        assert!(with_high_band(id, false).modes().iter().all(|mode| mode.kind != ModeKind::Sampled));
+        assert!(widest < 2.0_f64.powf(0.05), "{name}: {widest}");
+        assert!(with_high_band(name, false).modes().iter().all(|mode| mode.kind != ModeKind::Sampled));
     }
-}
-
-/// The drums of the kit and the timpani.
-fn drums() -> [(PieceId, DrumSpec); 5] {
-    [
-        (PieceId::Kick, DrumSpec::kick()),
-        (PieceId::Snare, DrumSpec::snare()),
-        (PieceId::RackTom, DrumSpec::rack_tom()),
-        (PieceId::FloorTom, DrumSpec::floor_tom()),
-        (PieceId::Timpani, DrumSpec::timpani()),
-    ]
 }
 
 /// Largest difference of neighbours.
@@ -90,11 +90,11 @@ fn steepest(sound: &[f32]) -> f64 {
 #[test]
 fn a_drum_swept_through_its_range_ends_as_one_built_there_with_that_muffling_and_does_not_click() {
     const BLOCK: usize = 32;
-    let options = BuildOptions::new(RATE);
-    for (id, spec) in drums() {
-        let (low, _, high) = spec.pitch_hz;
+    for name in DRUMS {
+        let (spec, context) = (drum(name), context(&spec(name), RATE));
+        let (low, high) = (spec.lowest_pitch_hz, spec.highest_pitch_hz);
         for (from, to, muffling) in [(low, high, 0.0), (high, low, 0.4), (low, (low * high).sqrt(), 1.0)] {
-            let mut drum = Drum::new(&spec, &options).unwrap();
+            let mut drum = Drum::new(&spec, &context).unwrap();
             let mut play = |swept: bool| {
                 drum.surface_mut().reset();
                 drum.set_tuning(from);
@@ -112,18 +112,16 @@ fn a_drum_swept_through_its_range_ends_as_one_built_there_with_that_muffling_and
                     }
                     drum.advance_controls(BLOCK as f64 / RATE);
                     drum.follow_controls();
-                    let mut block = [0.0; BLOCK];
-                    drum.surface_mut().render(&mut block);
-                    sound.extend(block);
+                    sound.extend(render_surface(drum.surface_mut(), BLOCK));
                 }
                 steepest(&sound[wait as usize..])
             };
             // What is heard of a displacement is its acceleration, and its slope goes as the cube.
             let owed = 60.0 * (to / from).log10().max(0.0);
             let steeper = decibels(play(true), play(false)) - owed;
-            assert!(steeper < 6.0, "{id:?} from {from} to {to}: {steeper:+.1} dB");
+            assert!(steeper < 6.0, "{name} from {from} to {to}: {steeper:+.1} dB");
             play(true);
-            let mut built = Drum::new(&DrumSpec { pitch_hz: (low, to, high), ..spec }, &options).unwrap();
+            let mut built = Drum::new(&DrumSpec { pitch_hz: to, ..spec }, &context).unwrap();
             built.set_muffling(muffling);
             built.finish_controls();
             let mut worst = (0.0_f64, 0.0_f64);
@@ -136,22 +134,22 @@ fn a_drum_swept_through_its_range_ends_as_one_built_there_with_that_muffling_and
                 worst.0 = worst.0.max(cents(a.frequency_hz, b.frequency_hz).abs());
                 worst.1 = worst.1.max((a.t60 / b.t60 - 1.0).abs());
             }
-            println!("{id:?} to {to:.1} Hz: {steeper:+.1} dB, {:.1e} cents, T60 {:.1e}", worst.0, worst.1);
-            assert!(worst.0 < 2.0 && worst.1 < 0.01, "{id:?} to {to}: {worst:?}");
+            println!("{name} to {to:.1} Hz: {steeper:+.1} dB, {:.1e} cents, T60 {:.1e}", worst.0, worst.1);
+            assert!(worst.0 < 2.0 && worst.1 < 0.01, "{name} to {to}: {worst:?}");
         }
     }
 }
 
 /// One stroke measured as `hear` does.
-fn hear(id: PieceId, strike: Strike, options: BuildOptions) -> Measurement {
-    let request = Request { piece: id, strike, settings: Vec::new(), options, seconds: 1.0, wav: None };
+fn hear(drum: &PieceSpec, strike: Strike) -> Measurement {
+    let (kit, options) = (alone(drum), options());
+    let request = Request { kit, strike, settings: Vec::new(), options, seconds: 1.0, wav: None };
     xtask::hear::run(&request).unwrap()
 }
 
 #[test]
 fn a_kettle_stretches_the_timpanis_ratios_keeps_it_in_tune_and_shortens_its_thud() {
-    let options = BuildOptions { unsplit: true, ..BuildOptions::new(RATE) };
-    let mut timpani = build(PieceId::Timpani, &options);
+    let mut timpani = round_piece("timpani", RATE);
     for pedal in [87.3, 110.0, 130.8, 196.0] {
         timpani.set_tuning(pedal);
         timpani.finish_controls();
@@ -173,18 +171,18 @@ fn a_kettle_stretches_the_timpanis_ratios_keeps_it_in_tune_and_shortens_its_thud
 #[test]
 fn a_stroke_in_the_centre_leaves_all_asymmetric_modes_90_db_down() {
     // The wires of a snare do not lie around its centre.
-    for id in [PieceId::Kick, PieceId::RackTom, PieceId::FloorTom, PieceId::Timpani] {
-        let down = report::heads::centre_rejection(id);
-        println!("{id:?}: {down:.0} dB");
-        assert!(down > 90.0, "{id:?}: {down}");
+    for name in ["kick", "rack-tom", "floor-tom", "timpani"] {
+        let down = report::heads::centre_rejection(name);
+        println!("{name}: {down:.0} dB");
+        assert!(down > 90.0, "{name}: {down}");
     }
 }
 
 #[test]
-fn a_floor_tom_of_one_head_glides_by_25_and_91_cents_and_a_soft_stroke_by_no_more_than_one() {
-    let options = BuildOptions { open: true, ..BuildOptions::new(RATE) };
+fn a_floor_tom_of_one_head_with_a_fixed_disc_glides_by_25_and_91_cents_and_a_soft_stroke_by_no_more_than_one()
+{
     let glide = |speed| {
-        let heard = hear(PieceId::FloorTom, stroke(Striker::Stick, speed, 0.5, 0.0), options);
+        let heard = hear(&report::glide::one_headed(), stroke(Striker::Stick, speed, 0.5, 0.0));
         println!("{speed} m/s: {:?} cents", heard.glide_cents);
         heard.glide_cents.unwrap()
     };
@@ -204,35 +202,36 @@ fn a_pillow_takes_6_db_off_a_kicks_boom() {
 
 #[test]
 fn a_plastic_beater_is_6_db_brighter_than_felt() {
-    let brighter = report::drums::plastic_db();
+    let brighter = report::drums::plastic_db(&spec("kick"));
     println!("{brighter:.1} dB");
     assert!(brighter >= 6.0, "{brighter}");
 }
 
 #[test]
-fn a_stick_at_5_m_s_is_louder_than_at_1_and_hardly_brighter_a_hard_mallet_is_brighter_than_felt() {
-    for (id, at, expected) in [(PieceId::Snare, 0.3, 14.0), (PieceId::RackTom, 0.4, 15.0)] {
-        let [louder, brighter] = report::drums::harder_db(id, at);
-        println!("{id:?}: {louder:.1} dB louder, {brighter:+.1} dB of it above 2 kHz");
-        assert!((louder - expected).abs() < 2.0, "{id:?}: {louder}");
-        assert!(brighter.abs() < 3.0, "{id:?}: {brighter}");
+fn a_stick_at_5_m_s_is_louder_than_at_1_and_hardly_brighter_on_a_drum_with_a_fixed_disc() {
+    let drums = [(reference::fixed_disc_snare(), 0.3, 14.0), (reference::fixed_disc_rack_tom(), 0.4, 15.0)];
+    for (drum, at, expected) in drums {
+        let ([louder, brighter], name) = (report::drums::harder_db(&drum, at), &drum.name);
+        println!("{name}: {louder:.1} dB louder, {brighter:+.1} dB of it above 2 kHz");
+        assert!((louder - expected).abs() < 2.0, "{name}: {louder}");
+        assert!(brighter.abs() < 3.0, "{name}: {brighter}");
     }
-    let [felt, hard] = [Striker::TimpaniMallet, Striker::HardMallet].map(|striker| {
-        let options = BuildOptions::new(RATE);
-        hear(PieceId::Timpani, stroke(striker, 2.0, 0.75, 0.0), options).centroid_hz.unwrap()
-    });
+}
+
+#[test]
+fn a_hard_mallet_is_brighter_than_felt() {
+    let [felt, hard] = [Striker::TimpaniMallet, Striker::HardMallet]
+        .map(|striker| hear(&spec("timpani"), stroke(striker, 2.0, 0.75, 0.0)).centroid_hz.unwrap());
     println!("timpani: centroid {felt:.0} Hz with felt, {hard:.0} Hz with the hard mallet");
     assert!(hard > 1.5 * felt);
 }
 
 #[test]
 fn a_snares_air_carries_its_first_transverse_mode_to_the_snare_side() {
-    let spec = DrumSpec::snare();
-    let cavity = spec.cavity.unwrap();
-    let alone = cavity.order(1, &[], TAU * 2000.0);
-    let hz = alone.modes[0].omega / TAU;
+    let air = drum("snare").cavity().unwrap().order(1, &[], TAU * 2000.0);
+    let hz = air.modes[0].omega / TAU;
     assert!((hz - 565.0).abs() < 2.0, "{hz}");
-    let share = report::snare::transverse_share().unwrap();
+    let share = report::snare::transverse_share(&spec("snare")).unwrap();
     println!("{:.1} % of the snare side's energy in m = 1 after 50 ms", 100.0 * share);
     assert!(share > 0.03);
 }
@@ -247,9 +246,10 @@ fn the_pressure_of_the_enclosed_air_follows_its_real_volume() {
 
 #[test]
 fn a_drum_opened_loses_its_other_head_and_half_its_air() {
-    for id in [PieceId::Kick, PieceId::Snare, PieceId::RackTom, PieceId::FloorTom] {
-        let [whole, open] = [false, true].map(|open| {
-            let mut drum = build(id, &BuildOptions { open, unsplit: true, ..BuildOptions::new(RATE) });
+    for name in ["kick", "snare", "rack-tom", "floor-tom"] {
+        let closed = spec(name).round();
+        let [whole, open] = [closed.clone(), altered(closed, DrumSpec::opened)].map(|spec| {
+            let mut drum = build(&spec, &options());
             drum.strike(&stroke(Striker::Stick, 4.0, 0.4, 0.2));
             let sound = render(&mut drum, 0.5, RATE);
             (
@@ -263,7 +263,7 @@ fn a_drum_opened_loses_its_other_head_and_half_its_air() {
             round.map(|mode| (mode.frequency_hz, mode.t60)).next().unwrap()
         };
         println!(
-            "{id:?}: {:.1?}, open {:.1?}, peaks {:.1} and {:.1} dB",
+            "{name}: {:.1?}, open {:.1?}, peaks {:.1} and {:.1} dB",
             lowest(&whole.0),
             lowest(&open.0),
             whole.2,
@@ -273,25 +273,24 @@ fn a_drum_opened_loses_its_other_head_and_half_its_air() {
         assert!(open.0.iter().all(|mode| mode.body != "resonant"));
         assert!((open.2 - whole.2).abs() < 12.0);
         // Nothing but the head's own pull holds it: it is where its pitch was asked for, or a little lower.
-        let pitch = Piece::tuning_range(id).1;
-        assert!((0.7..1.1).contains(&(lowest(&open.0).0 / pitch)), "{id:?}: {:?}", lowest(&open.0));
+        let pitch = drum(name).pitch_hz;
+        assert!((0.7..1.1).contains(&(lowest(&open.0).0 / pitch)), "{name}: {:?}", lowest(&open.0));
     }
 }
 
 #[test]
 fn mufflers_take_what_lies_under_them() {
     let t60 = |muffler: Muffler, amount: f64| {
-        let options = BuildOptions { muffler: Some(muffler), unsplit: true, ..BuildOptions::new(RATE) };
-        let mut tom = build(PieceId::RackTom, &options);
+        let mut tom =
+            build(&altered(spec("rack-tom").round(), |drum| DrumSpec { muffler, ..drum }), &options());
         tom.set_muffling(amount);
         tom.finish_controls();
         let decay = |m, n| mode_of(&tom, m, n).t60;
         [decay(0, 1), decay(3, 1), decay(0, 3)]
     };
     let bare = t60(Muffler::RING, 0.0);
-    for muffler in
-        [Muffler::GEL, Muffler::RING, PILLOW, Muffler::Gel { sigma: 30.0, radius: 0.0, angle: 0.0 }]
-    {
+    let (pillow, pad) = (drum("kick").muffler, Muffler::Gel { sigma: 30.0, radius: 0.0, angle: 0.0 });
+    for muffler in [Muffler::GEL, Muffler::RING, pillow, pad] {
         assert_eq!(t60(muffler, 0.0), bare);
         let muffled = t60(muffler, 1.0);
         println!("{muffler:?}: {bare:.3?} to {muffled:.3?} s");
@@ -300,16 +299,19 @@ fn mufflers_take_what_lies_under_them() {
     // At the rim a ring hardly touches the lowest mode; in the centre a pad does not touch those with a diameter.
     let ring = t60(Muffler::RING, 1.0);
     assert!(ring[0] / bare[0] > ring[2] / bare[2]);
-    let centre = t60(Muffler::Gel { sigma: 30.0, radius: 0.0, angle: 0.0 }, 1.0);
+    let centre = t60(pad, 1.0);
     assert!((centre[1] / bare[1] - 1.0).abs() < 1e-6 && centre[0] < 0.5 * bare[0]);
 }
 
 #[test]
 fn the_other_heads_pitch_and_the_unevenness_are_built_as_asked() {
-    let with = |ratio, uneven| {
-        let options =
-            BuildOptions { resonant_ratio: Some(ratio), unevenness: Some(uneven), ..BuildOptions::new(RATE) };
-        build(PieceId::RackTom, &options)
+    let with = |pitch_ratio, detuning| {
+        let change = |drum: DrumSpec| DrumSpec {
+            resonant: drum.resonant.map(|resonant| ResonantSpec { pitch_ratio, ..resonant }),
+            evenness: Splitting { detuning, ..drum.evenness },
+            ..drum
+        };
+        build(&altered(spec("rack-tom"), change), &options())
     };
     let tension = |ratio: f64| with(ratio, 0.0).tensions()[1].1;
     assert!((tension(1.4) / tension(1.0) / 1.96 - 1.0).abs() < 0.1);
@@ -328,30 +330,29 @@ fn the_other_heads_pitch_and_the_unevenness_are_built_as_asked() {
 
 #[test]
 fn drums_struck_at_25_m_s_anywhere_stay_finite_and_fall_silent() {
-    for (id, _) in drums() {
-        let mut drum = piece(id, RATE);
+    for name in DRUMS {
+        let mut drum = piece(name, RATE);
         for (i, radius) in [0.0, 0.35, 0.7, 0.95, 1.0].into_iter().enumerate() {
             let striker = Striker::ALL[(3 * i) % Striker::ALL.len()];
             drum.reset();
             drum.strike(&stroke(striker, 25.0, radius, i as f64));
             let sound = render(&mut drum, 5.0, RATE);
             assert!(sound.iter().all(|x| x.is_finite()));
-            assert_eq!(drum.quarantines(), 0, "{id:?}");
+            assert_eq!(drum.quarantines(), 0, "{name}");
             let late = &sound[(4.9 * RATE) as usize..];
             let left = late.iter().fold(0.0_f32, |a, x| a.max(x.abs()));
             let loudest = sound.iter().fold(0.0_f32, |a, x| a.max(x.abs()));
-            println!("{id:?} {} at {radius}: {loudest:.1} Pa, then {left:.1e}", striker.name());
-            assert!(left <= 1e-2 * loudest.max(0.1), "{id:?}: {left} Pa left of {loudest}");
+            println!("{name} {} at {radius}: {loudest:.1} Pa, then {left:.1e}", striker.name());
+            assert!(left <= 1e-2 * loudest.max(0.1), "{name}: {left} Pa left of {loudest}");
         }
     }
 }
 
 #[test]
 fn a_drum_that_has_come_to_rest_renders_nothing_at_all() {
-    for id in PieceId::ALL {
-        let mut piece = piece(id, RATE);
+    for name in names() {
         let mut sound = [1.0_f32; 77];
-        piece.render(&mut sound);
-        assert!(sound.iter().all(|x| x.to_bits() == 0), "{id:?}");
+        render_into(&mut piece(&name, RATE), &mut sound);
+        assert!(sound.iter().all(|x| x.to_bits() == 0), "{name}");
     }
 }

@@ -1,6 +1,7 @@
 //! The kit beside recordings: how its pieces change with the stroke. Shares of figures are claims of the report.
 
 use overhear::building::Pace;
+use overhear::kit_document::KitDocument;
 use xtask::realism::{self, Ear, PieceReport, SPEEDS};
 
 /// Pieces struck softly to hard, bounced, as each ear hears them.
@@ -8,7 +9,8 @@ fn bounced(names: &[&str]) -> Vec<PieceReport> {
     let names: Vec<String> = names.iter().map(|&name| name.to_owned()).collect();
     let subjects = realism::subjects(&names).unwrap();
     let (speeds, settings) = (SPEEDS.to_vec(), Vec::new());
-    let request = realism::Request { subjects, speeds, settings, pace: Pace::Offline, wav: None };
+    let kit = KitDocument::standard();
+    let request = realism::Request { subjects, speeds, kit, settings, pace: Pace::Offline, wav: None };
     realism::run(&request).unwrap().pieces
 }
 

@@ -2,7 +2,7 @@
 
 use overhear_engine::air::SPEED_OF_SOUND;
 use overhear_engine::kit::{BLOCK, Control, Kit};
-use overhear_engine::kit_spec::{KitSpec, Kind, PieceSpec, PlaceSpec};
+use overhear_engine::kit_spec::{Kind, KitSpec, PieceSpec, PlaceSpec};
 use overhear_engine::layout::distance;
 use overhear_engine::piece::Piece;
 use overhear_engine::slot::Slot;
@@ -54,7 +54,9 @@ fn wires_land_when_a_rack_tom_is_struck_the_more_the_harder() {
 
 #[test]
 fn wires_do_not_land_when_the_pieces_are_deaf_or_the_wires_are_off() {
-    for (control, value) in [(Control::Hearing, 0.0), (Control::Sympathy, 0.0), (Control::Wires(slot("snare")), 0.0)] {
+    for (control, value) in
+        [(Control::Hearing, 0.0), (Control::Sympathy, 0.0), (Control::Wires(slot("snare")), 0.0)]
+    {
         let mut kit = kit(RATE);
         kit.set(control, value);
         kit.finish_controls();
@@ -67,7 +69,8 @@ fn between_the_drums_the_shortest_delay_is_from_rack_tom_to_snare_54_samples_at_
     let kit = standard();
     let (layout, drums) = (kit.layout(), kit.drums().map(|(slot, _)| slot).collect::<Vec<_>>());
     let pairs = drums.iter().flat_map(|&from| drums.iter().map(move |&to| (from, to)));
-    let ways = pairs.filter(|(from, to)| from < to).filter_map(|pair| Some((layout.way(pair.0, pair.1)?, pair)));
+    let ways =
+        pairs.filter(|(from, to)| from < to).filter_map(|pair| Some((layout.way(pair.0, pair.1)?, pair)));
     let (way, pair) = ways.min_by(|a, b| a.0.total_cmp(&b.0)).expect("drums");
     assert_eq!(pair, (slot("snare"), slot("rack-tom")));
     // Reading between samples needs one that is newer.

@@ -19,11 +19,12 @@ use overhear::presets::Library;
 
 use crate::bundle::Processors;
 use crate::{
-    bench, bundle, demo, error, groove, hear, kit, manual, output, presets, realism, render, report,
-    shots, suite,
+    bench, bundle, demo, error, groove, hear, kit, manual, output, presets, realism, render, report, shots,
+    suite,
 };
 use arguments::{
-    BenchArguments, HearArguments, KitTask, ModesArguments, PresetTask, RealismArguments, RenderArguments, Task,
+    BenchArguments, HearArguments, KitTask, ModesArguments, PresetTask, RealismArguments, RenderArguments,
+    Task,
 };
 
 /// Developer and user commands of Overhear.

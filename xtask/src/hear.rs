@@ -251,7 +251,7 @@ mod tests {
         piece.finish_controls();
         piece.strike(&strike);
         let mut pressure = vec![0.0; heard.len()];
-        piece.render(&mut pressure);
+        overhear_lab::render_into(&mut piece, &mut pressure);
         let loudest = pressure.iter().fold(0.0_f32, |loudest, x| loudest.max(x.abs()));
         assert!(loudest > 1.0);
         for (heard, pressure) in heard.iter().zip(&pressure) {

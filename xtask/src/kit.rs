@@ -88,7 +88,7 @@ pub fn fitted_table() -> String {
     let constants = constants();
     let mut text = format!("{} constants were fitted\n", constants.len());
     for Constant { name, value, unit, fitted_to, tried, moves } in constants {
-        let amount = format!("{value} {unit}");
+        let amount = if unit == "1" { value.to_string() } else { format!("{value} {unit}") };
         let _ = writeln!(text, "\n{name} = {}", amount.trim_end());
         for (what, told) in [("fitted to", fitted_to), ("tried", tried), ("moves", moves)] {
             let _ = writeln!(text, "    {what:<10} {told}");

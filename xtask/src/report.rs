@@ -10,7 +10,7 @@ pub mod contact;
 mod cost;
 pub mod cymbal;
 pub mod drums;
-mod glide;
+pub mod glide;
 pub mod heads;
 pub mod hi_hat;
 pub mod kit;
@@ -126,7 +126,9 @@ fn index(pages: &[(&str, String)]) -> String {
         let title = text.lines().next().unwrap_or_default().trim_start_matches("# ");
         let _ = writeln!(out, "| [{name}]({name}.md) | {title} | {met} of {} |", met + missed);
     }
-    out.push_str("\n## Not met\n\n| page | claim | measured on | figure | should be |\n|---|---|---|---|---|\n");
+    out.push_str(
+        "\n## Not met\n\n| page | claim | measured on | figure | should be |\n|---|---|---|---|---|\n",
+    );
     for (name, text) in pages {
         for row in text.lines().filter(|line| line.ends_with(page::MISSED)) {
             let cells: Vec<&str> = row.trim_start_matches("| ").split(" | ").take(4).collect();
@@ -160,7 +162,10 @@ mod tests {
         assert!(page.markdown.contains("Measured on: standard kit."));
         assert_eq!(page::tally(&page.claims), [1, 2]);
         let index = index(&[(page.name, page.markdown)]);
-        assert!(index.contains("1 of 2") && index.contains("| claim Some(false) | reference: cap | 1 | 2 |"), "{index}");
+        assert!(
+            index.contains("1 of 2") && index.contains("| claim Some(false) | reference: cap | 1 | 2 |"),
+            "{index}"
+        );
         assert!(!index.contains("claim Some(true)"));
     }
 }

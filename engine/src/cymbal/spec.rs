@@ -65,6 +65,11 @@ impl Numbers for Stand {
 impl Numbers for CymbalSpec {
     fn visit(&mut self, visitor: &mut dyn Visitor) {
         visitor.number("diameter_m", &mut self.diameter, 0.1..=0.8);
+        visitor.enter("alloy");
+        visitor.number("youngs_modulus_pa", &mut self.alloy.youngs_modulus, 1e9..=1e12);
+        visitor.number("poisson_ratio", &mut self.alloy.poisson_ratio, 0.0..=0.49);
+        visitor.number("density_kg_m3", &mut self.alloy.density, 500.0..=25_000.0);
+        visitor.leave();
         // Within 20 kg, what a plate of this metal weighs that is a tenth of a millimetre thick, or a fiftieth of its radius.
         let face = self.alloy.density * PI * (0.5 * self.diameter).powi(2);
         let (lightest, heaviest) = (face * THINNEST, face * THICKEST * self.diameter);
@@ -78,7 +83,6 @@ impl Numbers for CymbalSpec {
             visitor.leave();
         }
         visitor.number("taper", &mut self.taper, 0.3..=1.0);
-        self.alloy.visit_part("alloy", visitor);
         self.loss.visit_part("loss", visitor);
         if let Some(stand) = &mut self.stand {
             stand.visit_part("stand", visitor);

@@ -77,8 +77,7 @@ impl TunedHead {
         let few = ModeRange { reference_tension: most, limit_hz: 6.0 * high };
         let look = Membrane::sharing(*spec, Surroundings::Air, &few, curves)?;
         let tension = |hz| look.tension_for(m, n, hz).unwrap_or(most);
-        let range =
-            ModeRange { reference_tension: tension(pitches[MIDDLE]), limit_hz: BASIS * limit_hz };
+        let range = ModeRange { reference_tension: tension(pitches[MIDDLE]), limit_hz: BASIS * limit_hz };
         let membrane = Membrane::sharing(*spec, Surroundings::Air, &range, curves)?.by_order();
         let tensions = pitches.map(|hz| membrane.tension_for(m, n, hz).unwrap_or_else(|| tension(hz)));
         Ok(TunedHead { membrane, tensions, limit_hz })

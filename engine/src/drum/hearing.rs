@@ -120,7 +120,9 @@ impl Hearing {
     ) -> impl Iterator<Item = [f64; 2]> + 'a {
         let [low, default, high] = self.pitches;
         let up = pitch_hz.ln() - default;
-        let (end, share) = if up < 0.0 { (0, up / (low - default)) } else { (1, up / (high - default)) };
+        let (end, way) = if up < 0.0 { (0, low - default) } else { (1, high - default) };
+        // A drum's own pitch may be an end of its range.
+        let share = if way == 0.0 { 0.0 } else { up / way };
         self.members.iter().map(move |&(pair, shown)| {
             let (pair, shown) = (pair as usize, f64::from(shown));
             match &self.pairs[pair] {

@@ -210,7 +210,10 @@ impl PitchOf {
     }
 }
 
-/// Farthest from its pitch in the other head's place that the film's strength is checked for.
+/// Largest share of what pulls a head back that may be its own stiffness, at the lowest pitch: more, and it is a plate.
+const MOST_BENDING: f64 = 0.5;
+
+/// Strain that films hold.
 const STRONGEST_STRAIN: f64 = 0.03;
 
 impl DrumSpec {
@@ -221,13 +224,7 @@ impl DrumSpec {
 
     /// Lowest, default and highest pitch, Hz.
     pub fn pitches(&self) -> [f64; 3] {
-        // PHASE 1: built as before the kit became data.
-        let built = match self.pitch_hz {
-            195.0 => 220.0,
-            100.0 => 82.0,
-            pitch => pitch,
-        };
-        [self.lowest_pitch_hz, built, self.highest_pitch_hz]
+        [self.lowest_pitch_hz, self.pitch_hz, self.highest_pitch_hz]
     }
 
     /// A head as a membrane.
@@ -309,13 +306,26 @@ impl DrumSpec {
         Ok(())
     }
 
-    /// No head is pulled beyond what its film holds at the highest pitch.
+    /// No head is pulled beyond what its film holds at the highest pitch, and each has to be pulled at the lowest.
     fn check_strain(&self, name: &str, head: &HeadSpec, ratio: f64) -> Result<(), SpecError> {
         let (m, n) = self.pitch_of.mode();
         let membrane = self.membrane(head);
-        let hz = ratio * self.highest_pitch_hz;
+        let zero = crate::math::bessel::zero(m, n);
+        let bending = membrane.flexural_rigidity() * (zero / membrane.radius).powi(2);
         // Without the air, which makes it need more.
-        let tension = crate::membrane::vacuum_tension(&membrane, crate::math::bessel::zero(m, n), hz);
+        let tension = |hz| crate::membrane::vacuum_tension(&membrane, zero, ratio * hz);
+        let bent = bending / tension(self.lowest_pitch_hz);
+        if bent > MOST_BENDING {
+            let lowest = self.lowest_pitch_hz * (bent / MOST_BENDING).sqrt();
+            return Err(SpecError::refused(
+                "lowest_pitch_hz",
+                format!(
+                    "is {}, at which the {name} head would be held by its stiffness more than by its tension, accepted: {lowest:.1} or more",
+                    self.lowest_pitch_hz,
+                ),
+            ));
+        }
+        let tension = tension(self.highest_pitch_hz);
         let Material { youngs_modulus, poisson_ratio, .. } = head.material;
         let strain = tension * (1.0 - poisson_ratio) / (youngs_modulus * head.thickness);
         if strain > STRONGEST_STRAIN {

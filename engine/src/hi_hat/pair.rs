@@ -37,6 +37,7 @@ use super::POINTS;
 use super::balance;
 use super::edge;
 use super::foot::Foot;
+use super::rest::Rest;
 use super::rigid::{Rigid, Weights};
 
 /// What a pair is made from.
@@ -58,32 +59,6 @@ pub struct PairParts {
     pub depth: [f64; POINTS],
     /// Hz.
     pub sample_rate: f64,
-}
-
-/// Forces and places while nothing moves.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Rest {
-    /// `P`, N.
-    pub(super) preload: [f64; POINTS],
-    /// What they bend, m.
-    pub(super) bend: [f64; POINTS],
-    /// Energy of mounts and contacts then, J.
-    pub(super) energy: f64,
-}
-
-impl Rest {
-    const OPEN: Rest = Rest { preload: [0.0; POINTS], bend: [0.0; POINTS], energy: 0.0 };
-
-    /// A share of the way to another.
-    pub(super) fn toward(&self, other: &Rest, share: f64) -> Rest {
-        let mix = |a: f64, b: f64| a + share * (b - a);
-        let mix_all = |a: &[f64; POINTS], b: &[f64; POINTS]| std::array::from_fn(|i| mix(a[i], b[i]));
-        Rest {
-            preload: mix_all(&self.preload, &other.preload),
-            bend: mix_all(&self.bend, &other.bend),
-            energy: mix(self.energy, other.energy),
-        }
-    }
 }
 
 /// Time in which a touch becomes as lossy as one that lasts, s. *By ear*.

@@ -21,7 +21,10 @@ use crate::surface::wires::WiresSpec;
 
 use super::{Defaults, InstrumentSpec, KitSpec, MicrophonesSpec, PieceSpec, PlaceSpec};
 
-const INCH: f64 = 0.0254;
+/// So many inches, m: the number nearest to the exact one.
+const fn inches(inches: f64) -> f64 {
+    inches * 254.0 / 1e4
+}
 
 impl KitSpec {
     /// The standard kit: kick, snare, two toms, crash, ride, splash, timpani, hi-hat.
@@ -194,14 +197,14 @@ fn two_headed(
     [lowest_pitch_hz, pitch_hz, highest_pitch_hz]: [f64; 3],
 ) -> DrumSpec {
     DrumSpec {
-        diameter: diameter_in * INCH,
+        diameter: inches(diameter_in),
         pitch_hz,
         lowest_pitch_hz,
         highest_pitch_hz,
         pitch_of: PitchOf::BatterAlone,
         batter,
         resonant: Some(resonant),
-        shell: Some(ShellSpec::Cylinder { depth: depth_in * INCH, air_q: fitted::AIR_Q }),
+        shell: Some(ShellSpec::Cylinder { depth: inches(depth_in), air_q: fitted::AIR_Q }),
         hoop: None,
         wires: None,
         muffler: Muffler::GEL,
@@ -223,7 +226,8 @@ fn kick() -> InstrumentSpec {
 fn snare() -> InstrumentSpec {
     let HeadSpec { thickness, plies, material, loss, modes_to_hz } = film(0.076e-3, 1, SNARE_SIDE_LOSS);
     let side = ResonantSpec { pitch_ratio: 1.50, thickness, plies, material, loss, modes_to_hz };
-    let drum = two_headed([14.0, 5.5], film(0.25e-3, 1, SNARE_LOSS), side, [140.0, fitted::SNARE_PITCH_HZ, 360.0]);
+    let drum =
+        two_headed([14.0, 5.5], film(0.25e-3, 1, SNARE_LOSS), side, [140.0, fitted::SNARE_PITCH_HZ, 360.0]);
     let wires = WiresSpec {
         mass: 6e-3,
         stiffness: 150.0,
@@ -265,12 +269,12 @@ fn timpani() -> InstrumentSpec {
     })
 }
 
-/// A bronze cymbal of a diameter (m) and mass (kg): the rise of its bow, its bell's radius and rise, m. *Fitted*: shapes chosen by
+/// A bronze cymbal of a diameter (in) and mass (kg): the rise of its bow, its bell's radius and rise, m. *Fitted*: shapes chosen by
 /// how near to recordings they sound among some dozen tried for each; as a cap, as thick everywhere, a crash has 67 % of
 /// its figures in the mix as recordings have them, a splash 61 %, with these 83 and 89.
-fn bronze(diameter: f64, mass: f64, bow: f64, (radius, rise): (f64, f64)) -> CymbalSpec {
+fn bronze(diameter_in: f64, mass: f64, bow: f64, (radius, rise): (f64, f64)) -> CymbalSpec {
     CymbalSpec {
-        diameter,
+        diameter: inches(diameter_in),
         mass,
         bow,
         bell: Some(Bell { radius, rise }),
@@ -287,7 +291,7 @@ fn bronze(diameter: f64, mass: f64, bow: f64, (radius, rise): (f64, f64)) -> Cym
 /// A 16 in crash.
 fn crash() -> InstrumentSpec {
     InstrumentSpec::Cymbal(bronze(
-        0.4064,
+        16.0,
         1.10,
         fitted::CRASH_BOW,
         (fitted::CRASH_BELL_RADIUS, fitted::CRASH_BELL_RISE),
@@ -297,7 +301,7 @@ fn crash() -> InstrumentSpec {
 /// A 20 in ride.
 fn ride() -> InstrumentSpec {
     InstrumentSpec::Cymbal(bronze(
-        0.5080,
+        20.0,
         2.50,
         fitted::RIDE_BOW,
         (fitted::RIDE_BELL_RADIUS, fitted::RIDE_BELL_RISE),
@@ -307,7 +311,7 @@ fn ride() -> InstrumentSpec {
 /// A 10 in splash.
 fn splash() -> InstrumentSpec {
     InstrumentSpec::Cymbal(bronze(
-        0.2540,
+        10.0,
         0.25,
         fitted::SPLASH_BOW,
         (fitted::SPLASH_BELL_RADIUS, fitted::SPLASH_BELL_RISE),
@@ -321,7 +325,7 @@ fn hi_hat() -> InstrumentSpec {
         loss: LossLaw { constant: fitted::HAT_LOSS, per_khz: fitted::HAT_LOSS_PER_KHZ },
         stand: None,
         evenness: Splitting { seed, ..Splitting::CYMBAL },
-        ..bronze(0.3556, mass, fitted::HAT_BOW, (fitted::HAT_BELL_RADIUS, fitted::HAT_BELL_RISE))
+        ..bronze(14.0, mass, fitted::HAT_BOW, (fitted::HAT_BELL_RADIUS, fitted::HAT_BELL_RISE))
     };
     InstrumentSpec::HiHat(HiHatSpec {
         top: half(0.95, 5),

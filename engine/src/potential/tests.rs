@@ -64,10 +64,17 @@ fn hit(speed: f64) -> Strike {
     Strike { speed, radius: 0.3, angle: 0.0, striker: Striker::Stick }
 }
 
+/// Renders what is heard from near.
+fn render(surface: &mut Surface, out: &mut [f32]) {
+    let mut others = [[0.0; 32]; 2];
+    let [far, around] = others.each_mut().map(|row| &mut row[..out.len()]);
+    surface.render_in_air([out, far, around], None);
+}
+
 fn run(surface: &mut Surface, samples: usize) -> Vec<f32> {
     let mut out = vec![0.0; samples];
     out.chunks_mut(32).for_each(|block| {
-        surface.render(block);
+        render(surface, block);
         surface.settle();
     });
     out
@@ -129,8 +136,8 @@ fn how_time_is_cut_changes_no_sample() {
     }
     let (mut a, mut b) = (vec![0.0; 19_200], vec![0.0; 19_200]);
     for (a, b) in a.chunks_mut(32).zip(b.chunks_mut(32)) {
-        whole.render(a);
-        b.chunks_mut(5).for_each(|part| cut.render(part));
+        render(&mut whole, a);
+        b.chunks_mut(5).for_each(|part| render(&mut cut, part));
         whole.settle();
         cut.settle();
     }

@@ -35,7 +35,7 @@ pub struct History {
 }
 
 impl History {
-    /// Takes note of a gesture before it is passed on; `value` is what the parameter is now, plain.
+    /// Takes note of a gesture before it is passed on; `value` is what the parameter is now, in its own unit.
     pub fn note(&mut self, index: usize, gesture: Gesture, value: f32) {
         match gesture {
             Gesture::Begin => self.held.push(Edit { index, from: value, to: value }),
@@ -112,7 +112,7 @@ impl History {
     }
 }
 
-/// Moves a parameter to a plain value in one gesture.
+/// Moves a parameter to a value in its own unit, in one gesture.
 pub fn put(index: usize, value: f32, set: &mut dyn FnMut(usize, Gesture)) {
     for gesture in [Gesture::Begin, Gesture::Set(value), Gesture::End] {
         set(index, gesture);

@@ -24,12 +24,12 @@ pub struct Item<'a> {
     /// The piece's title, or the group of what is about all of them.
     pub group: &'a str,
     kit: &'a KitSpec,
-    /// Smallest and largest value, plain.
+    /// Smallest and largest value, in the parameter's unit.
     limits: (f32, f32),
 }
 
 impl<'a> Values<'a> {
-    /// The present value of an index, plain.
+    /// The present value of an index, in its own unit.
     pub fn plain(&self, index: usize) -> Option<f32> {
         Some(self.all.get(index)?.unmodulated_plain_value())
     }
@@ -85,17 +85,17 @@ fn within((min, max): (f32, f32), [low, own, high]: [f64; 3]) -> (f32, f32) {
 }
 
 impl Item<'_> {
-    /// The present value, plain.
+    /// The present value, in the parameter's unit.
     pub fn plain(&self) -> f32 {
         self.value.unmodulated_plain_value()
     }
 
-    /// Where the kit has it before anybody moves it, plain.
+    /// Where the kit has it before anybody moves it, in the parameter's unit.
     pub fn usual(&self) -> f32 {
         parameters::default_value(self.index, self.kit)
     }
 
-    /// Smallest and largest value, plain.
+    /// Smallest and largest value, in the parameter's unit.
     pub fn limits(&self) -> (f32, f32) {
         self.limits
     }
@@ -115,7 +115,7 @@ impl Item<'_> {
         parameters::text(self.index, plain, self.kit)
     }
 
-    /// The plain value that a text stands for.
+    /// The value that a text stands for, in the parameter's unit.
     ///
     /// # Errors
     /// [`ParameterError`] with what was given and what is accepted.
@@ -123,7 +123,7 @@ impl Item<'_> {
         parameters::parse_value(self.index, text, self.kit)
     }
 
-    /// Moves it to a plain value in one gesture.
+    /// Moves it to a value in the parameter's unit, in one gesture.
     pub fn put(&self, plain: f32, set: &mut dyn FnMut(usize, Gesture)) {
         put(self.index, plain, set);
     }

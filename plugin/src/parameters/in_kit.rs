@@ -72,7 +72,7 @@ pub fn parse_assignment(text: &str, kit: &KitSpec) -> Result<(usize, f32), Param
     Ok((index, parse_value(index, value, kit)?))
 }
 
-/// Value of a parameter before anybody moves it; of no parameter 0.
+/// Value of a parameter before anybody moves it, in its unit; of no parameter 0.
 pub fn default_value(index: usize, kit: &KitSpec) -> f32 {
     let Some(parameter) = parameters().get(index) else { return 0.0 };
     let own = slot_parameter(index).and_then(|(slot, what)| {

@@ -23,7 +23,7 @@ pub static TABLE: [Parameter; GLOBALS] = [
     Parameter {
         id: "dynam",
         name: "dynamics",
-        label: "Dynamics",
+        label: "Stick speed at full velocity",
         group: "Kit",
         unit: " m/s",
         min: 1.0,

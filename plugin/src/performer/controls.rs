@@ -114,10 +114,7 @@ impl Performer {
     pub(super) fn tune(&mut self, slot: Slot) {
         let semitones =
             f64::from(self.values[slot_index(slot, SlotParameter::Tune)]) + self.bends[slot.index()];
-        // In single precision, as every value that is asked for: it does not matter to a bit whether a drum is at its own
-        // pitch or has been asked for it in Hz.
-        let own = f64::from(self.own[slot.index()] as f32);
-        let tuning = own * libm::exp2(semitones / 12.0);
+        let tuning = self.own[slot.index()] * libm::exp2(semitones / 12.0);
         flushed(|| self.kit.set(Control::Tuning(slot), tuning));
     }
 }

@@ -99,7 +99,8 @@ fn a_song_is_rendered_on_the_kit_of_a_file() {
     let refused = folder.run(&["render", "song.mid", "-o", "x.wav", "--set", "china_level=-6"]);
     let said = String::from_utf8_lossy(&refused.stderr);
     assert!(refused.status.code() == Some(2) && said.contains("china_level"), "{said}");
-    let refused = folder.run(&["render", "song.mid", "-o", "x.wav", "--kit", &fourteen, "--set", "timpani_tune=0st"]);
+    let refused =
+        folder.run(&["render", "song.mid", "-o", "x.wav", "--kit", &fourteen, "--set", "timpani_tune=0st"]);
     assert_eq!(refused.status.code(), Some(2));
 }
 

@@ -3,7 +3,7 @@
 use overhear::parameters::{
     BYPASS_ID, COUNT, SlotParameter, default_value, host_id, is_live, parameters, slot_parameter, text,
 };
-use overhear_engine::kit_spec::{KitSpec, Kind};
+use overhear_engine::kit_spec::{Kind, KitSpec};
 use xtask::host::Bundle;
 use xtask::workspace::Format;
 
@@ -71,9 +71,14 @@ fn parameters_of_the_first_slots_are_those_of_the_standard_kit_s_pieces() {
     let (found, kit) = (instance().parameters().unwrap(), KitSpec::standard());
     for (index, found) in found[..COUNT].iter().enumerate() {
         let Some((slot, what)) = slot_parameter(index) else { continue };
-        let title = kit.piece(slot).map_or_else(|| format!("Slot {}", slot.index() + 1), |piece| piece.title.clone());
+        let title =
+            kit.piece(slot).map_or_else(|| format!("Slot {}", slot.index() + 1), |piece| piece.title.clone());
         assert_eq!(found.name, format!("{title} {}", what.label()));
         let default = parameters()[index].normalized(default_value(index, &kit));
-        assert!(kit.piece(slot).is_none() || (found.default - f64::from(default)).abs() < 1e-6, "{}", found.name);
+        assert!(
+            kit.piece(slot).is_none() || (found.default - f64::from(default)).abs() < 1e-6,
+            "{}",
+            found.name
+        );
     }
 }

@@ -14,8 +14,7 @@ use xtask::workspace::Format;
 use crate::multi::multi;
 use crate::score::{Happening, Score, Sound, assert_same, notes, on_a_kit, peak, through_plugin};
 use crate::vst3::{Moves, Scratch, preset_file, through_pedalboard, through_vst3};
-use crate::{
-    Stop, alone, as_hosts_have_it, bundle_path, here, instance, setting};
+use crate::{Stop, alone, as_hosts_have_it, bundle_path, here, instance, setting};
 
 const RATE: f64 = 48_000.0;
 

@@ -49,7 +49,9 @@ fn items(text: &str) -> Vec<Item> {
             let end = lines[number..].iter().position(|line| line.ends_with(['{', ';', ',', '}']));
             let signature = lines[number..=number + end.unwrap_or(0)].join(" ");
             let owner = if kind.ends_with(':') { owner.clone() } else { String::new() };
-            if signature.contains("f32") || signature.contains("f64") {
+            // What a macro defines has its docs from where the macro is used.
+            let is_of_macro = signature.contains('$');
+            if !is_of_macro && (signature.contains("f32") || signature.contains("f64")) {
                 found.push(Item { line: number + 1, docs: docs.clone(), owner, signature });
             }
         }

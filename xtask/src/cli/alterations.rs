@@ -24,7 +24,7 @@ pub struct Alterations {
     /// Take off what closes a drum: the resonant head, or the timpani's kettle
     #[arg(long)]
     pub open: bool,
-    /// Tune a drum's other head to so many times the struck one's pitch
+    /// Tune a drum's other head to the struck one's pitch times a ratio
     #[arg(long, value_name = "RATIO", value_parser = ratio)]
     pub resonant_ratio: Option<f64>,
     /// Make a drum's tension so uneven: mean relative difference of the two members of a pair, up to .05

@@ -36,7 +36,13 @@ pub fn page() -> Result<Page> {
     for (m, computed, measured) in [(2, 1.470, 1.48), (3, 1.922, 1.92), (4, 2.363, 2.36), (5, 2.797, 2.78)] {
         let ratio = mode_of(&timpani, m, 1).frequency_hz / principal;
         let what = format!("head in air, no kettle: ({m},1) over (1,1)");
-        sheet.claim(Claim::near(&what, bodies::NO_KETTLE, (ratio, ""), (computed, 0.01), "computed by others"));
+        sheet.claim(Claim::near(
+            &what,
+            bodies::NO_KETTLE,
+            (ratio, ""),
+            (computed, 0.01),
+            "computed by others",
+        ));
         sheet.claim(Claim::near(&what, bodies::NO_KETTLE, (ratio, ""), (measured, 0.01), MEASURED));
     }
     kettle(&mut sheet);
@@ -130,8 +136,7 @@ fn spectrum() -> Result<Plot<'static>> {
     let range = ModeRange { reference_tension: tension, limit_hz: 600.0 };
     let timpani_spec = drum("timpani");
     let head = timpani_spec.membrane(&timpani_spec.batter);
-    let vacuum = Membrane::new(head, Surroundings::Vacuum, &range)
-        .map_err(|error| bad_input!("{error}"))?;
+    let vacuum = Membrane::new(head, Surroundings::Vacuum, &range).map_err(|error| bad_input!("{error}"))?;
     let in_vacuum: Vec<f64> =
         vacuum.modes().iter().map(|mode| vacuum.ringing(mode, tension).omega / TAU).collect();
     let loaded: Vec<f64> =

@@ -178,7 +178,9 @@ impl Sheet {
             "# {title}\n\n{about}\n\nMeasured on: {on}.\n\n`cargo xtask report {name}` writes this page.\n"
         );
         if !claims.is_empty() {
-            markdown.push_str("\n| claim | measured on | figure | should be | by | met |\n|---|---|---|---|---|---|\n");
+            markdown.push_str(
+                "\n| claim | measured on | figure | should be | by | met |\n|---|---|---|---|---|---|\n",
+            );
         }
         for Claim { what, on, figure, reference, source, met } in &claims {
             let met = match met {

@@ -96,7 +96,7 @@ fn landings(sheet: &mut Sheet, published: &PieceSpec, played: &PieceSpec) {
             ),
             PLAYED,
             format!("{}", count(played, own)),
-            "more: it is slacker, and its wires are looser",
+            &format!("{figure} published, of a tighter head and tighter wires"),
             EARLIER,
         ));
     }
