@@ -291,7 +291,8 @@ fn couple(
     if ideal.linear {
         return None;
     }
-    let highest_hz = options.quality.coupled_hz().min(COUPLED_SHARE_OF_RATE * options.sample_rate);
+    let asked_hz = options.quality.coupled_hz().min(COUPLED_SHARE_OF_RATE * options.sample_rate);
+    let highest_hz = VonKarman::reach(plate, asked_hz);
     let inside = |mode: &ShapeIndex| {
         let shell = mode.radial.checked_sub(RIGID.len())?;
         (plate.shells[shell].omega <= TAU * highest_hz).then_some(shell)

@@ -24,8 +24,8 @@
 //! of 3.6 GHz). The Fourier sums run at the machine's peak and are half of that. The inner loops of dense tables
 //! alone take 21 us, 92 us and 390 us (the example `coupling`): their blocks are shorter than the lanes are wide.
 //!
-//! Airy functions are taken up to the largest wave number of the modes: twice as many change the
-//! gradient of a random state by under 1 %.
+//! Airy functions are taken up to the largest wave number of the modes, at most 16 of one order, as many as there may be modes
+//! of it: twice as many change the gradient of a random state by under 1 %.
 //!
 //! Sources: Touze, Thomas, Chaigne, J. Sound Vib. 258, 2002; Thomas, Touze, Chaigne, Int. J. Solids
 //! Struct. 42, 2005; Ducceschi & Touze, J. Sound Vib. 344, 2015 (modal, conserving schemes).
@@ -35,6 +35,8 @@ pub mod airy;
 mod oracle;
 #[cfg(test)]
 mod reference;
+
+use std::f64::consts::TAU;
 
 use crate::math::quadrature::GaussLegendre;
 use crate::modal::simd::polar::{BLOCK, Circle, Radials, SLOTS};
@@ -50,6 +52,9 @@ use airy::AiryOrder;
 /// it comes to 16 lanes, it leaves 4 % in a state that rings everywhere; to 4 kHz 4e-6. The next 16 would make the crash half as
 /// dear again and move no band of a hard stroke by more than 0.2 dB.
 const RADII: f64 = 0.7;
+
+/// A frequency just below one that is out of reach, over that.
+const SHORT_OF: f64 = 1.0 - 1e-9;
 
 /// A pair of modes of the body that stretch the plate.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -109,10 +114,22 @@ struct Work {
 }
 
 impl VonKarman {
+    /// Frequency up to which a plate's modes can be coupled, at most `hz`, Hz: one order has room for [`SLOTS`] modes. Large thin
+    /// plates have more below 8 kHz.
+    pub fn reach(plate: &PlateModes, hz: f64) -> f64 {
+        let mut held = vec![0; plate.flat.len()];
+        let beyond = plate.shells.iter().find(|shell| {
+            let held = &mut held[shell.m as usize];
+            *held += 1;
+            *held > SLOTS
+        });
+        beyond.map_or(hz, |shell| hz.min(SHORT_OF * shell.omega / TAU))
+    }
+
     /// For these pairs of a plate's modes. Allocates; takes some tens of milliseconds.
     ///
     /// # Panics
-    /// If the tables do not reach the pairs' orders, or if one order has more than 16 modes.
+    /// If the tables do not reach the pairs' orders, or if the modes go beyond what [can be coupled](Self::reach).
     pub fn new(plate: &PlateModes, tables: &PlateTables, pairs: &[CoupledPair]) -> VonKarman {
         let shell = |pair: &CoupledPair| &plate.shells[pair.shell];
         let finest = pairs.iter().map(|pair| plate.wave_number(shell(pair))).fold(0.0, f64::max);
@@ -142,7 +159,7 @@ impl VonKarman {
             overlap.resize(SLOTS, 0.0);
             overlaps[row].push(overlap);
         }
-        let area = std::f64::consts::TAU / airys.angles() as f64 / plate.spec.radius().powi(2);
+        let area = TAU / airys.angles() as f64 / plate.spec.radius().powi(2);
         let mut stresses = vec![Vec::new(); airys.rows()];
         let mut stiffness = vec![0.0; airys.rows() * SLOTS];
         let rows = (0..airy.len()).map(|m| (airys.row(m), bends.row(m))).collect();

@@ -4,8 +4,10 @@
 //! factor of up to [`FACTOR`] either way, sometimes to the very end of its accepted range. What the description refuses,
 //! and what has too many modes, is drawn anew.
 
+use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
 
+use overhear_engine::air::SPEED_OF_SOUND;
 use overhear_engine::cymbal::CymbalSpec;
 use overhear_engine::damping::Muffler;
 use overhear_engine::drum::{DrumSpec, HeadContact, HeadSpec, PitchOf, ShellSpec};
@@ -110,7 +112,7 @@ fn draw(
         piece.defaults.preload = wires.then(|| 0.03 * 50.0_f64.powf(chance.unit()));
         piece.defaults.muffle = if chance.happens(0.5) { 0.0 } else { chance.unit() };
         let few = modes(&piece.instrument) < MOST_MODES && thinnest(&piece.instrument) > THINNEST;
-        if piece.check().is_ok() && few {
+        if few && piece.drum().is_none_or(is_below_its_air) && piece.check().is_ok() {
             return piece;
         }
     }
@@ -130,12 +132,17 @@ fn rebuilt(drum: DrumSpec, chance: &mut Chance) -> DrumSpec {
     if chance.happens(0.1) {
         drum = drum.opened();
     }
-    if drum.resonant.is_none() && chance.happens(0.3) {
-        drum.shell =
-            Some(ShellSpec::Kettle { volume: chance.between(0.01, 0.3), air_q: chance.between(10.0, 200.0) });
-    }
-    if chance.happens(0.1) {
-        drum.pitch_of = PitchOf::PrincipalHeard;
+    // A timpani's pitch is that of the whole drum, which a kettle much too small or too large would rule.
+    let sensible = |chance: &mut Chance| drum.diameter.powi(3) * chance.between(0.3, 0.8);
+    match drum.shell {
+        Some(ShellSpec::Kettle { air_q, .. }) => {
+            drum.shell = Some(ShellSpec::Kettle { volume: sensible(chance), air_q });
+        }
+        _ if drum.resonant.is_none() && chance.happens(0.3) => {
+            drum.shell =
+                Some(ShellSpec::Kettle { volume: sensible(chance), air_q: chance.between(10.0, 200.0) });
+        }
+        _ => {}
     }
     drum.muffler = match chance.below(4) {
         0 => Muffler::Pillow { sigma: chance.between(0.0, 60.0), flow: chance.between(0.0, 300.0) },
@@ -152,9 +159,9 @@ fn rebuilt(drum: DrumSpec, chance: &mut Chance) -> DrumSpec {
 fn few_modes(drum: DrumSpec, chance: &mut Chance) -> DrumSpec {
     let middle = (drum.lowest_pitch_hz * drum.highest_pitch_hz).sqrt();
     let to = |ratio: f64| (middle * ratio).clamp(100.0, 4000.0);
-    let batter = HeadSpec { modes_to_hz: to(chance.between(5.0, 14.0)), ..drum.batter };
+    let batter = HeadSpec { modes_to_hz: to(chance.between(8.0, 14.0)), ..drum.batter };
     let resonant = drum.resonant.map(|resonant| {
-        let modes_to_hz = to(resonant.pitch_ratio * chance.between(3.0, 10.0));
+        let modes_to_hz = to(resonant.pitch_ratio * chance.between(7.0, 10.0));
         overhear_engine::drum::ResonantSpec { modes_to_hz, ..resonant }
     });
     DrumSpec { batter, resonant, ..drum }
@@ -180,6 +187,14 @@ fn modes(instrument: &InstrumentSpec) -> f64 {
         InstrumentSpec::Cymbal(cymbal) => plate_modes(cymbal),
         InstrumentSpec::HiHat(hat) => plate_modes(&hat.top) + plate_modes(&hat.bottom),
     }
+}
+
+/// Whether a drum that is tuned as it is heard stays as far below the first mode of the air across it as a timpani does:
+/// near it the head's mode and the air's are two halves of one, and neither is the drum's pitch.
+fn is_below_its_air(drum: &DrumSpec) -> bool {
+    const FIRST_ACROSS: f64 = 1.841;
+    let across = FIRST_ACROSS * SPEED_OF_SOUND / (TAU * drum.radius());
+    drum.pitch_of == PitchOf::BatterAlone || drum.highest_pitch_hz < 0.65 * across
 }
 
 /// Thickness of the thinner plate, m; a drum has none.

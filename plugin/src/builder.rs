@@ -252,6 +252,8 @@ impl Shared {
                 let present = desk.kit.replace(plan.kit().clone());
                 let changes_kit = present.is_none_or(|present| !plan.is_of_kit(&present));
                 desk.jobs += 1;
+                // Noticed by this thread itself: who waits from now on waits for this as well.
+                desk.ended = NO_ORDER;
                 let (order, number, sample_rate) = (desk.order, desk.jobs, desk.sample_rate);
                 return Some(Job { order, number, sample_rate, former, changes_kit, plan });
             }

@@ -106,6 +106,7 @@ impl Half {
         let limit_hz = cymbal::LIMIT_HZ.min(cymbal::LIMIT_OF_RATE * options.sample_rate);
         let known = cymbal::SoundingPlate::of(spec, receivers, limit_hz)?;
         let (plate, radiated) = (&known.plate, &known.radiated);
+        let coupled_hz = coupled_hz.map(|hz| VonKarman::reach(plate, hz));
         let (orders, extent) = plate.table_extent(limit_hz);
         let tables = PlateTables::new(orders, extent);
         let splitting = if ideal.round { Splitting::ROUND } else { spec.evenness };

@@ -236,7 +236,7 @@ pub struct StressModes {
 }
 
 impl StressModes {
-    /// Those of order `modes` with a wave number up to `limit` (dimensionless: times the radius).
+    /// Those of order `modes` with a wave number up to `limit` (dimensionless: times the radius), the lowest `most` of them.
     ///
     /// # Panics
     /// If the tables are of another order or do not reach the modes' wave numbers.
@@ -245,7 +245,7 @@ impl StressModes {
         modes: &[RadialMode],
         m: u32,
         tables: (&JTable, &ITable),
-        limit: f64,
+        (limit, most): (f64, usize),
     ) -> StressModes {
         let (flat, stress) = (section.flat(modes, tables), section.stress(m));
         let none = StressModes {
@@ -261,7 +261,8 @@ impl StressModes {
         let Some(half) = lower.solve_lower_triangular(&square) else { return none };
         let Some(inverse) = lower.solve_lower_triangular(&half.transpose()) else { return none };
         let solved = eigen::symmetric(inverse);
-        let count = solved.values.iter().rev().take_while(|value| limit.powi(4) * **value >= 1.0).count();
+        let wanted = solved.values.iter().rev().take_while(|value| limit.powi(4) * **value >= 1.0);
+        let count = wanted.take(most).count();
         let size = solved.values.len();
         let vectors = DMatrix::from_fn(size, count, |row, k| {
             solved.vectors[(row, size - 1 - k)] / solved.values[size - 1 - k].sqrt()

@@ -14,6 +14,7 @@
 //!
 //! Source: Thomas, Touze, Chaigne, Int. J. Solids Struct. 42, 2005.
 
+use crate::modal::simd::polar::SLOTS;
 use crate::plate::dome::curvature_overlap;
 use crate::plate::edges::clamped_modes;
 use crate::plate::radial::RadialMode;
@@ -33,7 +34,8 @@ enum Functions {
 }
 
 impl AiryOrder {
-    /// Every Airy function with a wave number up to `limit` (dimensionless: times the radius), `[order]`, up to order `highest`.
+    /// Every Airy function with a wave number up to `limit` (dimensionless: times the radius), at most [`SLOTS`] of one order,
+    /// `[order]`, up to order `highest`.
     ///
     /// # Panics
     /// If the tables do not reach the orders.
@@ -46,12 +48,14 @@ impl AiryOrder {
         let section = (!plate.spec.is_even()).then(section);
         let order = |m: u32| match &section {
             None => {
-                let modes = clamped_modes(m, limit);
+                let mut modes = clamped_modes(m, limit);
+                modes.truncate(SLOTS);
                 let stiffness = modes.iter().map(|mode| unit / mode.root.powi(4)).collect();
                 AiryOrder { stiffness, functions: Functions::Clamped(modes) }
             }
             Some(section) => {
-                let modes = StressModes::new(section, &plate.flat[m as usize], m, tables.order(m), limit);
+                let modes =
+                    StressModes::new(section, &plate.flat[m as usize], m, tables.order(m), (limit, SLOTS));
                 let stiffness = modes.compliance.iter().map(|compliance| unit / compliance).collect();
                 AiryOrder { stiffness, functions: Functions::Uneven(modes) }
             }

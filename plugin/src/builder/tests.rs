@@ -136,6 +136,24 @@ fn a_change_of_plan_is_not_held_up_by_pieces_that_nobody_has_taken() {
 }
 
 #[test]
+fn who_waits_waits_for_a_change_that_the_thread_has_noticed_by_itself() {
+    let moved = Arc::new(AtomicBool::new(false));
+    let wanted = moved.clone();
+    let mut builder = Builder::with(slow, Arc::new(move || plan_of(kit(wanted.load(Ordering::Acquire)))));
+    let mut delivery = ordered(&mut builder, RATE);
+    assert_eq!(builder.wait(LONG), Outcome::Finished);
+    assert_eq!(taken(&mut delivery), ALL);
+    moved.store(true, Ordering::Release);
+    let deadline = Instant::now() + LONG;
+    while lock(&builder.shared.desk).jobs < 2 {
+        assert!(Instant::now() < deadline, "the change was not noticed");
+        thread::sleep(Duration::from_millis(5));
+    }
+    assert_eq!(builder.wait(LONG), Outcome::Finished);
+    assert_eq!(arrived(&mut delivery), (vec![standard_slot("snare").index()], 1));
+}
+
+#[test]
 fn replaced_pieces_are_dropped_by_the_builder() {
     let mut builder = builder(quick);
     let mut delivery = ordered(&mut builder, RATE);

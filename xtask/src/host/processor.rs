@@ -6,12 +6,13 @@ use clack_host::events::event_types::{ParamGestureBeginEvent, ParamGestureEndEve
 use clack_host::events::io::{EventBuffer, InputEvents, OutputEvents};
 use clack_host::prelude::*;
 use clack_host::process::StartedPluginAudioProcessor;
+use overhear_engine::kit::OUTPUTS;
 
 use super::event::Event;
 use super::handlers::Host;
 
 /// Outputs there is room for. With more the list of channels would have to grow while ports point into it.
-const PORTS: usize = 16;
+const PORTS: usize = 1 + OUTPUTS;
 
 /// What a hand does to a parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
