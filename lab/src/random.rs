@@ -17,10 +17,6 @@ use overhear_engine::numbers::{Numbers, Visitor};
 
 use crate::{Chance, spec};
 
-/// Thinnest random plate, m: cymbals are .5 mm and more. The ranges accept a foil of .1 mm; beaten by 25 m/s, what is
-/// thinner than this bends by dozens of its thickness within a sample.
-const THINNEST: f64 = 4e-4;
-
 /// Sample rate of random pieces, Hz: the lowest that hosts play at.
 pub const RATE: f64 = 44_100.0;
 
@@ -111,7 +107,7 @@ fn draw(
         let wires = piece.drum().is_some_and(|drum| drum.wires.is_some());
         piece.defaults.preload = wires.then(|| 0.03 * 50.0_f64.powf(chance.unit()));
         piece.defaults.muffle = if chance.happens(0.5) { 0.0 } else { chance.unit() };
-        let few = modes(&piece.instrument) < MOST_MODES && thinnest(&piece.instrument) > THINNEST;
+        let few = modes(&piece.instrument) < MOST_MODES;
         if few && piece.drum().is_none_or(is_below_its_air) && piece.check().is_ok() {
             return piece;
         }
@@ -195,15 +191,6 @@ fn is_below_its_air(drum: &DrumSpec) -> bool {
     const FIRST_ACROSS: f64 = 1.841;
     let across = FIRST_ACROSS * SPEED_OF_SOUND / (TAU * drum.radius());
     drum.pitch_of == PitchOf::BatterAlone || drum.highest_pitch_hz < 0.65 * across
-}
-
-/// Thickness of the thinner plate, m; a drum has none.
-fn thinnest(instrument: &InstrumentSpec) -> f64 {
-    match instrument {
-        InstrumentSpec::Drum(_) => f64::INFINITY,
-        InstrumentSpec::Cymbal(cymbal) => cymbal.plate().thickness(),
-        InstrumentSpec::HiHat(hat) => hat.top.plate().thickness().min(hat.bottom.plate().thickness()),
-    }
 }
 
 fn plate_modes(cymbal: &CymbalSpec) -> f64 {

@@ -203,7 +203,7 @@ mod tests {
             plan.longest_first().into_iter().map(|slot| plan.build(slot).unwrap().spec.name).collect();
         assert_eq!(
             names,
-            ["kick", "timpani", "floor-tom", "ride", "hi-hat", "snare", "rack-tom", "crash", "splash"]
+            ["kick", "timpani", "floor-tom", "ride", "snare", "hi-hat", "rack-tom", "crash", "splash"]
         );
     }
 }

@@ -18,7 +18,7 @@ pub struct CymbalSpec {
     /// Diameter, m, 0.1 to 0.8.
     #[serde(rename = "diameter_m")]
     pub diameter: f64,
-    /// Mass, kg, 0.02 to 20.
+    /// Mass, kg, up to 20: that of a plate from 0.4 mm to a hundredth of the diameter thick.
     #[serde(rename = "mass_kg")]
     pub mass: f64,
     /// Rise of the bow's centre over its rim, without the bell, m, 0 (flat) to a quarter of the diameter.
@@ -70,10 +70,10 @@ impl Numbers for CymbalSpec {
         visitor.number("poisson_ratio", &mut self.alloy.poisson_ratio, 0.0..=0.49);
         visitor.number("density_kg_m3", &mut self.alloy.density, 500.0..=25_000.0);
         visitor.leave();
-        // Within 20 kg, what a plate of this metal weighs that is a tenth of a millimetre thick, or a fiftieth of its radius.
+        // Within 20 kg, what a plate of this metal weighs that is as thin or as thick as is accepted.
         let face = self.alloy.density * PI * (0.5 * self.diameter).powi(2);
-        let (lightest, heaviest) = (face * THINNEST, face * THICKEST * self.diameter);
-        visitor.number("mass_kg", &mut self.mass, lightest.max(0.02)..=heaviest.min(20.0));
+        let (lightest, heaviest) = (face * PlateSpec::THINNEST, face * PlateSpec::THICKEST * self.diameter);
+        visitor.number("mass_kg", &mut self.mass, lightest..=heaviest.min(PlateSpec::HEAVIEST));
         visitor.number("bow_m", &mut self.bow, 0.0..=0.25 * self.diameter);
         if let Some(bell) = &mut self.bell {
             let radius = 0.5 * self.diameter;
@@ -91,11 +91,6 @@ impl Numbers for CymbalSpec {
         self.evenness.visit_part("evenness", visitor);
     }
 }
-
-/// Thinnest plate, m, and the thickest, a share of the diameter: thicker than a fiftieth of its radius, a plate's upper
-/// modes shear (Mindlin).
-const THINNEST: f64 = 1e-4;
-const THICKEST: f64 = 0.01;
 
 impl CymbalSpec {
     /// Lowest, default and highest ratio a cymbal's frequencies can be scaled by.
