@@ -20,6 +20,8 @@ _pedalboard.PARAMETER_NAME_REGEXES_TO_IGNORE.add(re.compile(r"MIDI Ch\. \d+ "))
 plugin = pedalboard.VST3Plugin(job["plugin"], plugin_name=job["name"])
 if job["preset"]:
     plugin.load_preset(job["preset"])
+    # It goes on with the parameter values from before the preset, and sets them when it plays. From a state it reads them anew.
+    plugin.raw_state = plugin.raw_state
 # Pedalboard takes seconds and cuts them to a sample: aim behind its start, not at it.
 notes = [([0x99, key, velocity], (sample + 0.25) / job["rate"]) for sample, key, velocity in job["notes"]]
 sound = plugin(
