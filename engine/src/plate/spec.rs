@@ -72,7 +72,12 @@ impl PlateSpec {
         SpecError::check("plate density (kg/m3)", self.density, 500.0, 25_000.0)?;
         // From a thickness to a mass and back, a rounding is lost.
         let (thinnest, thickest, slack) = (Self::THINNEST, Self::THICKEST * self.diameter, 1.0 + 1e-12);
-        SpecError::check("plate thickness by mass (m)", self.thickness(), thinnest / slack, thickest * slack)?;
+        SpecError::check(
+            "plate thickness by mass (m)",
+            self.thickness(),
+            thinnest / slack,
+            thickest * slack,
+        )?;
         Ok(())
     }
 
