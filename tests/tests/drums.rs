@@ -194,6 +194,20 @@ fn a_floor_tom_of_one_head_with_a_fixed_disc_glides_by_25_and_91_cents_and_a_sof
 }
 
 #[test]
+fn the_floor_tom_of_the_kit_glides_as_the_square_of_the_stroke() {
+    let glide =
+        |speed| hear(&spec("floor-tom"), stroke(Striker::Stick, speed, 0.5, 0.0)).glide_cents.unwrap();
+    let [soft, firm, hard] = [1.5, 3.0, 6.0].map(glide);
+    println!("1.5, 3 and 6 m/s: {soft:.2}, {firm:.2} and {hard:.2} cents");
+    // The stretch is quadratic in the displacement, and so in the speed as long as the contact lasts as long.
+    for (less, more) in [(soft, firm), (firm, hard)] {
+        assert!((3.4..4.6).contains(&(more / less)), "{less} and {more} cents");
+    }
+    // By elasticity alone: a head of 16 in at 100 Hz with a second head glides less than one of 82 Hz without.
+    assert!((12.0..45.0).contains(&hard), "{hard} cents");
+}
+
+#[test]
 fn a_pillow_takes_6_db_off_a_kicks_boom() {
     let down = report::drums::pillow_db();
     println!("{down:.1} dB");

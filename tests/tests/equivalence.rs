@@ -1,5 +1,6 @@
 //! The same strikes and controls give the same samples, bit for bit, however time is cut; rest is rest.
 
+use no_denormals::no_denormals;
 use overhear_engine::kit::{Control, Kit};
 use overhear_engine::piece::Piece;
 use overhear_engine::slot::Slot;
@@ -180,6 +181,30 @@ fn a_piece_reset_plays_as_a_new_one() {
         };
         assert!(roll(&mut new) == roll(&mut used), "{name}");
     }
+}
+
+/// The kit struck and left to fade, in blocks; bits of all samples.
+fn fading(seconds: f64) -> Vec<[u32; 2]> {
+    const RATE: f64 = 22_050.0;
+    let mut kit = kit(RATE);
+    for (slot, _) in standard().slots() {
+        kit.strike(slot, &stroke(Striker::Stick, 0.6, 0.4, 1.0));
+    }
+    let mut sound = [vec![0.0; (seconds * RATE) as usize], vec![0.0; (seconds * RATE) as usize]];
+    let [left, right] = &mut sound;
+    kit.render(left, right);
+    left.iter().zip(right.iter()).map(|(left, right)| [left.to_bits(), right.to_bits()]).collect()
+}
+
+/// Hosts call with either mode of the processor. The plugin sets one, whose engine must not depend on it.
+#[test]
+#[allow(unsafe_code)]
+fn flushing_denormals_to_zero_changes_no_bit() {
+    let kept = fading(20.0);
+    // SAFETY: the mode changes for the engine only, which relies on neither.
+    let flushed = unsafe { no_denormals(|| fading(20.0)) };
+    let parts = kept.iter().zip(&flushed).position(|(kept, flushed)| kept != flushed);
+    assert_eq!(parts, None, "parts at {parts:?} of {}", kept.len());
 }
 
 #[test]

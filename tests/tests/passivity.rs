@@ -3,6 +3,7 @@
 
 use std::cell::RefCell;
 
+use overhear_engine::drum::HeadContact;
 use overhear_engine::kit::Control;
 use overhear_engine::kit_spec::PieceSpec;
 use overhear_engine::piece::{BuildOptions, Piece};
@@ -221,6 +222,29 @@ fn a_lossless_drum_keeps_its_energy_for_a_second_from_1_to_25_m_s_centre_to_rim(
             }
         }
         println!("{rate}: off by at most {worst:?}");
+    }
+}
+
+#[test]
+fn a_lossless_head_around_a_tip_keeps_the_energy_at_every_moment_of_the_contact() {
+    // The slower a stroke, the smaller the patch that the head lies against the tip with.
+    for (slot, drum) in standard().drums() {
+        assert_eq!(drum.contact, HeadContact::Wraps);
+        let name = &names()[slot.index()];
+        let mut piece = lossless_piece(name, RATE);
+        for (speed, striker) in [(0.5, Striker::Stick), (3.0, Striker::Stick), (12.0, Striker::PlasticBeater)]
+        {
+            piece.reset();
+            piece.strike(&stroke(striker, speed, 0.3, 0.0));
+            let brought = piece.brought_energy();
+            let worst = (0..250).map(|_| {
+                render(&mut piece, 4.0 / RATE, RATE);
+                (total_energy(&piece) / brought - 1.0).abs()
+            });
+            let worst = worst.fold(0.0, f64::max);
+            println!("{name}, {speed} m/s: off by at most {worst:.1e}");
+            assert!(piece.last_strike().peak_force > 0.0 && worst < 1e-4, "{name}, {speed} m/s: {worst:.1e}");
+        }
     }
 }
 
