@@ -37,9 +37,9 @@ use overhear_engine::snapshot::FieldShapes;
 use tracing::error;
 
 use crate::building::{BuildPlan, Staff};
+use crate::cache;
 use crate::kit_document::KitDocument;
 use crate::performer::Setup;
-use crate::shelf;
 
 use delivery::{Hired, Passing, Queues, Sent, make_room};
 
@@ -133,7 +133,7 @@ impl Builder {
     pub fn new(wanted: Wanted) -> Builder {
         Builder::with(
             |slot, build, options| {
-                shelf::provide();
+                cache::provide();
                 Piece::new(slot, build, options)
             },
             wanted,

@@ -3,12 +3,14 @@
 //! In reading order: a [`kit_document`] is a kit with the notes that play it, and a [`kit_file`] its text; a host's note goes
 //! through the [`midi_map`] to the [`performer`], which owns the engine's kit; [`parameters`] is the table of everything a host
 //! may automate, [`presets`] are values of it, and [`state`] is what a project stores. [`building`] says which pieces are wanted,
-//! [`builder`] makes them on threads of its own, and [`shelf`] holds what outlives the process. [`strokes`] carries strokes of a
-//! hand to the audio thread, [`deadline`] counts buffers that are late.
+//! [`builder`] makes them on threads of its own, and [`cache`] holds tables that outlive the process. [`workers`] render pieces
+//! beside the audio thread. [`strokes`] carries strokes of a hand to the audio thread, [`deadline`] counts buffers that are
+//! late.
 #![deny(unsafe_code)]
 
 pub mod builder;
 pub mod building;
+pub mod cache;
 pub mod deadline;
 pub mod kit_document;
 pub mod kit_file;
@@ -18,9 +20,9 @@ pub mod parameters;
 pub mod performer;
 pub mod placing;
 pub mod presets;
-pub mod shelf;
 pub mod state;
 pub mod strokes;
+pub mod workers;
 
 /// The instrument's name in hosts.
 pub const NAME: &str = "Overhear";
