@@ -7,11 +7,11 @@
 
 use std::f64::consts::TAU;
 
-use overhear_kept::{Kept, Shared};
 use serde::{Deserialize, Serialize};
 
 use crate::MARK;
 use crate::air;
+use crate::cache::{Cache, Shared};
 use crate::damping::{LossLaw, Muffler, SIGMA_T60, Thermoelastic};
 use crate::error::SpecError;
 use crate::fitted;
@@ -378,7 +378,7 @@ pub(crate) struct SoundingPlate {
 }
 
 /// What has been worked out of late.
-static PLATES: Kept<SoundingPlate> = Kept::new("plate", MARK, 16);
+static PLATES: Cache<SoundingPlate> = Cache::new("plate", MARK, 16);
 
 impl SoundingPlate {
     /// A cymbal's, up to a frequency.

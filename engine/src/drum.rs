@@ -15,11 +15,11 @@ pub mod spec;
 pub mod stretch;
 pub mod tuned;
 
-use overhear_kept::{Kept, Shared};
 use serde::Serialize;
 
 use crate::MARK;
 use crate::air::SPEED_OF_SOUND;
+use crate::cache::{Cache, Shared};
 use crate::damping::{Muffler, SIGMA_T60};
 use crate::error::SpecError;
 use crate::glide::Glide;
@@ -90,8 +90,8 @@ fn blueprint_key(spec: &DrumSpec) -> impl Serialize {
 }
 
 /// What has been worked out of late.
-static BLUEPRINTS: Kept<Blueprint> = Kept::new("drum", MARK, 24);
-static HEARINGS: Kept<[Hearing; 2]> = Kept::new("hearing", MARK, 24);
+static BLUEPRINTS: Cache<Blueprint> = Cache::new("drum", MARK, 24);
+static HEARINGS: Cache<[Hearing; 2]> = Cache::new("hearing", MARK, 24);
 
 /// A drum that can be struck.
 pub struct Drum {

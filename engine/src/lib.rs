@@ -10,6 +10,7 @@
 #![warn(missing_docs)]
 
 pub mod air;
+pub mod cache;
 pub mod cavity;
 pub mod contact;
 pub mod cymbal;

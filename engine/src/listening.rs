@@ -20,10 +20,10 @@ pub(crate) mod rings;
 
 use std::f64::consts::{PI, TAU};
 
-use overhear_kept::Shared;
 use serde::{Deserialize, Serialize};
 
 use crate::air::{DENSITY, SPEED_OF_SOUND};
+use crate::cache::Shared;
 use crate::math::quadrature::{self, GaussLegendre};
 use crate::numbers::{Numbers, Visitor};
 use crate::piece::Member;

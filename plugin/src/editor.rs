@@ -23,12 +23,12 @@ use nice_plug_egui::{
 };
 use overhear_engine::slot::Slot;
 
-use crate::NAME;
-use crate::builder::Shapes;
 use crate::host_parameters::{HostParameters, SMALLEST_WINDOW};
 use crate::monitor::{AUDIBLE, Viewer};
-use crate::presets::Library;
-use crate::strokes::Strokes;
+use overhear_player::NAME;
+use overhear_player::builder::Shapes;
+use overhear_player::presets::Library;
+use overhear_player::strokes::Strokes;
 
 mod field;
 mod history;

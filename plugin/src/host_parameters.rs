@@ -12,16 +12,16 @@ use nice_plug::params::persist::{deserialize_field, serialize_field};
 use nice_plug::prelude::*;
 use overhear_engine::error::SpecError;
 
-use crate::deadline::Deadlines;
-use crate::kit_document::KitDocument;
-use crate::midi::assignments::{Assignment, Assignments, NOTES};
-use crate::midi::maps::NoteMap;
-use crate::parameters::{
+use crate::view::View;
+use overhear_player::deadline::Deadlines;
+use overhear_player::kit_document::KitDocument;
+use overhear_player::midi::assignments::{Assignment, Assignments, NOTES};
+use overhear_player::midi::maps::NoteMap;
+use overhear_player::parameters::{
     BYPASS_GROUP, BYPASS_ID, Drives, Manner, Parameter, from_text, host_id, parameters, slot_parameter, text,
 };
-use crate::presets::{Library, Program, Programs};
-use crate::state;
-use crate::view::View;
+use overhear_player::presets::{Library, Program, Programs};
+use overhear_player::state;
 
 /// Logical size of the editor's window, pixels: width, height.
 pub type WindowSize = (u32, u32);
@@ -308,8 +308,8 @@ unsafe impl Params for HostParameters {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::parameters::{COUNT, find, is_live};
     use overhear_engine::kit_spec::KitSpec;
+    use overhear_player::parameters::{COUNT, find, is_live};
 
     #[test]
     fn the_host_sees_the_table_in_its_order() {
@@ -382,7 +382,7 @@ mod tests {
         assert_eq!(shown("ride_tune"), "0.00 st");
         let mut kit = KitSpec::standard();
         kit.pieces.swap(0, 5);
-        let notes = crate::midi_map::NoteTable::standard(&kit);
+        let notes = overhear_player::midi_map::NoteTable::standard(&kit);
         host.set_document(Arc::new(KitDocument { kit, notes })).unwrap();
         assert_eq!((shown("kick_tune"), shown("ride_tune")), ("0.00 st".to_owned(), format!("{own:.2} Hz")));
     }

@@ -10,8 +10,8 @@ use overhear_engine::snapshot::KitSnapshot;
 use rtrb::{Consumer, Producer, RingBuffer};
 use triple_buffer::{Input, Output, TripleBuffer};
 
-use crate::performer::Performer;
 use crate::sound::Sound;
+use overhear_player::performer::Performer;
 
 /// Snapshots a second: a little above what screens show, so that no frame lacks a new one.
 const SNAPSHOT_RATE: f64 = 85.0;
@@ -181,9 +181,9 @@ fn carry_peaks(from: &KitSnapshot, into: &mut KitSnapshot) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kit_document::{KitDocument, standard_slot};
     use overhear_engine::piece::{BuildOptions, Piece, Quality};
     use overhear_engine::strike::{Strike, Striker};
+    use overhear_player::kit_document::{KitDocument, standard_slot};
 
     #[test]
     fn snapshots_appear_at_their_rate_whatever_the_buffers() {

@@ -23,8 +23,8 @@ pub trait Outputs: Send + 'static {
 pub struct Mix;
 
 impl Outputs for Mix {
-    const NAME: &'static str = crate::NAME;
-    const CLAP_ID: &'static str = crate::CLAP_ID;
+    const NAME: &'static str = overhear_player::NAME;
+    const CLAP_ID: &'static str = overhear_player::CLAP_ID;
     const VST3_ID: [u8; 16] = *b"OverhearDrumKit1";
     const ABOUT: &'static str = "A physically modelled drum kit";
     const LAYOUT: AudioIOLayout =
@@ -35,8 +35,8 @@ impl Outputs for Mix {
 pub struct Apart;
 
 impl Outputs for Apart {
-    const NAME: &'static str = crate::MULTI_NAME;
-    const CLAP_ID: &'static str = crate::MULTI_CLAP_ID;
+    const NAME: &'static str = overhear_player::MULTI_NAME;
+    const CLAP_ID: &'static str = overhear_player::MULTI_CLAP_ID;
     const VST3_ID: [u8; 16] = *b"OverhearDrumKitM";
     const ABOUT: &'static str = "A physically modelled drum kit with an output for every piece";
     const LAYOUT: AudioIOLayout = AudioIOLayout {
@@ -132,9 +132,9 @@ fn cut<'b>(pair: &'b mut Stereo<'_>, from: usize, to: usize) -> Stereo<'b> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::parameters::SlotParameter::Level;
-    use crate::parameters::{parameters, slot_index};
     use overhear_engine::slot::{SLOTS, Slot};
+    use overhear_player::parameters::SlotParameter::Level;
+    use overhear_player::parameters::{parameters, slot_index};
 
     #[test]
     fn outputs_are_called_as_the_standard_kit_s_parameters_are() {

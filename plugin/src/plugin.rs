@@ -2,7 +2,7 @@
 //!
 //! Threads: the host creates, activates and drops it on its main thread and calls
 //! [`process`](Plugin::process) on an audio thread, never both at once. Pieces come from the
-//! [builder](crate::builder)'s thread; the editor sees [snapshots](crate::monitor) only.
+//! [builder](overhear_player::builder)'s thread; the editor sees [snapshots](crate::monitor) only.
 //!
 //! The framework calls `process` once per slice between parameter changes, so that values moved
 //! here at its start are sample-accurate. Notes do not cut slices and are met among the events, each at its
@@ -16,17 +16,17 @@ use std::time::Duration;
 
 use nice_plug::prelude::*;
 
-use crate::builder::{Arrival, Builder, Delivery, Outcome};
-use crate::building::{BuildPlan, Pace};
 use crate::bypass::Bypass;
 use crate::editor::OverhearEditor;
 use crate::host_parameters::{self, HostParameters};
 use crate::monitor::{self, Publisher, Viewer};
 use crate::outputs::{Apart, Buffers, Mix, Outputs};
-use crate::parameters::parameters;
-use crate::performer::Performer;
 use crate::state;
-use crate::strokes::{self, Strokes, Waiting};
+use overhear_player::builder::{Arrival, Builder, Delivery, Outcome};
+use overhear_player::building::{BuildPlan, Pace};
+use overhear_player::parameters::parameters;
+use overhear_player::performer::Performer;
+use overhear_player::strokes::{self, Strokes, Waiting};
 
 mod events;
 

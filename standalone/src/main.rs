@@ -6,7 +6,7 @@
 use std::process::ExitCode;
 
 use nice_plug::prelude::nice_export_standalone;
-use overhear::plugin::Overhear;
+use overhear_shell::plugin::Overhear;
 
 fn main() -> ExitCode {
     if nice_export_standalone::<Overhear>() { ExitCode::SUCCESS } else { ExitCode::FAILURE }

@@ -8,6 +8,7 @@ use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use overhear_engine::MARK;
+use overhear_engine::cache::{DiskCache, forget, name_of, provide};
 use overhear_engine::drum::{DrumSpec, ResonantSpec};
 use overhear_engine::kit::BLOCK;
 use overhear_engine::kit_spec::{Defaults, InstrumentSpec, PieceSpec, PlaceSpec};
@@ -15,7 +16,6 @@ use overhear_engine::modal::{EARS, Port};
 use overhear_engine::piece::{BuildOptions, ModeInfo, Quality};
 use overhear_engine::split::Splitting;
 use overhear_engine::strike::Striker;
-use overhear_kept::{Shelf, forget, name_of, provide};
 use overhear_tests::{RATES, altered, build, render_into, spec, stroke};
 
 /// A shelf in memory that counts and can do harm.
@@ -27,7 +27,7 @@ struct Counting {
     harmful: Arc<AtomicBool>,
 }
 
-impl Shelf for Counting {
+impl DiskCache for Counting {
     fn take(&self, name: &str) -> Option<Vec<u8>> {
         let mut bytes = self.files.lock().unwrap().get(name)?.clone();
         self.found.fetch_add(1, Ordering::Relaxed);

@@ -5,7 +5,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use assert_no_alloc::{AllocDisabler, assert_no_alloc, reset_violation_count, violation_count};
-use overhear_crew::{Patience, Workers};
+use overhear::workers::{Patience, Workers};
 use overhear_engine::kit::{Control, Crew, Kit, Microphone, Post};
 use overhear_engine::kit_spec::KitSpec;
 use overhear_engine::slot::Slot;

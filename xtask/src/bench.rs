@@ -22,10 +22,10 @@ use std::time::Instant;
 use anyhow::{Context, Result};
 use cpu_time::ProcessTime;
 use overhear::building::{BuildPlan, Pace};
+use overhear::cache::FolderCache;
 use overhear::kit_document::KitDocument;
 use overhear::parameters::default_value;
 use overhear::performer::Performer;
-use overhear::shelf::FolderShelf;
 use overhear_engine::kit_spec::Kind;
 use overhear_engine::modal::simd::Kernels;
 use overhear_engine::modal::simd::level::{self, InstructionSet};
@@ -174,10 +174,10 @@ impl Builds {
         drop(kit);
         // As the plugin keeps it; what an earlier process left has no part in it.
         let folder = std::env::temp_dir().join(format!("overhear-bench-{}", std::process::id()));
-        overhear_kept::provide(Box::new(FolderShelf::new(&folder)));
-        overhear_kept::forget();
+        overhear_engine::cache::provide(Box::new(FolderCache::new(&folder)));
+        overhear_engine::cache::forget();
         build(document, rate)?;
-        overhear_kept::forget();
+        overhear_engine::cache::forget();
         let from_disk = build(document, rate);
         // What is left in a folder for what is temporary harms nobody.
         let _ = std::fs::remove_dir_all(&folder);

@@ -7,7 +7,7 @@
 
 use std::f64::consts::PI;
 
-use overhear_kept::{Numbered, Shared};
+use crate::cache::{Numbered, Shared};
 
 /// Nodes and weights on an interval.
 #[derive(Debug, Clone, PartialEq)]

@@ -30,13 +30,13 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use nalgebra::{Complex, DMatrix, DVector};
-use overhear_kept::Shared;
 use pulp::{Arch, Simd, WithSimd};
 
 use serde::{Deserialize, Serialize};
 
 use super::radial::angular_norm;
 use crate::air::{DENSITY, SPEED_OF_SOUND};
+use crate::cache::Shared;
 use crate::listening::rings::Rings;
 use crate::listening::{ListeningPoint, Radiator};
 use crate::math::bessel;

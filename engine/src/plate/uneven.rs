@@ -26,12 +26,12 @@
 use std::f64::consts::PI;
 
 use nalgebra::{Cholesky, DMatrix};
-use overhear_kept::Shared;
 
 use super::bent::Bent;
 use super::dome::Shell;
 use super::radial::{RadialMode, angular_norm};
 use super::spec::PlateSpec;
+use crate::cache::Shared;
 use crate::math::bessel::{ITable, JTable};
 use crate::math::quadrature::{self, GaussLegendre};
 use crate::math::{eigen, jacobi};

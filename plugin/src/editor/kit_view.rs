@@ -14,8 +14,8 @@ use overhear_engine::snapshot::{FieldShapes, KitSnapshot, PieceSnapshot, StrikeS
 
 use super::field::{self, Magnifier, Refined};
 use super::theme::{self, Palette};
-use crate::kit_document::KitDocument;
-use crate::parameters::Stand;
+use overhear_player::kit_document::KitDocument;
+use overhear_player::parameters::Stand;
 
 pub mod bodies;
 pub mod camera;

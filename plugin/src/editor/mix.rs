@@ -10,7 +10,7 @@ use super::knob::{self, Gesture};
 use super::levels::{self, Levels};
 use super::theme;
 use super::values::{Item, Values};
-use crate::parameters::SlotParameter;
+use overhear_player::parameters::SlotParameter;
 
 /// Height of a knob with its name and value, points.
 const KNOB: f32 = 82.0;

@@ -5,8 +5,8 @@ use overhear_engine::kit::Microphone;
 
 use super::kit_view::Moved;
 use super::knob::Gesture;
-use crate::parameters::{Stand, parameters};
-use crate::placing::index_of;
+use overhear_player::parameters::{Stand, parameters};
+use overhear_player::placing::index_of;
 
 /// Everything that a drag may move.
 const STANDS: [Stand; 3] = [Stand::Height, Stand::Depth, Stand::Width];

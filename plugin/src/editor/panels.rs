@@ -20,13 +20,13 @@ use super::stage::{self, Stage};
 use super::status::{self, Late, Latest};
 use super::values::Values;
 use super::{knobs, list, physics, settings, theme};
-use crate::NAME;
 use crate::host_parameters::HostParameters;
-use crate::kit_document::KitDocument;
-use crate::presets::Library;
 use crate::sound::Sound;
-use crate::strokes::Stroke;
 use crate::view::View;
+use overhear_player::NAME;
+use overhear_player::kit_document::KitDocument;
+use overhear_player::presets::Library;
+use overhear_player::strokes::Stroke;
 
 /// Space around and between panels, points.
 const GAP: f32 = 8.0;

@@ -6,10 +6,10 @@ use overhear_engine::slot::Slot;
 use super::theme;
 use super::values::Values;
 use crate::host_parameters::HostParameters;
-use crate::kit_document::KitDocument;
-use crate::midi::assignments::{Assignment, Assignments};
-use crate::midi::maps::NoteMap;
-use crate::midi_map::{Meaning, NoteTable, Row};
+use overhear_player::kit_document::KitDocument;
+use overhear_player::midi::assignments::{Assignment, Assignments};
+use overhear_player::midi::maps::NoteMap;
+use overhear_player::midi_map::{Meaning, NoteTable, Row};
 
 /// Height of a note's row, points.
 const ROW: f32 = 24.0;

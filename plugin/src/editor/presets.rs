@@ -9,7 +9,7 @@ use super::history::put;
 use super::knob::Gesture;
 use super::theme;
 use crate::host_parameters::HostParameters;
-use crate::presets::{DEFAULT, Entry, Library, Origin, Preset, PresetError};
+use overhear_player::presets::{DEFAULT, Entry, Library, Origin, Preset, PresetError};
 
 /// What a name is being typed for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -146,8 +146,8 @@ fn apply(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::parameters::{find, parse_assignment};
     use overhear_engine::kit_spec::KitSpec;
+    use overhear_player::parameters::{find, parse_assignment};
 
     #[test]
     fn a_preset_moves_what_differs_and_nothing_else() {

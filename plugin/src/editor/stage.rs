@@ -7,8 +7,8 @@ use overhear_engine::strike::{Strike, Striker};
 use super::kit_view::surfaces::Tint;
 use super::kit_view::{Done, KitView, Seen, Target, stroke_near};
 use super::theme;
-use crate::midi_map::NoteTable;
-use crate::strokes::Stroke;
+use overhear_player::midi_map::NoteTable;
+use overhear_player::strokes::Stroke;
 
 /// Slowest stroke of a hand, m/s: as of a note's lowest velocity.
 pub const SLOWEST: f32 = 0.4;

@@ -8,11 +8,11 @@ use overhear_engine::snapshot::{FIELD_MODES, FieldShapes, KitSnapshot};
 use super::knob::Gesture;
 use super::panels::Page;
 use super::*;
-use crate::kit_document::KitDocument;
-use crate::parameters::{self, SlotParameter};
 use crate::sound::Sound;
-use crate::strokes::Stroke;
 use crate::view::View;
+use overhear_player::kit_document::KitDocument;
+use overhear_player::parameters::{self, SlotParameter};
+use overhear_player::strokes::Stroke;
 
 mod kits;
 mod pages;

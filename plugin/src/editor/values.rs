@@ -6,7 +6,7 @@ use overhear_engine::slot::Slot;
 
 use super::history::put;
 use super::knob::Gesture;
-use crate::parameters::{self, Parameter, ParameterError, SLOT_COUNT, SlotParameter, parameters};
+use overhear_player::parameters::{self, Parameter, ParameterError, SLOT_COUNT, SlotParameter, parameters};
 
 /// The parameters of an instance and the kit that they are about.
 #[derive(Clone, Copy)]

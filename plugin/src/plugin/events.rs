@@ -8,7 +8,7 @@ use nice_plug::prelude::*;
 
 use crate::host_parameters::HostParameters;
 use crate::outputs::Buffers;
-use crate::performer::Performer;
+use overhear_player::performer::Performer;
 
 /// Notes of one sample that can wait; more than one has limbs and pads.
 const MOST_NOTES: usize = 16;

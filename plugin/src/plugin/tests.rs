@@ -1,7 +1,7 @@
 use overhear_engine::snapshot::KitSnapshot;
 
 use super::*;
-use crate::kit_document::KitDocument;
+use overhear_player::kit_document::KitDocument;
 
 const RATE: f64 = 48_000.0;
 
@@ -193,7 +193,7 @@ fn another_kit_is_there_before_it_is_played() {
     instance.prepare(48_000.0, false);
     let mut other = KitDocument::standard();
     other.kit.pieces.truncate(2);
-    other.notes = crate::midi_map::NoteTable::standard(&other.kit);
+    other.notes = overhear_player::midi_map::NoteTable::standard(&other.kit);
     instance.parameters.set_document(Arc::new(other.clone())).unwrap();
     instance.prepare(48_000.0, false);
     let performer = &mut instance.stage.as_mut().unwrap().performer;

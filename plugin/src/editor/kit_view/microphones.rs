@@ -12,8 +12,8 @@ use super::light::shade;
 use super::scene::Scene;
 use super::vector::{V3, add, between, length, scale, sub, unit};
 use crate::editor::theme::{self, Palette};
-use crate::parameters::Stand;
-use crate::placing;
+use overhear_player::parameters::Stand;
+use overhear_player::placing;
 
 /// A microphone: its place, what it points at, its colour.
 pub struct Shown {
@@ -160,8 +160,8 @@ mod tests {
     use super::*;
     use crate::editor::kit_view::camera::{Aim, Camera};
     use crate::editor::theme::DARK;
-    use crate::parameters::parameters;
     use egui::Rect;
+    use overhear_player::parameters::parameters;
 
     fn default(index: usize) -> Option<f32> {
         Some(parameters().get(index)?.default)

@@ -7,8 +7,8 @@ use overhear_engine::strike::Striker;
 use super::bodies::Body;
 use super::camera::Eye;
 use super::vector::{V3, add, dot, scale, sub};
-use crate::kit_document::KitDocument;
-use crate::midi_map::{Meaning, NoteTable, Row, Stroke};
+use overhear_player::kit_document::KitDocument;
+use overhear_player::midi_map::{Meaning, NoteTable, Row, Stroke};
 
 /// A place on a piece.
 #[derive(Debug, Clone, Copy, PartialEq)]

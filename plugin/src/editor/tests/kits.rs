@@ -5,7 +5,7 @@ use overhear_engine::kit_spec::{InstrumentSpec, PieceSpec};
 use overhear_engine::strike::Striker;
 
 use super::*;
-use crate::midi_map::{Meaning, Row, Stroke as NoteStroke};
+use overhear_player::midi_map::{Meaning, Row, Stroke as NoteStroke};
 
 impl Window {
     /// A window of a kit.
@@ -72,7 +72,7 @@ fn fourteen() -> KitDocument {
     ];
     let kit = KitSpec { pieces, ..standard };
     let (left_kick, _) = kit.find("left-kick").unwrap();
-    let mut notes = crate::midi_map::NoteTable::standard(&kit);
+    let mut notes = overhear_player::midi_map::NoteTable::standard(&kit);
     let stroke = NoteStroke { slot: left_kick, radius: 0.2, angle: 0.0, striker: Striker::PlasticBeater };
     let row = Row { name: "Left Kick".to_owned(), meaning: Meaning::Strikes(stroke), pedal: None };
     notes.set(33, Some(row));
@@ -83,7 +83,7 @@ fn fourteen() -> KitDocument {
 /// One piece of the standard kit.
 fn alone(name: &str) -> KitDocument {
     let kit = KitSpec::standard().alone(slot_of(name)).unwrap();
-    KitDocument { notes: crate::midi_map::NoteTable::standard(&kit), kit }
+    KitDocument { notes: overhear_player::midi_map::NoteTable::standard(&kit), kit }
 }
 
 #[test]

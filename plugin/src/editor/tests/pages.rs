@@ -5,10 +5,10 @@ use std::collections::BTreeMap;
 use overhear_engine::slot::SLOTS;
 
 use super::*;
-use crate::building::Pace;
-use crate::midi::assignments::Assignment;
-use crate::performer::Performer;
-use crate::strokes::strokes;
+use overhear_player::building::Pace;
+use overhear_player::midi::assignments::Assignment;
+use overhear_player::performer::Performer;
+use overhear_player::strokes::strokes;
 
 /// Sample rate, Hz.
 const RATE: f64 = 48_000.0;
@@ -184,9 +184,9 @@ fn the_snare_is_where_hands_of_other_tests_find_it() {
 
 #[test]
 fn a_microphone_that_is_dragged_moves_its_pair_by_gestures_of_the_host() {
-    use crate::parameters::{Stand, find, parameters};
-    use crate::placing::index_of;
     use overhear_engine::kit::Microphone;
+    use overhear_player::parameters::{Stand, find, parameters};
+    use overhear_player::placing::index_of;
 
     let mut window = Window::new();
     window.size = vec2(1080.0, 700.0);

@@ -13,8 +13,8 @@ use clap_sys::events::{
 };
 
 use crate::host_parameters::HostParameters;
-use crate::parameters::{COUNT, host_id, parameters};
-use crate::presets::Program;
+use overhear_player::parameters::{COUNT, host_id, parameters};
+use overhear_player::presets::Program;
 
 /// Most events of a buffer that can be written anew.
 const MOST_EVENTS: usize = 16_384;

@@ -10,7 +10,7 @@ use clap_sys::process::CLAP_PROCESS_CONTINUE;
 use overhear_engine::kit::OUTPUTS;
 
 use super::*;
-use crate::kit_document::standard_slot;
+use overhear_player::kit_document::standard_slot;
 
 pub(in crate::entry) const FRAMES: usize = 512;
 const PORTS: usize = 1 + OUTPUTS;
@@ -149,7 +149,7 @@ pub(in crate::entry) fn struck(
 #[test]
 fn outputs_that_are_left_out_neither_silence_nor_change_the_others() {
     let snare = 1 + standard_slot("snare").index();
-    let mut multi = Instance::new(crate::MULTI_CLAP_ID);
+    let mut multi = Instance::new(overhear_player::MULTI_CLAP_ID);
     let whole = struck(&mut multi, PORTS, |_, _| {});
     assert!(whole[0][0].iter().any(|sample| *sample != 0.0));
     assert!(whole[snare][0].iter().any(|sample| *sample != 0.0));
@@ -184,14 +184,14 @@ fn outputs_that_are_left_out_neither_silence_nor_change_the_others() {
 
 #[test]
 fn the_mix_of_both_instruments_is_the_same() {
-    let mix = struck(&mut Instance::new(crate::CLAP_ID), 1, |_, _| {});
-    let multi = struck(&mut Instance::new(crate::MULTI_CLAP_ID), PORTS, |_, _| {});
+    let mix = struck(&mut Instance::new(overhear_player::CLAP_ID), 1, |_, _| {});
+    let multi = struck(&mut Instance::new(overhear_player::MULTI_CLAP_ID), PORTS, |_, _| {});
     assert!(mix[0] == multi[0]);
 }
 
 #[test]
 fn notes_have_names() {
-    let instance = Instance::new(crate::CLAP_ID);
+    let instance = Instance::new(overhear_player::CLAP_ID);
     // SAFETY: the calls a host makes.
     let found = unsafe {
         let extension = get_extension(instance.plugin, CLAP_EXT_NOTE_NAME.as_ptr());

@@ -11,7 +11,7 @@ use nice_plug::wrapper::vst3::vst3::Steinberg::Vst::{
 
 use super::*;
 use crate::entry::clap::tests::{FRAMES, Instance, struck};
-use crate::kit_document::standard_slot;
+use overhear_player::kit_document::standard_slot;
 
 const BUSES: usize = 1 + OUTPUTS;
 
@@ -154,7 +154,7 @@ fn outputs_that_are_left_out_do_not_keep_the_others_from_being_written() {
 fn every_output_is_that_of_the_other_format() {
     let events = ComWrapper::new(Stroke).to_com_ptr::<IEventList>().unwrap();
     let vst3 = played(&multi(), events.as_ptr(), BUSES, |_, _| {});
-    let clap = struck(&mut Instance::new(crate::MULTI_CLAP_ID), BUSES, |_, _| {});
+    let clap = struck(&mut Instance::new(overhear_player::MULTI_CLAP_ID), BUSES, |_, _| {});
     for (bus, (vst3, clap)) in vst3.iter().zip(&clap).enumerate() {
         assert!(vst3 == clap, "bus {bus}");
     }
@@ -187,7 +187,7 @@ fn units_hang_from_a_root_and_notes_have_names() {
         assert_eq!(guard.getUnitInfo(0, &mut unit), kResultOk);
         assert_eq!((unit.programListId, list.programCount), (list.id, 1));
         assert_eq!(guard.getProgramName(list.id, 0, &mut name), kResultOk);
-        assert_eq!(text(&name), crate::MULTI_NAME);
+        assert_eq!(text(&name), overhear_player::MULTI_NAME);
         assert_eq!(guard.hasProgramPitchNames(list.id, 0), kResultOk);
         assert_eq!(guard.getProgramPitchName(list.id, 0, 38, &mut name), kResultOk);
         assert_eq!(text(&name), "Acoustic Snare");

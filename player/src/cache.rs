@@ -1,4 +1,4 @@
-//! Where built pieces' tables outlive the process: a folder of checked files in the platform's cache.
+//! The disk cache of built pieces' tables: a folder of checked files in the platform's cache.
 //!
 //! Linux: `~/.cache/overhear`, macOS: `~/Library/Caches/org.Overhear.Overhear`, Windows:
 //! `%LOCALAPPDATA%\Overhear\Overhear\cache`. Everything in it can be deleted at any time. A file holds
@@ -8,7 +8,7 @@
 //! 8   4        version of this format, little-endian as all numbers
 //! 12  4        CRC-32 of the contents
 //! 16  8        length of the contents, bytes
-//! 24           the contents, as `overhear_kept` has packed them
+//! 24           the contents, as the engine's cache has packed them
 //! ```
 //!
 //! and is taken only if all of it is right; whatever is not is as good as missing, and written anew. Its
@@ -24,7 +24,7 @@ use std::sync::Once;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use directories::ProjectDirs;
-use overhear_kept::Shelf;
+use overhear_engine::cache::{self, DiskCache};
 
 /// What files begin with, the version of what follows, and where the contents begin.
 const SIGNATURE: [u8; 8] = *b"OVERHEAR";
@@ -38,19 +38,19 @@ const EXTENSION: &str = "kept";
 const MOST_FILES: usize = 256;
 
 /// A folder of checked files.
-pub struct FolderShelf {
+pub struct FolderCache {
     folder: PathBuf,
 }
 
-impl FolderShelf {
+impl FolderCache {
     /// In a folder, which is made when something is first put there.
-    pub fn new(folder: impl Into<PathBuf>) -> FolderShelf {
-        FolderShelf { folder: folder.into() }
+    pub fn new(folder: impl Into<PathBuf>) -> FolderCache {
+        FolderCache { folder: folder.into() }
     }
 
     /// In the platform's cache; none if the platform names no such folder.
-    pub fn of_platform() -> Option<FolderShelf> {
-        ProjectDirs::from("org", "Overhear", "Overhear").map(|places| FolderShelf::new(places.cache_dir()))
+    pub fn of_platform() -> Option<FolderCache> {
+        ProjectDirs::from("org", "Overhear", "Overhear").map(|places| FolderCache::new(places.cache_dir()))
     }
 
     fn path(&self, name: &str) -> PathBuf {
@@ -91,7 +91,7 @@ impl FolderShelf {
     }
 }
 
-impl Shelf for FolderShelf {
+impl DiskCache for FolderCache {
     fn take(&self, name: &str) -> Option<Vec<u8>> {
         opened(fs::read(self.path(name)).ok()?)
     }
@@ -120,12 +120,12 @@ fn opened(mut bytes: Vec<u8>) -> Option<Vec<u8>> {
     Some(bytes.split_off(HEADER))
 }
 
-/// Lets what is built outlive the process, from now on; once.
+/// Lets the tables of built pieces outlive the process from now on. Calls after the first do nothing.
 pub fn provide() {
     static ONCE: Once = Once::new();
     ONCE.call_once(|| {
-        if let Some(shelf) = FolderShelf::of_platform() {
-            overhear_kept::provide(Box::new(shelf));
+        if let Some(disk) = FolderCache::of_platform() {
+            cache::provide(Box::new(disk));
         }
     });
 }
@@ -136,13 +136,13 @@ mod tests {
 
     use super::*;
 
-    fn shelf(name: &str) -> FolderShelf {
-        let folder = std::env::temp_dir().join(format!("overhear-shelf-{name}-{}", std::process::id()));
+    fn cache(name: &str) -> FolderCache {
+        let folder = std::env::temp_dir().join(format!("overhear-cache-{name}-{}", std::process::id()));
         let _ = fs::remove_dir_all(&folder);
-        FolderShelf::new(folder)
+        FolderCache::new(folder)
     }
 
-    /// What a shelf has kept.
+    /// The files of a cache.
     fn files(folder: &Path) -> Vec<PathBuf> {
         let entries = fs::read_dir(folder).into_iter().flatten().flatten();
         let paths = entries.map(|entry| entry.path());
@@ -151,63 +151,63 @@ mod tests {
 
     #[test]
     fn what_was_put_is_taken() {
-        let shelf = shelf("put");
-        assert_eq!(shelf.take("a"), None);
-        shelf.put("a", b"some numbers");
-        shelf.put("b", b"");
-        assert_eq!(shelf.take("a").as_deref(), Some(&b"some numbers"[..]));
-        assert_eq!(shelf.take("b").as_deref(), Some(&b""[..]));
-        fs::remove_dir_all(&shelf.folder).unwrap();
+        let cache = cache("put");
+        assert_eq!(cache.take("a"), None);
+        cache.put("a", b"some numbers");
+        cache.put("b", b"");
+        assert_eq!(cache.take("a").as_deref(), Some(&b"some numbers"[..]));
+        assert_eq!(cache.take("b").as_deref(), Some(&b""[..]));
+        fs::remove_dir_all(&cache.folder).unwrap();
     }
 
     #[test]
     fn what_is_cut_short_or_has_a_wrong_bit_anywhere_is_not_taken_and_can_be_put_anew() {
-        let shelf = shelf("harm");
-        shelf.put("a", b"some numbers");
-        let whole = fs::read(shelf.path("a")).unwrap();
+        let cache = cache("harm");
+        cache.put("a", b"some numbers");
+        let whole = fs::read(cache.path("a")).unwrap();
         for length in 0..whole.len() {
-            fs::write(shelf.path("a"), &whole[..length]).unwrap();
-            assert_eq!(shelf.take("a"), None, "cut to {length}");
+            fs::write(cache.path("a"), &whole[..length]).unwrap();
+            assert_eq!(cache.take("a"), None, "cut to {length}");
         }
         for bit in 0..8 * whole.len() {
             let mut harmed = whole.clone();
             harmed[bit / 8] ^= 1 << (bit % 8);
-            fs::write(shelf.path("a"), &harmed).unwrap();
-            assert_eq!(shelf.take("a"), None, "bit {bit}");
+            fs::write(cache.path("a"), &harmed).unwrap();
+            assert_eq!(cache.take("a"), None, "bit {bit}");
         }
-        fs::write(shelf.path("a"), [&whole[..], b"!"].concat()).unwrap();
-        assert_eq!(shelf.take("a"), None, "too long");
-        shelf.put("a", b"other numbers");
-        assert_eq!(shelf.take("a").as_deref(), Some(&b"other numbers"[..]));
-        fs::remove_dir_all(&shelf.folder).unwrap();
+        fs::write(cache.path("a"), [&whole[..], b"!"].concat()).unwrap();
+        assert_eq!(cache.take("a"), None, "too long");
+        cache.put("a", b"other numbers");
+        assert_eq!(cache.take("a").as_deref(), Some(&b"other numbers"[..]));
+        fs::remove_dir_all(&cache.folder).unwrap();
     }
 
     #[test]
     fn another_version_is_not_taken() {
-        let shelf = shelf("version");
-        shelf.put("a", b"some numbers");
-        let mut bytes = fs::read(shelf.path("a")).unwrap();
+        let cache = cache("version");
+        cache.put("a", b"some numbers");
+        let mut bytes = fs::read(cache.path("a")).unwrap();
         bytes[8..12].copy_from_slice(&(VERSION + 1).to_le_bytes());
-        fs::write(shelf.path("a"), bytes).unwrap();
-        assert_eq!(shelf.take("a"), None);
-        fs::remove_dir_all(&shelf.folder).unwrap();
+        fs::write(cache.path("a"), bytes).unwrap();
+        assert_eq!(cache.take("a"), None);
+        fs::remove_dir_all(&cache.folder).unwrap();
     }
 
     #[test]
     fn a_folder_that_cannot_be_made_is_done_without() {
-        let shelf = shelf("file");
-        fs::write(&shelf.folder, b"in the way").unwrap();
-        shelf.put("a", b"some numbers");
-        assert_eq!(shelf.take("a"), None);
-        fs::remove_file(&shelf.folder).unwrap();
+        let cache = cache("file");
+        fs::write(&cache.folder, b"in the way").unwrap();
+        cache.put("a", b"some numbers");
+        assert_eq!(cache.take("a"), None);
+        fs::remove_file(&cache.folder).unwrap();
     }
 
     #[test]
     fn the_folder_does_not_grow_without_end() {
-        let shelf = shelf("many");
-        (0..MOST_FILES + 20).for_each(|i| shelf.put(&format!("{i}"), &[i as u8]));
-        assert_eq!(files(&shelf.folder).len(), MOST_FILES);
-        assert_eq!(shelf.take(&format!("{}", MOST_FILES + 19)), Some(vec![(MOST_FILES + 19) as u8]));
-        fs::remove_dir_all(&shelf.folder).unwrap();
+        let cache = cache("many");
+        (0..MOST_FILES + 20).for_each(|i| cache.put(&format!("{i}"), &[i as u8]));
+        assert_eq!(files(&cache.folder).len(), MOST_FILES);
+        assert_eq!(cache.take(&format!("{}", MOST_FILES + 19)), Some(vec![(MOST_FILES + 19) as u8]));
+        fs::remove_dir_all(&cache.folder).unwrap();
     }
 }

@@ -16,7 +16,7 @@ pub fn document() -> String {
     let kit = KitSpec::standard();
     let mut page = String::from(
         "# Parameters\n\n\
-         Written from the tables in `plugin/src/parameters/` by `cargo xtask docs`; do not edit.\n\n\
+         Written from the tables in `player/src/parameters/` by `cargo xtask docs`; do not edit.\n\n\
          `--set name=value` and presets use the names, states and hosts the ids. Every value is a multiple of the step. \
          Parameters marked *built* act once the pieces they concern have been built anew, within seconds, and \
          are not automated; all others act from the next sample on, also while a piece rings.\n\n\

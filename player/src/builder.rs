@@ -17,8 +17,8 @@
 //! pieces whether they are still wanted, so that dropping the builder waits for one piece each at most; pieces
 //! arrive in the order in which they are begun, whoever builds them. From then on it looks a few times a second
 //! whether the [plan](BuildPlan) has changed, and builds those pieces anew that it concerns: parameters
-//! are moved on threads that must not wake another. One thread per instance, because the
-//! framework's shared one does not survive instances that come and go while it works.
+//! are moved on threads that must not wake another. One thread per instance: one that instances share would have to
+//! survive those that come and go while it works.
 
 mod delivery;
 
@@ -29,17 +29,17 @@ use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 use crossbeam::queue::ArrayQueue;
-use nice_plug::nice_error;
 use overhear_engine::error::SpecError;
 use overhear_engine::kit_spec::PieceBuild;
 use overhear_engine::piece::{BuildOptions, Piece};
 use overhear_engine::slot::{SLOTS, Slot};
 use overhear_engine::snapshot::FieldShapes;
+use tracing::error;
 
 use crate::building::{BuildPlan, Staff};
+use crate::cache;
 use crate::kit_document::KitDocument;
 use crate::performer::Setup;
-use crate::shelf;
 
 use delivery::{Hired, Passing, Queues, Sent, make_room};
 
@@ -133,7 +133,7 @@ impl Builder {
     pub fn new(wanted: Wanted) -> Builder {
         Builder::with(
             |slot, build, options| {
-                shelf::provide();
+                cache::provide();
                 Piece::new(slot, build, options)
             },
             wanted,
@@ -233,7 +233,7 @@ impl Shared {
             let failure = self.build(&job, make).err();
             if let Some(reason) = failure.as_ref().filter(|_| job.former.is_some()) {
                 // Nobody waits for what changes while the kit plays.
-                nice_error!("The kit plays on as it is where it cannot be built: {reason}");
+                error!("The kit plays on as it is where it cannot be built: {reason}");
             }
             self.end(job.order, failure);
         }

@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use overhear_crew::{Patience, Workers};
 use overhear_engine::kit::{Crew, Post};
 use overhear_engine::kit_spec::{InstrumentSpec, PieceBuild, PieceSpec};
 use overhear_engine::piece::{BuildOptions, Quality};
@@ -11,6 +10,7 @@ use overhear_engine::slot::Slot;
 use crate::kit_document::KitDocument;
 use crate::parameters::{Construction, Drives, parameters};
 use crate::performer::flushed;
+use crate::workers::{Patience, Workers};
 
 /// Whether somebody waits for every buffer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -38,10 +38,12 @@ impl Default for KitDocument {
     }
 }
 
-/// Slot of a piece of the standard kit.
-#[cfg(test)]
-pub(crate) fn standard_slot(name: &str) -> overhear_engine::slot::Slot {
-    KitSpec::standard().find(name).unwrap().0
+/// Slot of a piece of the standard kit, by its name in kit files.
+///
+/// # Panics
+/// If the standard kit has no such piece.
+pub fn standard_slot(name: &str) -> overhear_engine::slot::Slot {
+    KitSpec::standard().find(name).expect("a piece of the standard kit").0
 }
 
 #[cfg(test)]

@@ -13,7 +13,7 @@ pub fn document() -> String {
     let document = KitDocument::standard();
     let mut page = String::from(
         "# MIDI\n\n\
-         Written from the tables in `plugin/src/midi_map.rs` and `plugin/src/midi/` by `cargo xtask docs`; do \
+         Written from the tables in `player/src/midi_map.rs` and `player/src/midi/` by `cargo xtask docs`; do \
          not edit.\n\n## Notes\n\n\
          A kit says what its notes play. Those of the standard kit are the General MIDI drum map and a few beyond it. Maps of \
          other instruments and your own assignments (`[notes]` in presets, the panel in the editor) name notes of \

@@ -1,19 +1,21 @@
-//! Results of long calculations, kept for whoever builds the same piece next.
+//! Results of long calculations, cached for whoever builds the same piece next.
 //!
-//! What a drum's or a plate's modes are and how they are heard follows from its description alone. It is worked out once
-//! in a process and shared: every instance and every rebuild that asks for the same gets the same, to the last bit. Where
-//! the program provides a [`Shelf`], results also outlive the process.
+//! A drum's or a plate's modes and their transfer to the receivers follow from its description alone. They are calculated
+//! once in a process and shared: every instance and every rebuild that asks for the same description gets the same result, to
+//! the last bit. Where the program provides a [`DiskCache`], results also outlive the process. This module opens no file.
 //!
-//! The key is the whole description in binary form, in which every number stands exactly. On the shelf a result is preceded
-//! by its key and stands under a [name](name_of) that also holds a mark: the number of the equations' version and a digest
-//! of the libraries that calculate.
+//! The key is the whole description in binary form, in which every number stands exactly. The disk cache stores a result
+//! behind its key, under a [name](name_of) that also depends on the schema: the version of the equations and a digest of the
+//! libraries that calculate.
 //!
 //! Nothing here runs on the audio thread.
 
 use std::collections::BTreeMap;
+use std::hash::Hasher;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
+use fnv::FnvHasher;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
@@ -21,24 +23,24 @@ use serde::de::DeserializeOwned;
 pub type Shared<T> = Arc<T>;
 
 /// Where results outlive the process; see [`provide`].
-pub trait Shelf: Send + Sync {
-    /// What was put under a name, unharmed, or nothing.
+pub trait DiskCache: Send + Sync {
+    /// The bytes stored under a name, verified; `None` if there are none or they are damaged.
     fn take(&self, name: &str) -> Option<Vec<u8>>;
-    /// Puts something under a name, if that is possible.
+    /// Stores bytes under a name, if that is possible.
     fn put(&self, name: &str, bytes: &[u8]);
 }
 
-static SHELF: OnceLock<Box<dyn Shelf>> = OnceLock::new();
+static DISK: OnceLock<Box<dyn DiskCache>> = OnceLock::new();
 
 /// Results older than this are forgotten.
 static AGE: AtomicU64 = AtomicU64::new(0);
 
-/// Provides the shelf for the rest of the process; false if there is one already.
-pub fn provide(shelf: Box<dyn Shelf>) -> bool {
-    SHELF.set(shelf).is_ok()
+/// Provides the disk cache for the rest of the process; false if there is one already.
+pub fn provide(disk: Box<dyn DiskCache>) -> bool {
+    DISK.set(disk).is_ok()
 }
 
-/// Forgets what is held in memory, so that it is taken from the shelf or worked out anew; for tests and measurements.
+/// Forgets the results in memory, so that they are read from disk or calculated again; for tests and measurements.
 pub fn forget() {
     AGE.fetch_add(1, Ordering::AcqRel);
 }
@@ -47,39 +49,39 @@ pub fn forget() {
 type Held<T> = (u64, Vec<u8>, Arc<T>);
 
 /// Results of one kind; the latest are held.
-pub struct Kept<T> {
+pub struct Cache<T> {
     kind: &'static str,
-    mark: &'static str,
+    schema: &'static str,
     most: usize,
     /// Latest last.
     held: Mutex<Vec<Held<T>>>,
 }
 
-impl<T: Serialize + DeserializeOwned> Kept<T> {
-    /// Room for so many, made by sources of that mark.
-    pub const fn new(kind: &'static str, mark: &'static str, most: usize) -> Kept<T> {
-        Kept { kind, mark, most, held: Mutex::new(Vec::new()) }
+impl<T: Serialize + DeserializeOwned> Cache<T> {
+    /// Room for so many results, calculated under that schema.
+    pub const fn new(kind: &'static str, schema: &'static str, most: usize) -> Cache<T> {
+        Cache { kind, schema, most, held: Mutex::new(Vec::new()) }
     }
 
-    /// The result for a key: held, from the shelf, or made. Two threads that ask for the same at once may both make it.
+    /// The result for a key: from memory, from disk, or made. Two threads that ask for the same at once may both make it.
     ///
     /// # Errors
     /// What `make` says.
     pub fn get<E>(&self, key: &impl Serialize, make: impl FnOnce() -> Result<T, E>) -> Result<Shared<T>, E> {
-        // A description that cannot be packed is not kept.
+        // A description that cannot be packed is not cached.
         let Ok(key) = postcard::to_stdvec(key) else { return Ok(Arc::new(make()?)) };
         if let Some(held) = self.held(&key) {
             return Ok(held);
         }
-        let name = name_of(self.kind, self.mark, &key);
-        let shelf = SHELF.get();
-        let shelved = shelf.and_then(|shelf| shelf.take(&name)).and_then(|bytes| unpack(&key, &bytes));
-        let result = match shelved {
+        let name = name_of(self.kind, self.schema, &key);
+        let disk = DISK.get();
+        let stored = disk.and_then(|disk| disk.take(&name)).and_then(|bytes| unpack(&key, &bytes));
+        let result = match stored {
             Some(result) => result,
             None => {
                 let made = make()?;
-                if let (Some(shelf), Ok(bytes)) = (shelf, postcard::to_stdvec(&(&key, &made))) {
-                    shelf.put(&name, &bytes);
+                if let (Some(disk), Ok(bytes)) = (disk, postcard::to_stdvec(&(&key, &made))) {
+                    disk.put(&name, &bytes);
                 }
                 made
             }
@@ -134,19 +136,20 @@ impl<T> Default for Numbered<T> {
     }
 }
 
-/// A result from the shelf, if it is that of the key.
+/// A result from disk, if it is that of the key.
 fn unpack<T: DeserializeOwned>(key: &[u8], bytes: &[u8]) -> Option<T> {
     let (known, result): (Vec<u8>, T) = postcard::from_bytes(bytes).ok()?;
     (known == key).then_some(result)
 }
 
-/// What a result is called on the shelf: its kind and a digest (FNV-1a) of mark and key.
-pub fn name_of(kind: &str, mark: &str, key: &[u8]) -> String {
-    let digest =
-        mark.bytes().chain([0]).chain(key.iter().copied()).fold(0xcbf2_9ce4_8422_2325_u64, |digest, byte| {
-            (digest ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
-        });
-    format!("{kind}-{digest:016x}")
+/// The name of a result in the disk cache: its kind and a digest (FNV-1a) of schema and key.
+pub fn name_of(kind: &str, schema: &str, key: &[u8]) -> String {
+    let mut digest = FnvHasher::default();
+    // The zero keeps the end of the schema from being taken for the beginning of the key.
+    for part in [schema.as_bytes(), &[0], key] {
+        digest.write(part);
+    }
+    format!("{kind}-{:016x}", digest.finish())
 }
 
 #[cfg(test)]
@@ -155,8 +158,8 @@ mod tests {
 
     #[test]
     fn a_result_is_made_once_and_the_oldest_is_given_up() {
-        static KEPT: Kept<f64> = Kept::new("test", "mark", 2);
-        let make = |key: &str, value: f64| KEPT.get(&key, || Ok::<_, ()>(value)).unwrap();
+        static CACHE: Cache<f64> = Cache::new("test", "schema", 2);
+        let make = |key: &str, value: f64| CACHE.get(&key, || Ok::<_, ()>(value)).unwrap();
         assert_eq!(*make("a", 1.0), 1.0);
         assert_eq!(*make("a", 2.0), 1.0);
         make("b", 3.0);
@@ -164,7 +167,7 @@ mod tests {
         make("c", 5.0);
         // `a` was asked for after `b`.
         assert_eq!((*make("a", 6.0), *make("b", 7.0)), (1.0, 7.0));
-        assert!(KEPT.get(&"d", || Err("no")).is_err());
+        assert!(CACHE.get(&"d", || Err("no")).is_err());
     }
 
     #[test]
@@ -174,7 +177,7 @@ mod tests {
     }
 
     #[test]
-    fn what_comes_from_a_shelf_is_what_was_put_there_to_the_last_bit() {
+    fn what_comes_from_disk_is_what_was_put_there_to_the_last_bit() {
         let value = vec![0.1_f64, f64::NEG_INFINITY, -0.0, f64::MIN_POSITIVE, 1.0 / 3.0];
         let bytes = postcard::to_stdvec(&(&b"key"[..], &value)).unwrap();
         let back: Vec<f64> = unpack(b"key", &bytes).unwrap();

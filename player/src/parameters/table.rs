@@ -5,6 +5,7 @@ use overhear_engine::kit::{Control, Microphone, SILENT_DB};
 use super::{Construction, Drives, Manner, Parameter, Stand};
 use crate::midi::maps::NoteMap;
 use crate::midi::playing::ChokeRule;
+use crate::workers;
 
 /// How many there are.
 pub const GLOBALS: usize = 25;
@@ -122,8 +123,8 @@ pub static TABLE: [Parameter; GLOBALS] = [
         name: "render_threads",
         label: "Render threads",
         group: "Rendering",
-        max: overhear_crew::MOST as f32,
-        centre: 0.5 * overhear_crew::MOST as f32,
+        max: workers::MOST as f32,
+        centre: 0.5 * workers::MOST as f32,
         ..built(Construction::Workers, &[])
     },
     Parameter {

@@ -3,12 +3,11 @@
 //! Its parameters were those of nine pieces, each with ids of its own; drums were tuned in Hz, and the pitch of a drum's
 //! resonant head over the batter head's was a parameter. That is in the kit now.
 
-use nice_plug::nice_warn;
-use nice_plug::plugin::{ParamValue, PluginState};
 use overhear_engine::kit_spec::{InstrumentSpec, Kind, KitSpec};
 use overhear_engine::slot::Slot;
+use tracing::warn;
 
-use super::{KIT_FIELD, kit_text};
+use super::{KIT_FIELD, State, StoredValue, kit_text};
 use crate::kit_document::KitDocument;
 use crate::parameters::{SlotParameter, parameters, slot_index};
 
@@ -45,19 +44,19 @@ const RESONANT: &str = "reso";
 const RATIOS: (f32, f32) = (0.5, 2.0);
 
 /// Gives everything the place that it has now. What belongs to no piece has kept its id and its meaning.
-pub fn translate(state: &mut PluginState) {
+pub fn translate(state: &mut State) {
     let mut document = KitDocument::standard();
-    let stored = std::mem::take(&mut state.params);
+    let stored = std::mem::take(&mut state.values);
     for (id, value) in stored {
         let Some((slot, end)) = piece_of(&id, &document.kit) else {
-            state.params.insert(id, value);
+            state.values.insert(id, value);
             continue;
         };
         match moved(end) {
             Some(what) => {
                 let value =
                     if what == SlotParameter::Tune { tuned(&document.kit, slot, &id, value) } else { value };
-                state.params.insert(parameters()[slot_index(slot, what)].id.to_owned(), value);
+                state.values.insert(parameters()[slot_index(slot, what)].id.to_owned(), value);
             }
             None => set_resonant(&mut document.kit, slot, &id, &value),
         }
@@ -80,27 +79,27 @@ fn moved(end: &str) -> Option<SlotParameter> {
 }
 
 /// A tuning in semitones from the piece's own; that of a drum was in Hz.
-fn tuned(kit: &KitSpec, slot: Slot, id: &str, value: ParamValue) -> ParamValue {
-    let (Some(piece), ParamValue::F32(hertz)) = (kit.piece(slot), &value) else { return value };
+fn tuned(kit: &KitSpec, slot: Slot, id: &str, value: StoredValue) -> StoredValue {
+    let (Some(piece), StoredValue::Number(hertz)) = (kit.piece(slot), &value) else { return value };
     let [low, own, high] = piece.instrument.tunings();
     if piece.instrument.kind() != Kind::Drum {
         return value;
     }
     let hertz = f64::from(*hertz);
     if !(low..=high).contains(&hertz) {
-        nice_warn!("The state has {id} at {hertz}, accepted: {low} to {high} Hz");
+        warn!("The state has {id} at {hertz}, accepted: {low} to {high} Hz");
     }
-    ParamValue::F32((12.0 * libm::log2(hertz.clamp(low, high) / own)) as f32)
+    StoredValue::Number((12.0 * libm::log2(hertz.clamp(low, high) / own)) as f32)
 }
 
 /// Puts the pitch of a resonant head into the kit, unless it is the head's own.
-fn set_resonant(kit: &mut KitSpec, slot: Slot, id: &str, value: &ParamValue) {
+fn set_resonant(kit: &mut KitSpec, slot: Slot, id: &str, value: &StoredValue) {
     let resonant = match kit.pieces.get_mut(slot.index()).map(|piece| &mut piece.instrument) {
         Some(InstrumentSpec::Drum(drum)) => drum.resonant.as_mut(),
         _ => None,
     };
-    let (Some(resonant), ParamValue::F32(ratio)) = (resonant, value) else {
-        nice_warn!("The state has {id} as {value:?}: ignored");
+    let (Some(resonant), StoredValue::Number(ratio)) = (resonant, value) else {
+        warn!("The state has {id} as {value:?}: ignored");
         return;
     };
     let (least, most) = RATIOS;
@@ -108,7 +107,7 @@ fn set_resonant(kit: &mut KitSpec, slot: Slot, id: &str, value: &ParamValue) {
         return;
     }
     if !(least..=most).contains(ratio) {
-        nice_warn!("The state has {id} at {ratio}, accepted: {least} to {most}");
+        warn!("The state has {id} at {ratio}, accepted: {least} to {most}");
     }
     resonant.pitch_ratio = f64::from(ratio.clamp(least, most));
 }
@@ -121,13 +120,14 @@ mod tests {
     use super::*;
 
     /// A state of the first schema with these values, as it is now.
-    fn translated(values: &[(&str, f32)]) -> (BTreeMap<String, ParamValue>, KitDocument) {
-        let params = values.iter().map(|(id, value)| ((*id).to_owned(), ParamValue::F32(*value))).collect();
+    fn translated(values: &[(&str, f32)]) -> (BTreeMap<String, StoredValue>, KitDocument) {
+        let values =
+            values.iter().map(|(id, value)| ((*id).to_owned(), StoredValue::Number(*value))).collect();
         let fields = [(super::super::SCHEMA_FIELD.to_owned(), "1".to_owned())].into();
-        let mut state = PluginState { version: "0.1.0".to_owned(), params, fields };
+        let mut state = State { values, fields };
         put_in_order(&mut state);
         let document = kit(&state.fields).unwrap();
-        (state.params, document)
+        (state.values, document)
     }
 
     #[test]
@@ -159,7 +159,7 @@ mod tests {
             ("humpla", 2.0),
             ("workrs", 1.0),
         ] {
-            let ParamValue::F32(found) = values[id] else { panic!("{id}") };
+            let StoredValue::Number(found) = values[id] else { panic!("{id}") };
             assert!((found - value).abs() < 1e-6, "{id}: {found}");
         }
         assert_eq!(values.len(), crate::parameters::COUNT + 1);
@@ -178,7 +178,7 @@ mod tests {
             let now = |hertz: f64| {
                 let (values, _) = translated(&[(&format!("{start}tune"), hertz as f32)]);
                 let id = parameters()[slot_index(slot, SlotParameter::Tune)].id;
-                let ParamValue::F32(semitones) = values[id] else { panic!("{id}") };
+                let StoredValue::Number(semitones) = values[id] else { panic!("{id}") };
                 own * f64::from(semitones / 12.0).exp2()
             };
             assert_eq!(now(own), own, "{name}");

@@ -1,0 +1,96 @@
+use super::*;
+use crate::parameters::COUNT;
+
+fn ordered(json_params: &[(&str, StoredValue)]) -> BTreeMap<String, f32> {
+    let params = json_params.iter().map(|(id, value)| (id.to_string(), value.clone()));
+    let mut state = State { values: params.collect(), fields: BTreeMap::new() };
+    state.fields.insert(SCHEMA_FIELD.to_owned(), SCHEMA.to_string());
+    put_in_order(&mut state);
+    let plain = |(id, value)| match value {
+        StoredValue::Number(value) => (id, value),
+        StoredValue::Switch(value) => (id, f32::from(value)),
+        other => panic!("{id} is {other:?}"),
+    };
+    state.values.into_iter().map(plain).collect()
+}
+
+#[test]
+fn a_state_without_parameters_is_all_defaults() {
+    let values = ordered(&[]);
+    assert_eq!(values.len(), COUNT + 1);
+    assert_eq!(values[BYPASS_ID], 0.0);
+    assert!(parameters().iter().all(|parameter| values[parameter.id] == parameter.default));
+}
+
+#[test]
+fn stored_values_are_kept_and_missing_ones_reset() {
+    let values = ordered(&[("01tune", StoredValue::Number(1.5))]);
+    assert_eq!((values["01tune"], values["02muff"]), (1.5, 0.0));
+}
+
+#[test]
+fn broken_values_are_put_right_and_unknown_ones_dropped() {
+    let values = ordered(&[
+        ("01tune", StoredValue::Number(1e9)),
+        ("02muff", StoredValue::Number(f32::NAN)),
+        ("01levl", StoredValue::Other("loud".into())),
+        ("02tune", StoredValue::Number(f32::NEG_INFINITY)),
+        ("nobody", StoredValue::Number(1.0)),
+        (BYPASS_ID, StoredValue::Number(1.0)),
+    ]);
+    assert_eq!((values["01tune"], values["02muff"]), (12.0, 0.0));
+    assert_eq!((values["01levl"], values["02tune"]), (0.0, -12.0));
+    assert!(!values.contains_key("nobody"));
+    assert_eq!(values[BYPASS_ID], 0.0);
+    assert_eq!(ordered(&[(BYPASS_ID, StoredValue::Switch(true))])[BYPASS_ID], 1.0);
+}
+
+/// A state with this kit in its fields, put in order.
+fn with_kit(text: &str) -> State {
+    let fields = [(SCHEMA_FIELD, "2"), (KIT_FIELD, text), (NOTES_FIELD, "38=49")];
+    let fields = fields.map(|(name, value)| (name.to_owned(), value.to_owned())).into();
+    let values = [("01levl".to_owned(), StoredValue::Number(-20.0))].into();
+    let mut state = State { values, fields };
+    put_in_order(&mut state);
+    state
+}
+
+/// The standard kit without its crash, and with a larger kick that is muffled more.
+fn other_kit() -> KitDocument {
+    let mut kit = KitSpec::standard();
+    kit.pieces.remove(4);
+    kit.pieces[0].defaults.muffle = 0.5;
+    let notes = crate::midi_map::NoteTable::standard(&kit);
+    KitDocument { kit, notes }
+}
+
+#[test]
+fn a_kit_is_stored_and_read_back_and_the_standard_one_is_left_out() {
+    assert_eq!(kit_text(&KitDocument::standard()), None);
+    assert_eq!(kit(&BTreeMap::new()), Ok(KitDocument::standard()));
+    let document = other_kit();
+    let state = with_kit(&kit_text(&document).unwrap());
+    assert_eq!(kit(&state.fields), Ok(document.clone()));
+    let value = |id: &str| match state.values[id] {
+        StoredValue::Number(value) => value,
+        ref other => panic!("{id} is {other:?}"),
+    };
+    assert_eq!((value("01levl"), value("01muff")), (-20.0, 0.5), "what is missing is at the kit's default");
+}
+
+#[test]
+fn of_a_state_whose_kit_cannot_be_read_nothing_is_left() {
+    let cut = kit_text(&other_kit()).unwrap();
+    for text in ["", "format = 7", "no kit", &cut[..cut.len() / 2], "format = 1\nremove = [\"gong\"]"] {
+        assert_eq!(with_kit(text), State::default(), "{text}");
+    }
+}
+
+#[test]
+fn assignments_are_stored_and_broken_ones_left_out() {
+    let changed = BTreeMap::from([(38, Assignment::Plays(49)), (40, Assignment::Silent)]);
+    assert_eq!(notes_text(&changed), "38=49 40=silent");
+    assert_eq!(notes(&notes_text(&changed)), changed);
+    assert_eq!(notes("38=49 x 300=38 41=loud 40=silent =  200=38"), changed);
+    assert!(notes("").is_empty());
+}
