@@ -6,10 +6,10 @@ use overhear_engine::drum::{Drum, DrumSpec, ResonantSpec};
 use overhear_engine::kit_spec::{Kind, PieceSpec};
 use overhear_engine::piece::{BuildOptions, ModeInfo, ModeKind, Piece};
 use overhear_engine::strike::Striker;
+use overhear_measure::report::{heads, modal};
 use overhear_tests::{
     build, cents, context, decibels, names, piece, reference, render, round_piece, standard, stroke,
 };
-use xtask::report::{heads, modal};
 
 const RATE: f64 = 44_100.0;
 

@@ -198,7 +198,7 @@ fn stems_hold_their_microphone_and_add_up_to_the_song() {
     let folder = Folder::new("stems");
     folder.file("song.mid", SONG);
     folder.succeed(&["render", "song.mid", "-o", "song.wav", "--stems", "stems", "--tail", "1"]);
-    let read = |path: &str| xtask::wav::read_float(&folder.0.join(path)).unwrap().1;
+    let read = |path: &str| overhear_cli::wav::read_float(&folder.0.join(path)).unwrap().1;
     let song = read("song.wav");
     let mut sum = vec![0.0f32; song[0].len()];
     for name in names().into_iter().chain(["overheads", "room"].map(str::to_owned)) {

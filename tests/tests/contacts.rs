@@ -3,8 +3,8 @@
 
 use overhear_engine::kit_spec::PieceSpec;
 use overhear_engine::strike::{Strike, Striker};
+use overhear_measure::report::contact;
 use overhear_tests::{RATES, lossless_piece, names, render_into, total_energy};
-use xtask::report::contact;
 
 /// Strikes every piece with everything, without any loss, and compares the energy about with what
 /// the stroke brought: in the first 100 ms, and for the rest of a second.

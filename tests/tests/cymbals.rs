@@ -3,10 +3,11 @@
 use overhear_engine::kit_spec::PieceSpec;
 use overhear_engine::piece::{BuildOptions, Piece, Quality};
 use overhear_engine::strike::{Strike, Striker};
+use overhear_measure::analysis::OneShot;
+use overhear_measure::analysis::envelope;
+use overhear_measure::report::cymbal::{self, largest_mean};
+use overhear_measure::spectra::third_octaves::{mean_difference, third_octaves, worst_difference};
 use overhear_tests::{build, reference, render_into, spec, stroke, total_energy};
-use xtask::analysis::envelope;
-use xtask::analysis::one_shot::OneShot;
-use xtask::report::cymbal::{self, largest_mean, mean_difference, third_octaves, worst_difference};
 
 const RATE: f64 = 44_100.0;
 
@@ -256,7 +257,7 @@ fn resting_the_coupling_moves_no_band_by_a_tenth_of_a_decibel() {
             piece.strike(&hit(speed, 0.92, Striker::Stick));
             let sound = render(&mut piece, 3.0);
             rests += u32::from(!piece.surface_mut().beyond().unwrap().is_active());
-            third_octaves(&sound)
+            third_octaves(&sound, RATE)
         };
         let worst = worst_difference(&bands(Some(0.0)), &bands(None));
         assert!(worst < 0.1, "{speed} m/s: {worst} dB");

@@ -7,8 +7,8 @@ use overhear_engine::drum::DrumSpec;
 use overhear_engine::kit_spec::PieceSpec;
 use overhear_engine::piece::{BuildOptions, ModeInfo, Piece};
 use overhear_engine::strike::Striker;
+use overhear_measure::spectra::Transform;
 use overhear_tests::{altered, build, drum, render, round_piece, spec, stroke};
-use xtask::analysis::Transform;
 
 const RATE: f64 = 48_000.0;
 

@@ -8,13 +8,14 @@ use overhear_engine::kit_spec::PieceSpec;
 use overhear_engine::piece::{BuildOptions, ModeInfo, ModeKind, Piece};
 use overhear_engine::split::Splitting;
 use overhear_engine::strike::{Strike, Striker};
+use overhear_measure::hear::{Measurement, Request};
+use overhear_measure::report;
+use overhear_measure::report::heads::mode_of;
+use overhear_measure::spectra::PowerSpectrum;
 use overhear_tests::{
-    Spectrum, alone, altered, build, cents, context, decibels, drum, names, piece, reference, render,
-    render_into, render_surface, round_piece, spec, stroke,
+    alone, altered, build, cents, context, decibels, drum, names, piece, reference, render, render_into,
+    render_surface, round_piece, spec, stroke,
 };
-use xtask::hear::{Measurement, Request};
-use xtask::report;
-use xtask::report::heads::mode_of;
 
 const RATE: f64 = 44_100.0;
 
@@ -31,7 +32,7 @@ fn with_high_band(name: &str, high_band: bool) -> Piece {
 }
 
 /// Amplitude of a sound between two frequencies, Hz.
-fn loudness(spectrum: &Spectrum, low: f64, high: f64) -> f64 {
+fn loudness(spectrum: &PowerSpectrum, low: f64, high: f64) -> f64 {
     spectrum.band(low, high).sqrt()
 }
 
@@ -42,8 +43,8 @@ fn the_high_band_adds_ten_decibels_to_a_tom_above_4_khz_up_to_16_khz_and_leaves_
         tom.strike(&stroke(Striker::Stick, 4.0, 0.4, 0.2));
         let sound = render(&mut tom, 1.0, RATE);
         // From when the stick has left: what rings.
-        let ringing = Spectrum::hann(&sound[(0.02 * RATE) as usize..(0.12 * RATE) as usize], RATE);
-        (Spectrum::new(&sound, RATE), ringing, tom.last_strike())
+        let ringing = PowerSpectrum::hann(&sound[(0.02 * RATE) as usize..(0.12 * RATE) as usize], RATE);
+        (PowerSpectrum::new(&sound, RATE), ringing, tom.last_strike())
     });
     let gain = |low, high| decibels(loudness(&with.0, low, high), loudness(&without.0, low, high));
     println!("above 4 kHz: {:+.1} dB", gain(4000.0, 20_000.0));
@@ -143,8 +144,8 @@ fn a_drum_swept_through_its_range_ends_as_one_built_there_with_that_muffling_and
 /// One stroke measured as `hear` does.
 fn hear(drum: &PieceSpec, strike: Strike) -> Measurement {
     let (kit, options) = (alone(drum), options());
-    let request = Request { kit, strike, settings: Vec::new(), options, seconds: 1.0, wav: None };
-    xtask::hear::run(&request).unwrap()
+    let request = Request { kit, strike, settings: Vec::new(), options, seconds: 1.0 };
+    overhear_measure::hear::run(&request).unwrap()
 }
 
 #[test]

@@ -14,9 +14,9 @@ use overhear::kit_document::KitDocument;
 use overhear::parameters::{COUNT, SlotParameter, default_value, parameters, slot_parameter};
 use overhear::performer::Performer;
 use overhear::presets::{FACTORY, Preset};
+use overhear_cli::song::Song;
 use overhear_engine::snapshot::KitSnapshot;
 use overhear_tests::Chance;
-use xtask::song::Song;
 
 #[global_allocator]
 static ALLOCATOR: AllocDisabler = AllocDisabler;
@@ -194,7 +194,7 @@ fn a_hundred_thousand_mutated_presets_are_read_or_refused_with_a_line() {
 
 #[test]
 fn ten_thousand_mutated_songs_are_read_or_refused() {
-    let groove = xtask::groove::file();
+    let groove = include_bytes!("../../assets/groove.mid").to_vec();
     let mut chance = Chance::new(8);
     let mut refused = 0;
     for _ in 0..10_000 {

@@ -7,13 +7,13 @@ use overhear_engine::hi_hat::{HiHat, HiHatSpec, POINTS};
 use overhear_engine::kit_spec::{InstrumentSpec, PieceSpec};
 use overhear_engine::piece::{BuildOptions, Piece};
 use overhear_engine::strike::{Strike, Striker};
+use overhear_measure::report::hi_hat::{Decay, PLACES, by_foot, decay, hold, sizzle_db};
 use overhear_tests::{
     Chance, build, context, decibels, lossless_piece, piece, reference, render, render_into, render_surface,
     spec, stroke, total_energy,
 };
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
-use xtask::report::hi_hat::{Decay, PLACES, by_foot, decay, hold, sizzle_db};
 
 const RATE: f64 = 44_100.0;
 

@@ -35,9 +35,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use overhear::parameters::{host_id, parameters, parse_assignment};
+use overhear_cli::host::{Bundle, Instance};
+use overhear_cli::plugin_folders::Format;
 use overhear_engine::kit_spec::KitSpec;
-use xtask::host::{Bundle, Instance};
-use xtask::workspace::{Format, bundle_in};
+use xtask::workspace::bundle_in;
 
 /// The release bundle of a format.
 fn bundle_path(format: Format) -> PathBuf {

@@ -8,8 +8,9 @@ use overhear_engine::modal::simd::level::{self, InstructionSet};
 use overhear_engine::piece::BuildOptions;
 use overhear_engine::slot::Slot;
 use overhear_engine::strike::{Strike, Striker};
-use overhear_tests::{Spectrum, build, render_into};
-use xtask::hear;
+use overhear_measure::hear;
+use overhear_measure::spectra::PowerSpectrum;
+use overhear_tests::{build, render_into};
 
 const RATE: f64 = 44_100.0;
 
@@ -59,7 +60,7 @@ fn apart(a: &[f32], b: &[f32]) -> f32 {
 /// Largest difference of a third octave, dB, among those within 60 dB of the loudest.
 fn third_octaves_apart(a: &[f32], b: &[f32]) -> f64 {
     let bands = |sound: &[f32]| {
-        let spectrum = Spectrum::new(sound, RATE);
+        let spectrum = PowerSpectrum::new(sound, RATE);
         let middles = (0..28).map(|i| 31.25 * 2.0_f64.powf(f64::from(i) / 3.0));
         middles.map(|hz| spectrum.band(hz * 2.0_f64.powf(-1.0 / 6.0), hz * 2.0_f64.powf(1.0 / 6.0))).collect()
     };

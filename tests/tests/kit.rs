@@ -1,13 +1,13 @@
 //! The kit as a whole: its outputs, and what it does under more than can be played.
 
 use overhear::kit_document::KitDocument;
+use overhear_cli::player::{EnginePlayer, Hit, Player, Setup};
 use overhear_engine::kit::{Control, Kit, Microphone, OUTPUTS, Stereo};
 use overhear_engine::piece::Piece;
 use overhear_engine::slot::{SLOTS, Slot};
 use overhear_engine::snapshot::KitSnapshot;
 use overhear_engine::strike::Striker;
 use overhear_tests::{Chance, RATES, kit, kit_of, sixteen, slot, standard, stroke};
-use xtask::player::{EnginePlayer, Hit, Player, Setup};
 
 const RATE: f64 = RATES[0];
 
@@ -195,7 +195,7 @@ fn the_workers_that_a_parameter_hires_change_no_sample() {
     let play = |workers: &str| {
         let kit = KitDocument::standard();
         let asked = [workers.to_owned(), "offline_quality=as played".to_owned()];
-        let settings = xtask::settings::parse(&asked, &kit.kit).expect("settings");
+        let settings = overhear_cli::settings::parse(&asked, &kit.kit).expect("settings");
         let setup = Setup { rate: 48_000, settings, kit };
         let mut player = EnginePlayer::new(&setup).expect("a rate");
         let (mut left, mut right) = (vec![0.0; 12_000], vec![0.0; 12_000]);

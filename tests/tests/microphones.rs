@@ -1,9 +1,9 @@
 //! Microphones hear what their place gives them.
 
-use overhear_tests::spec;
-use xtask::report::radiation::microphones::{
+use overhear_measure::report::radiation::microphones::{
     CLOSE, Farther, OVERHEADS, ROOM, farther, near_field, rack_toms,
 };
+use overhear_tests::spec;
 
 #[test]
 fn a_microphone_34_3_cm_farther_hears_a_millisecond_later_and_one_twice_as_far_half_at_every_rate() {

@@ -2,7 +2,7 @@
 
 use overhear::building::Pace;
 use overhear::kit_document::KitDocument;
-use xtask::realism::{self, Ear, PieceReport, SPEEDS};
+use overhear_measure::realism::{self, Ear, PieceReport, SPEEDS};
 
 /// Pieces struck softly to hard, bounced, as each ear hears them.
 fn bounced(names: &[&str]) -> Vec<PieceReport> {
@@ -10,7 +10,7 @@ fn bounced(names: &[&str]) -> Vec<PieceReport> {
     let subjects = realism::subjects(&names).unwrap();
     let (speeds, settings) = (SPEEDS.to_vec(), Vec::new());
     let kit = KitDocument::standard();
-    let request = realism::Request { subjects, speeds, kit, settings, pace: Pace::Offline, wav: None };
+    let request = realism::Request { subjects, speeds, kit, settings, pace: Pace::Offline };
     realism::run(&request).unwrap().pieces
 }
 

@@ -2,10 +2,9 @@
 
 use overhear_engine::piece::{BuildOptions, Piece};
 use overhear_engine::strike::Striker;
-use overhear_tests::{
-    Spectrum, build, decibels, lossless_piece, piece, reference, render, spec, stroke, total_energy,
-};
-use xtask::report::drums::{self, measured};
+use overhear_measure::report::drums::{self, measured};
+use overhear_measure::spectra::PowerSpectrum;
+use overhear_tests::{build, decibels, lossless_piece, piece, reference, render, spec, stroke, total_energy};
 
 const RATE: f64 = 44_100.0;
 
@@ -94,7 +93,7 @@ fn wires_add_four_decibels_above_3_khz_in_the_first_50_ms() {
     let preload = spec("snare").defaults.preload.expect("wires");
     let [on, off] = [true, false].map(|on| {
         let sound = snare(4.0, preload, on).1;
-        Spectrum::new(&sound[..(0.05 * RATE) as usize], RATE).band(3000.0, 20_000.0).sqrt()
+        PowerSpectrum::new(&sound[..(0.05 * RATE) as usize], RATE).band(3000.0, 20_000.0).sqrt()
     });
     println!("{:+.1} dB", decibels(on, off));
     assert!(decibels(on, off) >= 4.0);
@@ -149,7 +148,7 @@ fn a_rimshot_is_louder_and_brighter_and_a_cross_stick_knocks() {
             drum.strike(&stroke(striker, 4.0, 0.3, 0.0));
             let sound = render(&mut drum, 0.5, RATE);
             let peak = sound.iter().fold(0.0_f32, |peak, x| peak.max(x.abs()));
-            let spectrum = Spectrum::new(&sound, RATE);
+            let spectrum = PowerSpectrum::new(&sound, RATE);
             let low = spectrum.band(20.0, 300.0);
             (f64::from(peak), spectrum.band(2000.0, 20_000.0), low, drum.last_strike())
         });

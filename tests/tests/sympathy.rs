@@ -7,8 +7,8 @@ use overhear_engine::layout::distance;
 use overhear_engine::piece::Piece;
 use overhear_engine::slot::Slot;
 use overhear_engine::strike::Striker;
+use overhear_measure::report::kit::landings;
 use overhear_tests::{RATES, kit, kit_of, slot, spec, standard, stroke};
-use xtask::report::kit::landings;
 
 const RATE: f64 = RATES[0];
 

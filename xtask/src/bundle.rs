@@ -1,12 +1,13 @@
 //! `bundle` and `install`: release bundles, and a copy of them where hosts look.
 
 use std::env;
-use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use anyhow::{Context, Result, bail};
+use overhear_cli::bad_input;
+use overhear_cli::plugin_folders::user_folder;
 
 use crate::system::{self, LINKER, SOUND_HEADERS};
 use crate::workspace::{self, Format, PLUGIN_PACKAGE, STANDALONE_PACKAGE};
@@ -29,7 +30,7 @@ impl Processors {
         match self {
             Processors::Own => Ok(&[]),
             Processors::Universal if cfg!(target_os = "macos") => Ok(&MACOS),
-            Processors::Universal => Err(crate::bad_input!("--universal is for macOS only")),
+            Processors::Universal => Err(bad_input!("--universal is for macOS only")),
         }
     }
 }
@@ -45,7 +46,7 @@ pub fn run() -> Result<Vec<(Format, PathBuf)>> {
 /// The same for chosen processors.
 ///
 /// # Errors
-/// As [`run`], and [`BadInput`](crate::error::BadInput) for a universal bundle elsewhere than on macOS.
+/// As [`run`], and [`BadInput`](overhear_cli::error::BadInput) for a universal bundle elsewhere than on macOS.
 pub fn run_for(processors: Processors) -> Result<Vec<(Format, PathBuf)>> {
     let targets = processors.targets()?;
     system::ensure(&[LINKER])?;
@@ -136,33 +137,6 @@ pub fn install() -> Result<Vec<PathBuf>> {
             Ok(target)
         })
         .collect()
-}
-
-/// Where hosts look for the user's plugins of a format.
-///
-/// # Errors
-/// If the system does not say where the user's files are.
-pub fn user_folder(format: Format) -> Result<PathBuf> {
-    let variable = |name: &str| {
-        let value: Option<OsString> = env::var_os(name).filter(|value| !value.is_empty());
-        value.map(PathBuf::from).with_context(|| format!("{name} is not set"))
-    };
-    if cfg!(target_os = "windows") {
-        let common = variable("COMMONPROGRAMFILES")?;
-        return Ok(common.join(match format {
-            Format::Clap => "CLAP",
-            Format::Vst3 => "VST3",
-        }));
-    }
-    let home = variable("HOME")?;
-    Ok(if cfg!(target_os = "macos") {
-        home.join("Library/Audio/Plug-Ins").join(match format {
-            Format::Clap => "CLAP",
-            Format::Vst3 => "VST3",
-        })
-    } else {
-        home.join(format!(".{}", format.extension()))
-    })
 }
 
 /// Runs something in another working folder and comes back.

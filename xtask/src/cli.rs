@@ -1,31 +1,17 @@
-//! The command line: which commands there are, what they take, and how they fail.
-//!
-//! Results go to standard output, progress and errors to standard error. An error is one line; of several files that are
-//! checked, each has its own.
-//! Exit codes: 0 done, 1 failed on the way, 2 bad input (the line says what would be accepted).
-
-mod alterations;
-mod arguments;
+//! The command line: the tasks of this repository, and the commands of the program `overhear`, which are passed on to it.
 
 use std::ffi::OsString;
-use std::io::Write;
-use std::path::Path;
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use anyhow::Result;
-use clap::error::ErrorKind;
-use clap::{CommandFactory, Parser};
-use overhear::presets::Library;
+use clap::{Parser, Subcommand};
+use overhear_cli::commands::{self, Command, say};
+use overhear_cli::output;
 
 use crate::bundle::Processors;
-use crate::{
-    bench, bundle, demo, error, groove, hear, kit, manual, output, presets, realism, render, report, shots,
-    suite,
-};
-use arguments::{
-    BenchArguments, HearArguments, KitTask, ModesArguments, PresetTask, RealismArguments, RenderArguments,
-    Task,
-};
+use crate::realism::RealismArguments;
+use crate::{bundle, demo, groove, manual, program, realism, report, shots, suite};
 
 /// Developer and user commands of Overhear.
 #[derive(Debug, Parser)]
@@ -33,6 +19,72 @@ use arguments::{
 struct CommandLine {
     #[command(subcommand)]
     task: Task,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+enum Task {
+    /// Set up, build, bundle, play a groove through the built CLAP plugin: demo.wav and demo.png
+    Demo {
+        /// Instead, half a minute of it with every preset, into demo-presets
+        #[arg(long)]
+        all_presets: bool,
+    },
+    /// Check everything the project promises, the hosts included
+    Test {
+        /// Only what takes minutes: formatting, lints, units, and the quick half of the other tests
+        #[arg(long)]
+        quick: bool,
+    },
+    /// Build the release bundles (CLAP, VST3) and the program that needs no host
+    Bundle {
+        /// On macOS: one file for both kinds of processors
+        #[arg(long)]
+        universal: bool,
+    },
+    /// Build the release bundles and copy them where hosts look
+    Install,
+    /// Measure every piece beside recordings of real kits
+    Realism(RealismArguments),
+    /// Measure and write the pages of docs/report
+    Report {
+        /// modal, contact, heads, glide, drums, snare, plate, cymbal, cascade, hi-hat, radiation, kit, realism, cost; all if
+        /// none is given
+        #[arg(value_name = "PAGE")]
+        pages: Vec<String>,
+        /// The folder to write to; docs/report if not given
+        #[arg(short, long, value_name = "DIR")]
+        output: Option<PathBuf>,
+    },
+    /// Write the manual's pages that come from the code: docs/midi.md and docs/parameters.md
+    Docs,
+    /// Take pictures of the built plugin's editor on a virtual display
+    Shots {
+        /// The folder to write to
+        #[arg(short, long, value_name = "FOLDER", default_value = "shots")]
+        out: PathBuf,
+        /// A built CLAP plugin; without it the plugin is built and bundled first
+        #[arg(long, value_name = "FILE")]
+        plugin: Option<PathBuf>,
+        /// Count what an open window costs instead
+        #[arg(long)]
+        cost: bool,
+        /// Only in the dark palette at 1x
+        #[arg(long, conflicts_with = "cost")]
+        glance: bool,
+        /// Use the display there is
+        #[arg(long, hide = true, requires = "plugin")]
+        here: bool,
+    },
+    /// Write the demonstration groove (assets/groove.mid) anew
+    #[command(hide = true)]
+    Groove {
+        /// The MIDI file to write
+        #[arg(short, long, value_name = "FILE")]
+        output: PathBuf,
+    },
+    #[command(flatten)]
+    Program(Command),
 }
 
 /// Whether the commands understand a command line, the program's name first; nothing is run.
@@ -45,43 +97,7 @@ pub fn check(arguments: impl IntoIterator<Item = OsString>) -> Result<(), String
 
 /// Runs a command line, the program's name first, and tells how it ended.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
-    let task = match CommandLine::try_parse_from(arguments) {
-        Ok(line) => line.task,
-        Err(refusal) => return refused(&refusal),
-    };
-    match dispatch(task) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => {
-            for line in error::lines(&failure) {
-                eprintln!("error: {line}");
-            }
-            ExitCode::from(error::exit_code(&failure))
-        }
-    }
-}
-
-/// Prints help where it was asked for, and anything else as one line.
-fn refused(refusal: &clap::Error) -> ExitCode {
-    if matches!(refusal.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) {
-        print!("{refusal}");
-        return ExitCode::SUCCESS;
-    }
-    if refusal.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        eprint!("{refusal}");
-        return ExitCode::from(2);
-    }
-    let text = refusal.to_string();
-    // What follows are a tip to read the help and the usage, over several lines.
-    let reason = text.split("\n\nUsage:").next().unwrap_or(&text);
-    let reason = reason.split("\n\nFor more").next().unwrap_or(reason);
-    let mut line = reason.split_whitespace().collect::<Vec<_>>().join(" ");
-    if refusal.kind() == ErrorKind::InvalidSubcommand {
-        let command = CommandLine::command();
-        let names: Vec<_> = command.get_subcommands().map(|command| command.get_name()).collect();
-        line = format!("{line}, accepted: {}", names.join(", "));
-    }
-    eprintln!("{line}");
-    ExitCode::from(2)
+    commands::run_as(arguments, |line: CommandLine| dispatch(line.task))
 }
 
 fn dispatch(task: Task) -> Result<()> {
@@ -90,7 +106,8 @@ fn dispatch(task: Task) -> Result<()> {
             demo::presets::run(&std::env::current_dir()?.join("demo-presets"))
         }
         Task::Demo { all_presets: false } => demo::run(&std::env::current_dir()?),
-        Task::Test => suite::run(),
+        Task::Test { quick: true } => suite::run_quick(),
+        Task::Test { quick: false } => suite::run(),
         Task::Bundle { universal } => {
             let processors = if universal { Processors::Universal } else { Processors::Own };
             for (_, path) in bundle::run_for(processors)? {
@@ -104,18 +121,8 @@ fn dispatch(task: Task) -> Result<()> {
             }
             Ok(())
         }
-        Task::Render(arguments) => render(arguments),
-        Task::Hear(arguments) => hear(arguments),
-        Task::Modes(arguments) => modes(arguments),
-        Task::Realism(arguments) => realism(arguments),
-        Task::Bench(_) if cfg!(debug_assertions) => bench::as_released(),
-        Task::Bench(arguments) => bench(arguments),
-        Task::BenchScene { index, quality, simd, kit } => {
-            bench::count_this(index, quality.into(), simd.into(), kit.as_deref())
-        }
+        Task::Realism(arguments) => realism::run(arguments),
         Task::Report { pages, output } => report::run(&pages, &output.unwrap_or_else(report::folder)),
-        Task::Presets { folder, task } => presets(folder.as_deref(), task),
-        Task::Kit { task } => kit(task),
         Task::Docs => manual::write(),
         Task::Shots { out, plugin, cost, glance, here } => {
             let aim = match (cost, glance) {
@@ -129,75 +136,15 @@ fn dispatch(task: Task) -> Result<()> {
             }
         }
         Task::Groove { output } => output::write(&output, &groove::file()),
-    }
-}
-
-/// Prints a result. A reader who has seen enough and closed the pipe is no error.
-fn say(text: &str) -> Result<()> {
-    match std::io::stdout().write_all(text.as_bytes()) {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(error.into()),
-        _ => Ok(()),
-    }
-}
-
-fn presets(folder: Option<&Path>, task: Option<PresetTask>) -> Result<()> {
-    let library = folder.map_or_else(Library::default, Library::at);
-    match task {
-        None => say(&presets::list(&library)),
-        Some(PresetTask::Show { name }) => say(&presets::show(&library, &name)?),
-        Some(PresetTask::Save { name, from, set, about }) => {
-            say(&presets::save(&library, &name, &from, &set, about)?)
-        }
-        Some(PresetTask::Rename { from, to }) => presets::rename(&library, &from, &to),
-        Some(PresetTask::Delete { name }) => presets::delete(&library, &name),
-        Some(PresetTask::Check { files }) => say(&presets::check(&library, &files)?),
-    }
-}
-
-fn render(arguments: RenderArguments) -> Result<()> {
-    render::run(&arguments.into_request()?)
-}
-
-fn hear(arguments: HearArguments) -> Result<()> {
-    let (json, request) = (arguments.json, arguments.into_request()?);
-    let measurement = hear::run(&request)?;
-    say(&if json { serde_json::to_string(&measurement)? + "\n" } else { measurement.to_string() })
-}
-
-fn realism(arguments: RealismArguments) -> Result<()> {
-    let (json, request) = (arguments.json, arguments.into_request()?);
-    let report = realism::run(&request)?;
-    say(&if json { serde_json::to_string(&report)? + "\n" } else { report.to_string() })
-}
-
-fn bench(arguments: BenchArguments) -> Result<()> {
-    let json = arguments.json;
-    let report = bench::run(&arguments.into_request())?;
-    say(&if json { serde_json::to_string(&report)? + "\n" } else { report.to_string() })
-}
-
-fn modes(arguments: ModesArguments) -> Result<()> {
-    let modes = arguments.run()?;
-    say(&if arguments.json { serde_json::to_string(&modes)? + "\n" } else { modes.to_string() })
-}
-
-fn kit(task: KitTask) -> Result<()> {
-    match task {
-        KitTask::Show { what } => say(&kit::show(&Library::default(), what.as_deref())?),
-        KitTask::New { file } => kit::new(&file),
-        KitTask::Check { files } => {
-            let (sound, outcome) = kit::check(&files);
-            say(&sound)?;
-            outcome
-        }
-        KitTask::Fitted { json: true } => say(&kit::fitted_json()?),
-        KitTask::Fitted { json: false } => say(&kit::fitted_table()),
+        Task::Program(Command::Bench(_)) => program::in_release(std::env::args_os().skip(1)),
+        Task::Program(command) => commands::dispatch(command),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use clap::CommandFactory;
 
     #[test]
     fn the_commands_are_well_formed() {

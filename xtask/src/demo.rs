@@ -4,6 +4,7 @@
 //! `assets/groove.mid` through it at 48 kHz, writes `demo.wav` and `demo.png`, says how loud each
 //! piece is at each microphone and what it cost, and takes pictures of the editor where there is what that needs.
 
+mod levels;
 pub mod presets;
 
 use std::path::{Path, PathBuf};
@@ -13,15 +14,19 @@ use cpu_time::ThreadTime;
 use overhear::building::Pace;
 use overhear::kit_document::KitDocument;
 
-use crate::levels::{self, Row};
-use crate::player::{Blocks, EnginePlayer, Played, Source, Take};
-use crate::progress::Progress;
-use crate::render::{Style, decibels, takes};
-use crate::song::Song;
 use crate::system::{self, WINDOW_LIBRARIES, XVFB};
-use crate::wav::{Bits, WavFile};
 use crate::workspace::Format;
-use crate::{bundle, output, picture, shots, workspace};
+use levels::Row;
+use overhear_cli::output;
+use overhear_cli::player::{Blocks, EnginePlayer, Played, Source, Take};
+use overhear_cli::plugin_folders::user_folder;
+use overhear_cli::progress::Progress;
+use overhear_cli::render::{Style, decibels, takes};
+use overhear_cli::song::Song;
+use overhear_cli::wav::{Bits, WavFile};
+use overhear_measure::picture;
+
+use crate::{bundle, shots, workspace};
 
 /// Sample rate of the demonstration, Hz.
 const RATE: u32 = 48_000;
@@ -153,7 +158,7 @@ fn report(
     println!("picture  {}", png.display());
     println!("plugin   {}", clap.display());
     for format in Format::ALL {
-        if let Ok(folder) = bundle::user_folder(format) {
+        if let Ok(folder) = user_folder(format) {
             println!("`cargo xtask install` puts {} into {}", format.bundle_file(), folder.display());
         }
     }

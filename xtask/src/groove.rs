@@ -100,8 +100,8 @@ fn track(name: &'static [u8], strokes: &[Stroke]) -> Vec<TrackEvent<'static>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::song::Song;
     use overhear::kit_document::KitDocument;
+    use overhear_cli::song::Song;
 
     #[test]
     fn the_file_in_assets_is_the_one_written_here() {
@@ -129,7 +129,7 @@ mod tests {
     #[test]
     fn it_has_ghost_notes_accents_and_human_timing() {
         let song = Song::parse(&file()).unwrap();
-        let snare = |note: &&crate::song::Note| note.key == 38;
+        let snare = |note: &&overhear_cli::song::Note| note.key == 38;
         let ghosts = song.notes.iter().filter(snare).filter(|note| note.velocity < 45).count();
         let accents = song.notes.iter().filter(snare).filter(|note| note.velocity > 95).count();
         assert!(ghosts > 30 && accents > 30, "{ghosts} ghosts, {accents} accents");

@@ -1,40 +1,21 @@
-//! The commands of Overhear: what `cargo xtask` does, and what its tests build on.
+//! The automation of this repository: what `cargo xtask` does.
 //!
-//! In reading order: [`cli`] says which commands there are and what they take. `render`
-//! ([`render`]) turns a MIDI file ([`song`]) into sound through a [`player`], which is either the
-//! engine itself or the built plugin in an embedded [`host`]; [`wav`] and [`output`] put it on
-//! disk. `hear` ([`hear`]) strikes one piece and measures it ([`analysis`]); `realism`
-//! ([`realism`]) sets every piece beside recordings; [`report`] writes pages of figures, measured with [`overhear_lab`];
-//! [`manual`] those of the manual that come from the code; [`presets`] keeps presets, [`kit`] kit files; `modes` ([`modes`]) lists what vibrates.
-//! [`demo`] plays the [`groove`] and draws a [`picture`] of it; [`shots`] takes pictures of the editor. [`bundle`] and [`suite`] build and test.
+//! In reading order: [`cli`] says which tasks there are and what they take; the commands of the program for users are
+//! passed on to it ([`program`]). [`suite`] tests, [`bundle`] builds and installs. [`demo`] plays the [`groove`] and draws a
+//! picture of it; [`shots`] takes pictures of the editor. [`report`] writes pages of figures and [`realism`] sets every piece beside
+//! recordings, both measured with [`overhear_measure`]; [`manual`] writes those pages that come from the code.
+//! [`system`] and [`workspace`] say what the machine has and where things lie.
 #![deny(unsafe_op_in_unsafe_fn)]
 
-pub mod analysis;
-pub mod bench;
 pub mod bundle;
 pub mod cli;
 pub mod demo;
-pub mod error;
 pub mod groove;
-pub mod hear;
-pub mod host;
-pub mod kit;
-mod levels;
 pub mod manual;
-pub mod modes;
-pub mod output;
-pub mod picture;
-pub mod player;
-pub mod presets;
-pub mod progress;
+pub mod program;
 pub mod realism;
-pub mod render;
 pub mod report;
-pub mod settings;
 pub mod shots;
-pub mod song;
-pub mod stage;
 pub mod suite;
 pub mod system;
-pub mod wav;
 pub mod workspace;

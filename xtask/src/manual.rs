@@ -4,7 +4,9 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 
-use crate::{output, workspace};
+use overhear_cli::output;
+
+use crate::workspace;
 
 /// The pages: where they lie in the workspace, and what they say.
 pub fn pages() -> [(&'static str, String); 2] {

@@ -1,188 +1,87 @@
-//! `realism`: every piece in the kit, struck softly to hard in several places, beside recordings of real ones.
-//!
-//! The kit is the plugin's at its defaults, as it is bounced or as it is played, by the plugin's performer. Each stroke is
-//! heard twice: by the piece's close microphone alone, and in the full mix, both as the mean of left and right. The
-//! [`features`] are measured and set beside the [`mod@reference`]; what is compared is the median over the places.
+//! `realism`: every piece beside recordings, as the measuring library does it; the sounds are kept if that is asked for.
 
-mod ears;
-pub mod features;
-pub mod reference;
-mod report;
-mod subject;
-mod table;
-
-use std::path::PathBuf;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
-use std::thread;
 
 use anyhow::Result;
+use clap::Args;
 use overhear::building::Pace;
-use overhear::kit_document::KitDocument;
-use overhear_engine::kit_spec::Kind;
-use overhear_engine::slot::Slot;
-use overhear_engine::strike::Strike;
+use overhear_cli::commands::{say, speed};
+use overhear_cli::output::Folder;
+use overhear_cli::progress::Progress;
+use overhear_cli::settings;
+use overhear_cli::wav::{Bits, WavFile};
+use overhear_measure::realism::{self, Ear, Job, RATE};
 
-use crate::output::Folder;
-use crate::progress::Progress;
-use crate::settings::Setting;
-use crate::wav::{Bits, WavFile};
-
-use ears::Stand;
-
-pub use ears::Ear;
-pub use report::{Count, PieceReport, Report, Row, Stroke};
-pub use subject::{SUBJECTS, Subject, subjects};
-
-/// Speeds of the strokes unless told otherwise, m/s: soft, medium, hard.
-pub const SPEEDS: [f64; 3] = [1.5, 3.0, 5.0];
-
-/// Sample rate, Hz.
-pub const RATE: u32 = 48_000;
-
-/// How long drums and cymbals are heard, s: until each octave has fallen by more than 25 dB.
-const DRUM_SECONDS: f64 = 4.0;
-const CYMBAL_SECONDS: f64 = 8.0;
-
-/// What to measure.
-#[derive(Debug, Clone)]
-pub struct Request {
-    /// The pieces, as they were recorded.
-    pub subjects: Vec<Subject>,
-    /// Speeds of the strokes, m/s, ascending.
-    pub speeds: Vec<f64>,
-    /// The kit, which has pieces of the subjects' names, and its notes.
-    pub kit: KitDocument,
-    /// Parameters that are not at their default.
-    pub settings: Vec<Setting>,
-    /// Whether the kit is bounced or played, which is what its cymbals' quality goes by.
-    pub pace: Pace,
-    /// A folder to keep the sounds in.
-    pub wav: Option<PathBuf>,
+/// Arguments of `realism`.
+#[derive(Debug, Args)]
+pub struct RealismArguments {
+    /// kick, snare, rack-tom, floor-tom, crash, ride, splash, hi-hat-closed, hi-hat-open; all if not given
+    #[arg(value_name = "PIECE")]
+    pieces: Vec<String>,
+    /// Speeds of the strokes, m/s, up to 25
+    #[arg(long, value_name = "M/S,M/S,...", value_delimiter = ',', value_parser = speed,
+          default_values_t = realism::SPEEDS)]
+    speeds: Vec<f64>,
+    /// Strike the pieces of these names in the kit of a file
+    #[arg(long, value_name = "FILE")]
+    kit: Option<PathBuf>,
+    /// Move a parameter from its default, as in snare_tune=180 or offline_quality=high; repeatable
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<String>,
+    /// The kit as a host plays it, cymbals at the quality for that; else as it is bounced
+    #[arg(long)]
+    live: bool,
+    /// Print one JSON object (see docs/commands.md)
+    #[arg(long)]
+    json: bool,
+    /// Keep the sounds in this folder, as 32-bit float
+    #[arg(long, value_name = "DIR")]
+    wav: Option<PathBuf>,
 }
 
-/// One stroke of a subject.
-#[derive(Debug, Clone, Copy)]
-pub struct Job {
-    /// What is struck.
-    pub subject: Subject,
-    /// Its slot.
-    pub slot: Slot,
-    /// Speed, m/s.
-    pub speed: f64,
-    /// Place, share of the radius.
-    pub place: f64,
-}
-
-/// Who is shown a stroke and what the ears hear of it, full scale 1.
-pub type Show<'a> = dyn Fn(&Job, &[Vec<f32>; 2]) + Sync + 'a;
-
-impl Request {
-    /// Every stroke: subject by subject, speed by speed, place by place.
-    fn jobs(&self) -> Result<Vec<Job>> {
-        let mut jobs = Vec::new();
-        for &subject in &self.subjects {
-            let slot = subject.slot(&self.kit)?;
-            for &speed in &self.speeds {
-                jobs.extend(subject.places.map(|place| Job { subject, slot, speed, place }));
-            }
-        }
-        Ok(jobs)
+impl RealismArguments {
+    /// What is asked for.
+    ///
+    /// # Errors
+    /// [`BadInput`](overhear_cli::error::BadInput) for a piece that was not recorded.
+    fn request(&self) -> Result<realism::Request> {
+        let mut speeds = self.speeds.clone();
+        speeds.sort_by(f64::total_cmp);
+        speeds.dedup();
+        let subjects = realism::subjects(&self.pieces)?;
+        let kit = settings::kit(self.kit.as_deref())?;
+        let settings = settings::parse(&self.set, &kit.kit)?;
+        let pace = if self.live { Pace::RealTime } else { Pace::Offline };
+        Ok(realism::Request { subjects, speeds, kit, settings, pace })
     }
 }
 
-/// Renders and measures everything, on as many threads as there are cores, each with a kit of its own.
+/// Measures, keeps the sounds if asked to, and prints the report.
 ///
 /// # Errors
-/// [`BadInput`](crate::error::BadInput) if a sound cannot be written.
-pub fn run(request: &Request) -> Result<Report> {
-    run_and_show(request, &|_, _| ())
-}
-
-/// The same, showing every stroke, in no order, with what each ear hears of it (full scale 1).
-///
-/// # Errors
-/// As [`run`].
-pub fn run_and_show(request: &Request, show: &Show) -> Result<Report> {
-    let _folder = request.wav.as_deref().map(Folder::new).transpose()?;
-    let jobs = request.jobs()?;
-    let next = AtomicUsize::new(0);
-    let done: Mutex<Vec<Option<[Stroke; 2]>>> = Mutex::new(vec![None; jobs.len()]);
-    let progress = Mutex::new(Progress::new("realism", jobs.len() as u64));
-    let work = || -> Result<()> {
-        let mut stand = Stand::new(RATE, &request.kit, &request.settings, request.pace)?;
-        loop {
-            let index = next.fetch_add(1, Ordering::Relaxed);
-            let Some(job) = jobs.get(index) else { return Ok(()) };
-            let strokes = job.strike(&mut stand, request, show)?;
-            progress.lock().unwrap_or_else(PoisonError::into_inner).advance(1);
-            done.lock().unwrap_or_else(PoisonError::into_inner)[index] = Some(strokes);
-        }
-    };
-    let cores = thread::available_parallelism().map_or(1, usize::from).min(jobs.len());
-    thread::scope(|scope| {
-        let threads: Vec<_> = (0..cores).map(|_| scope.spawn(work)).collect();
-        let joined = threads
-            .into_iter()
-            .map(|thread| thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
-        joined.collect::<Result<()>>()
+/// [`BadInput`](overhear_cli::error::BadInput) for a piece that was not recorded, a kit or a parameter that is not one, and
+/// a sound that cannot be written.
+pub fn run(arguments: RealismArguments) -> Result<()> {
+    let request = arguments.request()?;
+    let _folder = arguments.wav.as_deref().map(Folder::new).transpose()?;
+    let progress = Mutex::new(Progress::new("realism", request.strokes() as u64));
+    let report = realism::run_and_show(&request, &|job, heard| {
+        progress.lock().unwrap_or_else(PoisonError::into_inner).advance(1);
+        arguments.wav.as_deref().map_or(Ok(()), |folder| keep(folder, job, heard))
     })?;
-    let done = done.into_inner().unwrap_or_else(PoisonError::into_inner);
-    let strokes: Vec<[Stroke; 2]> = done.into_iter().flatten().collect();
-    Report::new(RATE, request, &strokes)
+    drop(progress);
+    say(&if arguments.json { serde_json::to_string(&report)? + "\n" } else { report.to_string() })
 }
 
-impl Job {
-    /// Renders the stroke, keeps what each ear hears if asked to, and measures it.
-    fn strike(&self, stand: &mut Stand, request: &Request, show: &Show) -> Result<[Stroke; 2]> {
-        let Job { subject, slot, speed, place } = *self;
-        let strike = Strike { speed, radius: place, ..subject.strike(&request.kit, slot) };
-        let kind = request.kit.kit.piece(slot).map(|piece| piece.instrument.kind());
-        let seconds = if kind == Some(Kind::Drum) { DRUM_SECONDS } else { CYMBAL_SECONDS };
-        let heard = stand.strike(slot, &strike, subject.pedal(&request.kit, slot), seconds);
-        if let Some(folder) = &request.wav {
-            for (ear, sound) in Ear::ALL.into_iter().zip(&heard) {
-                let name = format!("{}-{speed}-at-{place}-{}.wav", subject.name, ear.name());
-                let (path, frames) = (folder.join(name), sound.len() as u64);
-                let mut file = WavFile::create(&path, Bits::Float32, RATE, 1, frames)?;
-                file.write(&[sound])?;
-                file.finish()?;
-            }
-        }
-        show(self, &heard);
-        let rate = f64::from(RATE);
-        Ok(heard.map(|sound| Stroke {
-            features: features::measure(&sound, rate),
-            level_db: features::level_db(&sound, rate),
-        }))
+/// Writes what each ear hears of a stroke.
+fn keep(folder: &Path, job: &Job, heard: &[Vec<f32>; 2]) -> Result<()> {
+    let Job { subject, speed, place, .. } = job;
+    for (ear, sound) in Ear::ALL.into_iter().zip(heard) {
+        let path = folder.join(format!("{}-{speed}-at-{place}-{}.wav", subject.name, ear.name()));
+        let mut file = WavFile::create(&path, Bits::Float32, RATE, 1, sound.len() as u64)?;
+        file.write(&[sound])?;
+        file.finish()?;
     }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_stroke_has_every_figure_that_is_compared_or_says_it_has_not() {
-        let report = run(&Request {
-            subjects: subjects(&["rack-tom".to_owned()]).unwrap(),
-            speeds: vec![2.0, 4.0],
-            kit: KitDocument::standard(),
-            settings: Vec::new(),
-            pace: Pace::RealTime,
-            wav: None,
-        });
-        let report = report.unwrap();
-        assert_eq!(report.pieces.iter().map(|piece| piece.heard).collect::<Vec<_>>(), Ear::ALL);
-        for piece in &report.pieces {
-            assert_eq!(piece.features.len(), reference::figures("rack-tom").len());
-            assert!(piece.features.iter().all(|row| row.values.len() == 2));
-            assert!(piece.features.iter().filter(|row| row.values[0].is_some()).count() > 12);
-            // The soft stroke is no stroke that the goals are about.
-            assert_eq!(piece.firm.of, piece.features.len());
-        }
-        // What the microphone over the rim hears is not what the overheads add up to.
-        assert_ne!(report.pieces[0].features[0].values, report.pieces[1].features[0].values);
-        assert!(report.to_string().contains("rack-tom"));
-    }
+    Ok(())
 }

@@ -1,61 +1,26 @@
-//! `report`: pages of measured figures, written to a folder: tables in Markdown and their plots.
+//! `report`: the pages of the measuring library and the one on costs, written to a folder with an index.
 //!
-//! Each page is a module: it measures, and hands back a [`Page`]. The same sources give the same
-//! pages, byte by byte, on one machine; but for the page on costs, which depends on the machine.
-//! Every figure says what it was measured on: the standard kit, or a named reference. What pages measure is open to the
-//! tests, which hold the same figures to the same bounds.
+//! The same sources give the same pages, byte by byte, on one machine; but for the page on costs, which depends on the
+//! machine.
 
-pub mod cascade;
-pub mod contact;
 mod cost;
-pub mod cymbal;
-pub mod drums;
-pub mod glide;
-pub mod heads;
-pub mod hi_hat;
-pub mod kit;
-pub mod modal;
-pub mod page;
-mod plate;
-mod plot;
-pub mod radiation;
-mod realism;
-pub mod snare;
 
 use std::fmt::Write;
-use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
 use std::time::Instant;
 
 use anyhow::Result;
+use overhear_cli::{bad_input, output};
+use overhear_measure::report::{self, Measure, page};
+use rayon::prelude::*;
 
-use crate::bad_input;
-use crate::{output, workspace};
-
-pub use page::{Claim, Page, Sheet};
-
-/// Measures a page.
-type Measure = fn() -> Result<Page>;
+use crate::workspace;
 
 /// Every page there is, in reading order: its name and what measures it.
-pub const PAGES: [(&str, Measure); 14] = [
-    ("modal", modal::page),
-    ("contact", contact::page),
-    ("heads", heads::page),
-    ("glide", glide::page),
-    ("drums", drums::page),
-    ("snare", snare::page),
-    ("plate", plate::page),
-    ("cymbal", cymbal::page),
-    ("cascade", cascade::page),
-    ("hi-hat", hi_hat::page),
-    ("radiation", radiation::page),
-    ("kit", kit::page),
-    ("realism", realism::page),
-    ("cost", cost::page),
-];
+pub fn pages() -> impl Iterator<Item = (&'static str, Measure)> {
+    let cost: Measure = cost::page;
+    report::PAGES.into_iter().chain([("cost", cost)])
+}
 
 /// Where the pages belong.
 pub fn folder() -> PathBuf {
@@ -65,16 +30,15 @@ pub fn folder() -> PathBuf {
 /// Measures pages, all if none is named, writes them to `folder`, and an index of those that are there.
 ///
 /// # Errors
-/// [`BadInput`](crate::error::BadInput) for a page there is none of; if a piece cannot be built or a file not be
+/// [`BadInput`](overhear_cli::error::BadInput) for a page there is none of; if a piece cannot be built or a file not be
 /// written.
 pub fn run(names: &[String], folder: &Path) -> Result<()> {
-    let known = PAGES.map(|(name, _)| name);
+    let known: Vec<&str> = pages().map(|(name, _)| name).collect();
     if let Some(unknown) = names.iter().find(|name| !known.contains(&name.as_str())) {
         return Err(bad_input!("no page is called `{unknown}`, accepted: {}", known.join(", ")));
     }
     std::fs::create_dir_all(folder)?;
-    let asked =
-        PAGES.into_iter().filter(|(name, _)| names.is_empty() || names.iter().any(|asked| asked == name));
+    let asked = pages().filter(|(name, _)| names.is_empty() || names.iter().any(|asked| asked == name));
     // Costs are measured with nothing beside them.
     let (alone, others): (Vec<_>, Vec<_>) = asked.partition(|(name, _)| *name == "cost");
     write_all(&others, folder)?;
@@ -83,32 +47,22 @@ pub fn run(names: &[String], folder: &Path) -> Result<()> {
         let text = std::fs::read_to_string(folder.join(format!("{name}.md"))).ok()?;
         Some((name, text))
     };
-    let written: Vec<_> = PAGES.into_iter().filter_map(there).collect();
+    let written: Vec<_> = pages().filter_map(there).collect();
     output::write(&folder.join("README.md"), index(&written).as_bytes())
 }
 
 /// Measures and writes pages, as many at once as there are cores.
 fn write_all(pages: &[(&str, Measure)], folder: &Path) -> Result<()> {
-    let next = AtomicUsize::new(0);
-    let work = || -> Result<()> {
-        while let Some((name, measure)) = pages.get(next.fetch_add(1, Ordering::Relaxed)) {
-            let begun = Instant::now();
-            let page = measure()?;
-            for (file, bytes) in &page.pictures {
-                output::write(&folder.join(file), bytes)?;
-            }
-            output::write(&folder.join(format!("{name}.md")), page.markdown.as_bytes())?;
-            let [met, of] = page::tally(&page.claims);
-            eprintln!("{name}: {met} of {of} met, {:.0} s", begun.elapsed().as_secs_f64());
+    pages.par_iter().with_max_len(1).try_for_each(|(name, measure)| {
+        let begun = Instant::now();
+        let page = measure()?;
+        for (file, bytes) in &page.pictures {
+            output::write(&folder.join(file), bytes)?;
         }
+        output::write(&folder.join(format!("{name}.md")), page.markdown.as_bytes())?;
+        let [met, of] = page::tally(&page.claims);
+        eprintln!("{name}: {met} of {of} met, {:.0} s", begun.elapsed().as_secs_f64());
         Ok(())
-    };
-    let cores = thread::available_parallelism().map_or(1, usize::from).min(pages.len());
-    thread::scope(|scope| {
-        let threads: Vec<_> = (0..cores).map(|_| scope.spawn(work)).collect();
-        let joined =
-            threads.into_iter().map(|thread| thread.join().unwrap_or_else(|panic| resume_unwind(panic)));
-        joined.collect()
     })
 }
 
@@ -141,6 +95,7 @@ fn index(pages: &[(&str, String)]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use overhear_measure::report::{Claim, Sheet};
 
     #[test]
     fn an_unknown_page_is_refused_with_those_there_are() {

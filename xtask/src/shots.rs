@@ -16,10 +16,12 @@ use anyhow::{Context, Result, ensure};
 use overhear_engine::kit_spec::KitSpec;
 use serde_json::{Value, json};
 
-use crate::host::{Bundle, Event, Instance, Processor, What};
 use crate::suite::display::Display;
 use crate::workspace::Format;
-use crate::{bundle, host, output};
+use overhear_cli::host::{Bundle, Event, Instance, Processor, What};
+use overhear_cli::{host, output};
+
+use crate::bundle;
 use window::HostWindow;
 
 /// Sample rate, Hz, and samples of a buffer.

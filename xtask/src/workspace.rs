@@ -5,41 +5,13 @@ use std::process::Command;
 
 use anyhow::{Context, Result};
 
+pub use overhear_cli::plugin_folders::{BUNDLE_NAME, Format};
+
 /// Package of the plugin, as cargo knows it.
 pub const PLUGIN_PACKAGE: &str = "overhear";
 
 /// Package of the program that needs no host.
 pub const STANDALONE_PACKAGE: &str = "overhear-standalone";
-
-/// Name of the bundles, without extension; `bundler.toml` says the same.
-pub const BUNDLE_NAME: &str = "Overhear";
-
-/// A plugin format that is bundled.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Format {
-    /// CLever Audio Plug-in.
-    Clap,
-    /// Steinberg's VST3.
-    Vst3,
-}
-
-impl Format {
-    /// Both formats.
-    pub const ALL: [Format; 2] = [Format::Clap, Format::Vst3];
-
-    /// File name extension of the bundle.
-    pub fn extension(self) -> &'static str {
-        match self {
-            Format::Clap => "clap",
-            Format::Vst3 => "vst3",
-        }
-    }
-
-    /// File name of the bundle.
-    pub fn bundle_file(self) -> String {
-        format!("{BUNDLE_NAME}.{}", self.extension())
-    }
-}
 
 /// Root of the workspace.
 pub fn root() -> PathBuf {

@@ -2,9 +2,9 @@
 
 use std::fs;
 
+use overhear_cli::bench;
+use overhear_cli::error::exit_code;
 use serde_json::Value;
-use xtask::bench;
-use xtask::error::exit_code;
 
 use super::{Folder, SONG, documented, keys, root};
 

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::PathBuf;
 
-use xtask::report::page;
+use overhear_measure::report::page;
 
 use super::{Folder, SONG, root};
 
@@ -95,7 +95,7 @@ fn the_long_commands_do_what_it_says() {
     }
     let program = format!("bundled/overhear-standalone{}", std::env::consts::EXE_SUFFIX);
     assert!(xtask::workspace::target_dir().unwrap().join(program).exists());
-    for (name, _) in xtask::report::PAGES {
+    for (name, _) in xtask::report::pages() {
         let claims = |folder: PathBuf| {
             let page = fs::read_to_string(folder.join(name).with_extension("md")).unwrap_or_default();
             let rows =

@@ -3,9 +3,9 @@
 use overhear::parameters::{
     BYPASS_ID, COUNT, SlotParameter, default_value, host_id, is_live, parameters, slot_parameter, text,
 };
+use overhear_cli::host::Bundle;
+use overhear_cli::plugin_folders::Format;
 use overhear_engine::kit_spec::{Kind, KitSpec};
-use xtask::host::Bundle;
-use xtask::workspace::Format;
 
 use crate::{alone, bundle_path, instance};
 

@@ -8,12 +8,12 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use overhear::parameters::{find, host_id, parameters};
+use overhear_cli::host::{Instance, Processor, Touch};
+use overhear_cli::player::Blocks;
 use overhear_engine::kit_spec::KitSpec;
 use x11rb::connection::Connection;
 use x11rb::protocol::xproto::{self, ConfigureWindowAux, ConnectionExt};
 use x11rb::protocol::xtest::ConnectionExt as _;
-use xtask::host::{Instance, Processor, Touch};
-use xtask::player::Blocks;
 
 use crate::score::{assert_same, notes, through_engine, through_plugin};
 use crate::window::{PATIENCE, Parent};

@@ -1,6 +1,6 @@
 //! The same samples from the engine and the plugin, however the host cuts the time.
 
-use xtask::player::Blocks;
+use overhear_cli::player::Blocks;
 
 use crate::score::{Happening, assert_same, automated, notes, peak, through_engine, through_plugin};
 use crate::{alone, instance};

@@ -5,11 +5,11 @@ use std::time::{Duration, Instant};
 
 use overhear::kit_document::KitDocument;
 use overhear::kit_file;
+use overhear_cli::host::{Event, Instance, Processor, What, set_kit, with_fields};
+use overhear_cli::player::{Blocks, Hit, Setup, Source, Take};
+use overhear_cli::plugin_folders::Format;
 use overhear_engine::kit::OUTPUTS;
 use overhear_engine::slot::Slot;
-use xtask::host::{Event, Instance, Processor, What, set_kit, with_fields};
-use xtask::player::{Blocks, Hit, Setup, Source, Take};
-use xtask::workspace::Format;
 
 use crate::multi::multi;
 use crate::score::{Happening, Score, Sound, assert_same, notes, on_a_kit, peak, through_plugin};

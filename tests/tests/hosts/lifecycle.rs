@@ -3,8 +3,8 @@
 use std::thread;
 
 use overhear::parameters::{BYPASS_ID, host_id};
-use xtask::host::{Event, What};
-use xtask::player::Blocks;
+use overhear_cli::host::{Event, What};
+use overhear_cli::player::Blocks;
 
 use crate::score::{assert_same, notes, peak, through_engine, through_plugin};
 use crate::{alone, instance};

@@ -8,8 +8,8 @@ use overhear::midi::maps::NoteMap;
 use overhear::parameters::{COUNT, default_value, find, parameters};
 use overhear::performer::Performer;
 use overhear::presets::{FACTORY, Preset};
+use overhear_cli::host::{Event, Instance, What};
 use overhear_engine::kit_spec::KitSpec;
-use xtask::host::{Event, Instance, What};
 
 use crate::score::{Sound, assert_same, peak};
 use crate::{alone, as_hosts_have_it, instance, setting};

@@ -1,11 +1,11 @@
 //! The instrument with an output for every slot and each pair of microphones.
 
+use overhear_cli::host::{Bundle, Event, Instance, What};
+use overhear_cli::player::Blocks;
+use overhear_cli::plugin_folders::Format;
 use overhear_engine::kit::OUTPUTS;
 use overhear_engine::kit_spec::KitSpec;
 use overhear_engine::slot::Slot;
-use xtask::host::{Bundle, Event, Instance, What};
-use xtask::player::Blocks;
-use xtask::workspace::Format;
 
 use crate::score::{assert_same, notes, through_plugin};
 use crate::vst3::through_pedalboard;

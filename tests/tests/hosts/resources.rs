@@ -2,8 +2,8 @@
 
 use std::time::{Duration, Instant};
 
-use xtask::host::{Bundle, Event, What};
-use xtask::workspace::Format;
+use overhear_cli::host::{Bundle, Event, What};
+use overhear_cli::plugin_folders::Format;
 
 use crate::{alone, bundle_path, instance};
 

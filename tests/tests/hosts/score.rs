@@ -5,8 +5,8 @@ use std::sync::Arc;
 use overhear::building::Pace;
 use overhear::kit_document::KitDocument;
 use overhear::performer::{Performer, velocity_from_midi};
-use xtask::host::{Event, Instance, What};
-use xtask::player::Blocks;
+use overhear_cli::host::{Event, Instance, What};
+use overhear_cli::player::Blocks;
 
 use crate::{as_hosts_have_it, setting};
 

@@ -1,8 +1,8 @@
 //! What a project stores and gets back.
 
 use overhear::parameters::{COUNT, SlotParameter, parameters, slot_parameter};
-use xtask::host::Instance;
-use xtask::player::Blocks;
+use overhear_cli::host::Instance;
+use overhear_cli::player::Blocks;
 
 use crate::score::{Sound, assert_same, notes, through_plugin};
 use crate::{alone, as_hosts_have_it, here, instance, setting};

@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use std::process::Command;
 
 use overhear::parameters::{BYPASS_GROUP, parameters};
+use overhear_cli::player::Blocks;
+use overhear_cli::plugin_folders::Format;
 use serde_json::{Value, json};
-use xtask::player::Blocks;
-use xtask::workspace::Format;
 
 use crate::score::{Happening, Score, Sound, assert_same, frames, notes, through_plugin};
 use crate::{alone, as_hosts_have_it, bundle_path, here, instance, setting};

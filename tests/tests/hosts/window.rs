@@ -12,8 +12,8 @@ use x11rb::{COPY_DEPTH_FROM_PARENT, COPY_FROM_PARENT};
 
 use crate::score::{assert_same, notes, through_engine, through_plugin};
 use crate::{Stop, alone, instance};
-use xtask::host::{Event, Instance, Processor, What};
-use xtask::player::Blocks;
+use overhear_cli::host::{Event, Instance, Processor, What};
+use overhear_cli::player::Blocks;
 
 /// How long an editor may take to appear: a virtual display draws in software.
 pub const PATIENCE: Duration = Duration::from_secs(60);

@@ -6,11 +6,14 @@ use anyhow::{Context, Result, ensure};
 use overhear::presets::Library;
 
 use super::{RATE, clap_bundle, play, style};
-use crate::player::Source;
-use crate::render::{decibels, takes};
-use crate::song::Song;
-use crate::wav::{Bits, WavFile};
-use crate::{output::Folder, settings, workspace};
+use overhear_cli::output::Folder;
+use overhear_cli::player::Source;
+use overhear_cli::render::{decibels, takes};
+use overhear_cli::settings;
+use overhear_cli::song::Song;
+use overhear_cli::wav::{Bits, WavFile};
+
+use crate::workspace;
 
 /// Length of a demonstration, s.
 const SECONDS: f64 = 30.0;

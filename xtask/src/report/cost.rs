@@ -1,13 +1,14 @@
 //! Costs, as `bench` measures them in a release build: the one page that depends on the machine.
 
 use anyhow::{Context, Result};
+use overhear_measure::report::page::bodies::PLAYED;
+use overhear_measure::report::page::figure;
+use overhear_measure::report::page::sources::{EARLIER, GOAL};
+use overhear_measure::report::plot::{Axis, Plot, comb};
+use overhear_measure::report::{Claim, Page, Sheet};
 use serde_json::Value;
 
-use super::page::bodies::PLAYED;
-use super::page::sources::{EARLIER, GOAL};
-use super::plot::{Axis, Plot, comb};
-use super::{Claim, Page, Sheet};
-use crate::workspace;
+use crate::program;
 
 /// Runs of everything: enough to see a spread.
 const RUNS: &str = "3";
@@ -80,7 +81,7 @@ pub fn page() -> Result<Page> {
         sheet.claim(Claim {
             what: what.to_owned(),
             on: PLAYED,
-            figure: format!("{} {unit}", super::page::figure(got)),
+            figure: format!("{} {unit}", figure(got)),
             reference: format!("{most} {unit}"),
             source: GOAL,
             met: Some(got < most),
@@ -103,8 +104,8 @@ pub fn page() -> Result<Page> {
 
 /// Runs `bench` in a release build, its report as JSON.
 fn bench() -> Result<Value> {
-    let output = workspace::cargo()
-        .args(["run", "--release", "--quiet", "--package", "xtask", "--", "bench", "--json", "--runs", RUNS])
+    let output = program::released()
+        .args(["bench", "--json", "--runs", RUNS])
         .stderr(std::process::Stdio::inherit())
         .output()
         .context("cannot run cargo")?;
@@ -125,7 +126,7 @@ fn pieces(sheet: &mut Sheet, report: &Value) -> Result<()> {
     sheet.heading("The pieces");
     sheet.text("Each by itself, the second after a stroke of 6 m/s, calibrations.");
     let tiers = ["eco", "standard", "high", "offline"];
-    let names = overhear_lab::names();
+    let names = overhear_measure::names();
     let cost = |piece: &str, tier: &str| {
         let of_tier = number(report, &["pieces", piece, "tiers", tier, "calibrations"]);
         let standard = number(report, &["pieces", piece, "calibrations"]);

@@ -20,8 +20,8 @@ use cpu_time::ThreadTime;
 
 use super::window::HostWindow;
 use super::{BLOCK, RATE, Shot, pass, play, shot, with_view};
-use crate::bench::calibration::Calibration;
-use crate::host::{Bundle, Instance, Processor};
+use overhear_cli::bench::calibration::Calibration;
+use overhear_cli::host::{Bundle, Instance, Processor};
 
 /// Size of the window, points: the smallest there is.
 const SIZE: [u32; 2] = [800, 500];

@@ -10,8 +10,8 @@ use x11rb::protocol::xproto::{ConnectionExt, CreateWindowAux, ImageFormat, Windo
 use x11rb::rust_connection::RustConnection;
 use x11rb::{COPY_DEPTH_FROM_PARENT, COPY_FROM_PARENT};
 
-use crate::host::Instance;
-use crate::picture;
+use overhear_cli::host::Instance;
+use overhear_measure::picture;
 
 /// How long an editor may take to appear: a virtual display draws in software.
 const PATIENCE: Duration = Duration::from_secs(30);

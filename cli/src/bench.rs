@@ -1,0 +1,197 @@
+//! `bench`: what the instrument costs.
+//!
+//! A cost is the CPU time a second of sound takes over the CPU time of a fixed loop (`calibration`), both cut into slices
+//! that take turns: what else the machine does then hits both alike. Every run does exactly the same work, for the
+//! engine is deterministic; what differs between runs is the machine, and the median and the spread say by how much.
+
+pub mod calibration;
+mod callgrind;
+mod compare;
+mod limit;
+mod measure;
+mod report;
+mod workload;
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::thread;
+use std::time::Instant;
+
+use anyhow::{Context, Result};
+use cpu_time::ProcessTime;
+use overhear::building::{BuildPlan, Pace};
+use overhear::cache::FolderCache;
+use overhear::kit_document::KitDocument;
+use overhear::parameters::default_value;
+use overhear::performer::Performer;
+use overhear_engine::kit_spec::Kind;
+use overhear_engine::modal::simd::Kernels;
+use overhear_engine::modal::simd::level::{self, InstructionSet};
+use overhear_engine::piece::{Piece, Quality};
+use rayon::prelude::*;
+use serde::Serialize;
+
+use crate::progress::Progress;
+use crate::{bad_input, settings};
+use limit::Limit;
+use report::Report;
+use workload::{Scene, Workload};
+
+pub use callgrind::count_this;
+
+/// Sample rate of everything measured, if not given, Hz.
+pub const RATE: f64 = 44_100.0;
+
+/// Threads that build a kit at once, at most, as in the plugin.
+const MOST_BUILDERS: usize = 4;
+
+/// Runs if not given.
+pub const RUNS: usize = 7;
+
+/// What to measure.
+#[derive(Debug, Clone)]
+pub struct Request {
+    /// A file of the kit; the standard kit if none is named.
+    pub kit: Option<PathBuf>,
+    /// Runs of everything, at least 1.
+    pub runs: usize,
+    /// Tier of the kit's cymbals in the groove and struck all at once.
+    pub quality: Quality,
+    /// Sample rate, Hz.
+    pub rate: f64,
+    /// The instruction set to keep to; the machine's widest if none.
+    pub simd: Option<InstructionSet>,
+    /// A report to set this one beside.
+    pub compare: Option<PathBuf>,
+    /// Count instructions, too.
+    pub callgrind: bool,
+}
+
+/// Measures everything.
+///
+/// # Errors
+/// [`BadInput`](crate::error::BadInput) if the machine has not the instruction set, a piece cannot be built, the
+/// report to compare with is none, or `valgrind` is asked for and missing.
+pub fn run(request: &Request) -> Result<Report> {
+    if let Some(set) = request.simd {
+        if !set.is_available() {
+            let available = InstructionSet::ALL.into_iter().filter(|set| set.is_available());
+            let names = available.map(InstructionSet::name).collect::<Vec<_>>().join(", ");
+            return Err(bad_input!("this machine has no {}, accepted: {names}", set.name()));
+        }
+        level::limit(set);
+    }
+    let before = request.compare.as_deref().map(compare::read).transpose()?;
+    let document = settings::kit(request.kit.as_deref())?;
+    let builds = Builds::measure(&document, request.rate)?;
+    let scenes = scenes(&document, request.quality);
+    let mut progress = Progress::new("bench", (scenes.len() * request.runs) as u64);
+    let mut costs = Vec::new();
+    let mut blocks = Vec::new();
+    for scene in scenes {
+        let mut workload = Workload::new(scene, &document, request.rate)?;
+        let (cost, lasted) = measure::runs(&mut workload, request.runs, &mut progress);
+        blocks.extend(scene.is_kit().then_some(lasted));
+        costs.push((scene, cost));
+    }
+    let counts = if request.callgrind { callgrind::count(request, &document)? } else { Vec::new() };
+    let report = Report::new(report::Measured {
+        request,
+        kit: &document.kit,
+        costs,
+        blocks,
+        builds,
+        simd: Kernels::detect().name(),
+        counts,
+    });
+    Ok(match before {
+        Some(before) => report.beside(before),
+        None => report,
+    })
+}
+
+/// Everything that is measured: the kit's scenes, then each piece struck by itself.
+fn scenes(document: &KitDocument, quality: Quality) -> Vec<Scene> {
+    let mut scenes = Scene::of_kit(document, quality);
+    for (slot, piece) in document.kit.slots() {
+        if piece.instrument.kind() == Kind::Drum {
+            scenes.push(Scene::Piece(slot, Quality::Standard));
+        } else {
+            scenes.extend(Quality::ALL.map(|quality| Scene::Piece(slot, quality)));
+        }
+    }
+    scenes
+}
+
+/// What it takes to have a kit.
+#[derive(Debug, Clone, Copy, Default, Serialize)]
+pub struct Builds {
+    /// All that makes sound of an instance, without pieces, s.
+    pub instance_s: f64,
+    /// Nothing is known yet, s.
+    pub build_cold_s: f64,
+    /// All is in the cache folder, s.
+    pub build_from_disk_s: f64,
+    /// All is in memory, s.
+    pub build_warm_s: f64,
+    /// CPU seconds of all processors for these three, in their order: what other work on the machine adds least to.
+    pub build_cpu_s: [f64; 3],
+    /// What the process holds after the first, in MB.
+    pub memory_mb: f64,
+    /// What the machine can do, and what a ringing kit asks for.
+    pub limit: Option<Limit>,
+}
+
+impl Builds {
+    /// Builds kits; before anything else is built and held.
+    fn measure(document: &KitDocument, rate: f64) -> Result<Builds> {
+        let start = Instant::now();
+        drop(Performer::new(rate, document, Arc::default()));
+        let instance_s = start.elapsed().as_secs_f64();
+        let ([build_cold_s, cold_cpu_s], kit) = build(document, rate)?;
+        let memory =
+            memory_stats::memory_stats().context("this system does not tell what memory a process holds")?;
+        let ([build_warm_s, warm_cpu_s], _) = build(document, rate)?;
+        let limit = Some(Limit::measure(&kit, rate));
+        drop(kit);
+        // As the plugin keeps it; what an earlier process left has no part in it.
+        let folder = std::env::temp_dir().join(format!("overhear-bench-{}", std::process::id()));
+        overhear_engine::cache::provide(Box::new(FolderCache::new(&folder)));
+        overhear_engine::cache::forget();
+        build(document, rate)?;
+        overhear_engine::cache::forget();
+        let from_disk = build(document, rate);
+        // What is left in a folder for what is temporary harms nobody.
+        let _ = std::fs::remove_dir_all(&folder);
+        let ([build_from_disk_s, disk_cpu_s], _) = from_disk?;
+        let memory_mb = memory.physical_mem as f64 / 1e6;
+        let build_cpu_s = [cold_cpu_s, disk_cpu_s, warm_cpu_s];
+        Ok(Builds {
+            instance_s,
+            build_cold_s,
+            build_from_disk_s,
+            build_warm_s,
+            build_cpu_s,
+            memory_mb,
+            limit,
+        })
+    }
+}
+
+/// Builds a whole kit, on as many processors as the plugin does; how long that took and what of all processors, s.
+fn build(document: &KitDocument, rate: f64) -> Result<([f64; 2], Vec<Piece>)> {
+    let processors = thread::available_parallelism().map_or(1, usize::from).min(MOST_BUILDERS);
+    let builders = rayon::ThreadPoolBuilder::new().num_threads(processors).build();
+    let builders = builders.context("the system starts no more threads")?;
+    let (start, start_cpu) = (Instant::now(), ProcessTime::now());
+    let usual = |index| default_value(index, &document.kit);
+    let plan = BuildPlan::of(Arc::new(document.clone()), usual, Pace::RealTime);
+    let make = |slot| Some(Piece::new(slot, &plan.build(slot)?, &plan.options(rate)));
+    // A bridge hands them out in their order, the longest first.
+    let slots = plan.longest_first().into_iter().par_bridge();
+    let kit: Vec<_> = builders.install(|| slots.filter_map(make).collect());
+    let seconds = [start.elapsed(), start_cpu.elapsed()].map(|time| time.as_secs_f64());
+    let kit: Result<Vec<Piece>> =
+        kit.into_iter().map(|piece| piece.map_err(|error| bad_input!("{error}"))).collect();
+    Ok((seconds, kit?))
+}

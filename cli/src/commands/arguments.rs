@@ -1,0 +1,476 @@
+//! What each command takes.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+use clap::{Args, Subcommand, ValueEnum};
+use overhear::kit_document::KitDocument;
+use overhear_engine::kit_spec::KitSpec;
+use overhear_engine::modal::simd::level::InstructionSet;
+use overhear_engine::piece::{self, BuildOptions};
+use overhear_engine::slot::Slot;
+use overhear_engine::strike::Strike;
+use overhear_measure::hear;
+
+use super::alterations::Alterations;
+use crate::modes::Modes;
+use crate::player::{Blocks, Source};
+use crate::plugin_folders::{self, Format};
+use crate::settings::Chosen;
+use crate::wav::Bits;
+use crate::{bench, modes, render, settings, stage};
+
+/// Sample rates that the engine builds for, Hz.
+const RATES: std::ops::RangeInclusive<i64> = 22_050..=768_000;
+
+/// Longest sound after the last note and of one stroke, s.
+const LONGEST: f64 = 600.0;
+
+/// What the program does.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Render MIDI files to WAV files
+    Render(RenderArguments),
+    /// Strike one piece once and measure the sound
+    Hear(HearArguments),
+    /// List every vibration mode of a piece
+    Modes(ModesArguments),
+    /// Show, start and check kit files, and list fitted constants
+    Kit {
+        /// What to do with them.
+        #[command(subcommand)]
+        task: KitTask,
+    },
+    /// List, show, save, rename, delete and check presets
+    Presets {
+        /// The folder of your presets, if it is not the usual one
+        #[arg(long, value_name = "DIR", global = true)]
+        folder: Option<PathBuf>,
+        /// What to do with them; without anything they are listed.
+        #[command(subcommand)]
+        task: Option<PresetTask>,
+    },
+    /// Measure how much processor time and memory the instrument needs
+    Bench(BenchArguments),
+    /// Play one scene of `bench` once, for callgrind to count
+    #[command(hide = true)]
+    BenchScene {
+        /// Number of the scene
+        index: usize,
+        /// Tier of the kit's cymbals
+        quality: Quality,
+        /// Instruction set
+        simd: Simd,
+        /// A file of the kit
+        kit: Option<PathBuf>,
+    },
+}
+
+/// What to do with kits.
+#[derive(Debug, Subcommand)]
+pub enum KitTask {
+    /// Print the complete file of a kit: the standard one if nothing is named
+    Show {
+        /// A preset, whose kit is meant, or a kit file
+        #[arg(value_name = "NAME|FILE")]
+        what: Option<String>,
+    },
+    /// Begin a kit file: the standard kit, with remarks on how to change it
+    New {
+        /// The file to write
+        file: PathBuf,
+    },
+    /// Check kit files
+    Check {
+        /// Files
+        #[arg(required = true, value_name = "FILE")]
+        files: Vec<PathBuf>,
+    },
+    /// List every constant that was fitted, to what, and what else it moves
+    Fitted {
+        /// Print one JSON list (see docs/commands.md)
+        #[arg(long)]
+        json: bool,
+    },
+}
+
+/// What to do with presets; without anything they are listed.
+#[derive(Debug, Subcommand)]
+pub enum PresetTask {
+    /// Print a preset's file
+    Show {
+        /// A name
+        name: String,
+    },
+    /// Save a preset from another one and from values
+    Save {
+        /// Its name
+        name: String,
+        /// The preset to start from
+        #[arg(long, value_name = "NAME", default_value = "default")]
+        from: String,
+        /// Move a parameter, as in kick_tune=60; repeatable
+        #[arg(long, value_name = "NAME=VALUE")]
+        set: Vec<String>,
+        /// What it is for, in a line
+        #[arg(long, default_value = "")]
+        about: String,
+    },
+    /// Give one of your presets another name
+    Rename {
+        /// The name it has
+        from: String,
+        /// The name it gets
+        to: String,
+    },
+    /// Delete one of your presets
+    Delete {
+        /// A name
+        name: String,
+    },
+    /// Check files, or all presets if none is given
+    Check {
+        /// Files
+        files: Vec<PathBuf>,
+    },
+}
+
+/// Arguments of `render`.
+#[derive(Debug, Args)]
+pub struct RenderArguments {
+    /// MIDI files, or folders of them
+    #[arg(required = true, value_name = "SONG.mid")]
+    songs: Vec<PathBuf>,
+    /// The WAV file to write; a folder for several songs
+    #[arg(short, long, value_name = "OUT.wav")]
+    output: PathBuf,
+    /// Start from a preset: a name that `presets` lists, or a file
+    #[arg(long, value_name = "NAME|FILE.toml", default_value = "default")]
+    preset: String,
+    /// Play the kit of a file, in place of the preset's
+    #[arg(long, value_name = "FILE")]
+    kit: Option<PathBuf>,
+    /// Move a parameter before the start, as in kick_tune=60 or ride_level=-6; repeatable
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<String>,
+    /// Sample rate, Hz
+    #[arg(long, value_name = "HZ", default_value = "48000", value_parser = rate)]
+    rate: u32,
+    /// Samples rendered at a time, 1 to 8192 or `random`; does not change the sound
+    #[arg(long, value_name = "N|random", default_value = "512")]
+    block: Blocks,
+    /// Write one more WAV file per microphone into this folder
+    #[arg(long, value_name = "DIR")]
+    stems: Option<PathBuf>,
+    /// Bits per sample
+    #[arg(long, default_value = "32f")]
+    bits: Bits,
+    /// Play the engine itself (the default)
+    #[arg(long, conflicts_with = "clap")]
+    engine: bool,
+    /// Play the plugin in an embedded host: a CLAP bundle, or `installed` for the one in a standard plugin folder; the
+    /// samples are the same
+    #[arg(long, value_name = "PATH|installed")]
+    clap: Option<PathBuf>,
+    /// Put a piece, a pair of microphones or a close microphone somewhere, metres: kick=0,.3,-.2,
+    /// overheads=-1,2,0,1,2,0, snare-mic=-.4,.8,-.3; repeatable
+    #[arg(long, value_name = "NAME=X,Y,Z", allow_hyphen_values = true)]
+    place: Vec<String>,
+    /// Threads that render pieces beside the first, 0 to 3; does not change the sound
+    #[arg(long, alias = "workers", value_name = "N", value_parser = clap::value_parser!(u8).range(0..=3))]
+    render_threads: Option<u8>,
+    /// Songs rendered at once; as many as there are cores if not given
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    jobs: Option<u16>,
+    /// Sound after the last note, s
+    #[arg(long, value_name = "S", default_value = "5", value_parser = tail)]
+    tail: f64,
+    /// Play one MIDI channel only, 1 to 16
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=16))]
+    channel: Option<u8>,
+}
+
+impl RenderArguments {
+    /// What is asked for.
+    ///
+    /// # Errors
+    /// [`BadInput`](crate::error::BadInput) for a kit or a parameter that is not one.
+    pub fn into_request(self) -> Result<render::Request> {
+        let source = match self.clap {
+            None => Source::Engine,
+            Some(path) if path.as_os_str() == "installed" => {
+                Source::Clap(plugin_folders::find(Format::Clap)?)
+            }
+            Some(path) => Source::Clap(path),
+        };
+        let threads = self.render_threads.map(|threads| format!("render_threads={threads}"));
+        let set: Vec<String> = self.set.into_iter().chain(threads).collect();
+        let Chosen { kit, settings } = settings::choose(&self.preset, self.kit.as_deref(), &set)?;
+        Ok(render::Request {
+            inputs: self.songs,
+            output: self.output,
+            stems: self.stems,
+            jobs: self.jobs.map(usize::from),
+            style: render::Style {
+                source,
+                rate: self.rate,
+                kit: KitDocument { kit: stage::place(kit.kit, &self.place)?, ..kit },
+                settings,
+                blocks: self.block,
+                bits: self.bits,
+                tail: self.tail,
+                channel: self.channel,
+            },
+        })
+    }
+}
+
+/// How far up a cymbal's modes are coupled.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub enum Quality {
+    /// To 1 kHz.
+    Eco,
+    /// To 2 kHz, as played by default.
+    Standard,
+    /// To 4 kHz.
+    High,
+    /// To 8 kHz.
+    Offline,
+}
+
+impl From<Quality> for piece::Quality {
+    fn from(quality: Quality) -> piece::Quality {
+        match quality {
+            Quality::Eco => piece::Quality::Eco,
+            Quality::Standard => piece::Quality::Standard,
+            Quality::High => piece::Quality::High,
+            Quality::Offline => piece::Quality::Offline,
+        }
+    }
+}
+
+/// Arguments of `hear`.
+#[derive(Debug, Args)]
+pub struct HearArguments {
+    /// Name of a piece of the kit: kick, snare, rack-tom, floor-tom, crash, ride, splash, timpani or hi-hat of the standard
+    /// one
+    piece: String,
+    /// Take the piece from the kit of a file
+    #[arg(long, value_name = "FILE")]
+    kit: Option<PathBuf>,
+    /// Speed of the stroke, m/s, up to 25
+    #[arg(long, value_name = "M/S", default_value_t = hear::DEFAULT_SPEED, value_parser = speed)]
+    speed: f64,
+    /// Distance of the place from the centre, share of the radius; where it is played if not given
+    #[arg(long, value_name = "R", value_parser = share)]
+    at: Option<f64>,
+    /// Direction of the place, degrees from the player's side
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = angle)]
+    angle: Option<f64>,
+    /// stick, shoulder, nylon, felt-beater, plastic-beater, timpani-mallet, hard-mallet, yarn-mallet, rimshot or
+    /// cross-stick; what the piece is played with if not given
+    #[arg(long, value_name = "NAME")]
+    striker: Option<String>,
+    /// Tune or muffle the piece, as in snare_tune=240 or ride_muffle=.3; repeatable
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<String>,
+    /// Sample rate, Hz
+    #[arg(long, value_name = "HZ", default_value = "48000", value_parser = rate)]
+    rate: u32,
+    /// Length of the sound, s
+    #[arg(long, value_name = "S", default_value = "4", value_parser = seconds)]
+    seconds: f64,
+    /// Print one JSON object (see docs/commands.md)
+    #[arg(long)]
+    pub json: bool,
+    /// Write the sound as 32-bit float, 20 Pa being full scale
+    #[arg(long, value_name = "OUT.wav")]
+    pub wav: Option<PathBuf>,
+    #[command(flatten)]
+    alterations: Alterations,
+    /// How far up a cymbal's modes are coupled
+    #[arg(long, default_value = "offline")]
+    quality: Quality,
+}
+
+impl HearArguments {
+    /// What is asked for.
+    ///
+    /// # Errors
+    /// [`BadInput`](crate::error::BadInput) for a name or a parameter that is not one.
+    pub fn into_request(self) -> Result<hear::Request> {
+        let (document, slot, kit) = one_piece(self.kit.as_deref(), &self.piece, &self.alterations)?;
+        let default = hear::default_strike(&document, slot);
+        let striker = match &self.striker {
+            Some(name) => hear::striker(name)?,
+            None => default.striker,
+        };
+        let strike = Strike {
+            speed: self.speed,
+            radius: self.at.unwrap_or(default.radius),
+            angle: self.angle.map_or(default.angle, f64::to_radians),
+            striker,
+        };
+        let settings = settings::parse_for_piece(&kit, &self.set)?;
+        let options =
+            BuildOptions { quality: self.quality.into(), ..BuildOptions::new(f64::from(self.rate)) };
+        Ok(hear::Request { kit, strike, settings, options, seconds: self.seconds })
+    }
+}
+
+/// A kit, the slot of a piece in it, and a kit of that piece alone, changed as asked for.
+fn one_piece(
+    file: Option<&Path>,
+    name: &str,
+    alterations: &Alterations,
+) -> Result<(KitDocument, Slot, KitSpec)> {
+    let document = settings::kit(file)?;
+    let (slot, piece) = settings::piece(&document.kit, name)?;
+    let piece = alterations.apply(piece.clone())?;
+    let alone = document.kit.alone(slot).context("the slot is empty")?;
+    Ok((document, slot, KitSpec { pieces: vec![piece], ..alone }))
+}
+
+/// Arguments of `modes`.
+#[derive(Debug, Args)]
+pub struct ModesArguments {
+    /// Name of a piece of the kit: kick, snare, rack-tom, floor-tom, crash, ride, splash, timpani or hi-hat of the standard
+    /// one
+    piece: String,
+    /// Take the piece from the kit of a file
+    #[arg(long, value_name = "FILE")]
+    kit: Option<PathBuf>,
+    /// Print one JSON object (see docs/commands.md)
+    #[arg(long)]
+    pub json: bool,
+    /// Tune or muffle the piece, as in snare_tune=240 or ride_muffle=.3; repeatable
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<String>,
+    /// Sample rate, Hz
+    #[arg(long, value_name = "HZ", default_value = "48000", value_parser = rate)]
+    rate: u32,
+    /// Take off what closes a drum: the resonant head, or the timpani's kettle
+    #[arg(long)]
+    open: bool,
+    /// Perfectly round bodies, whose pairs of modes share one frequency
+    #[arg(long)]
+    unsplit: bool,
+}
+
+impl ModesArguments {
+    /// Builds the piece that is asked for and lists its modes.
+    ///
+    /// # Errors
+    /// [`BadInput`](crate::error::BadInput) for a name or a parameter that is not one.
+    pub fn run(&self) -> Result<Modes> {
+        let alterations = Alterations { open: self.open, unsplit: self.unsplit, ..Alterations::default() };
+        let (.., kit) = one_piece(self.kit.as_deref(), &self.piece, &alterations)?;
+        let settings = settings::parse_for_piece(&kit, &self.set)?;
+        modes::run(&kit, &BuildOptions::new(f64::from(self.rate)), &settings)
+    }
+}
+
+/// Arguments of `bench`.
+#[derive(Debug, Args)]
+pub struct BenchArguments {
+    /// Print one JSON object (see docs/commands.md)
+    #[arg(long)]
+    pub json: bool,
+    /// Measure the kit of a file
+    #[arg(long, value_name = "FILE")]
+    kit: Option<PathBuf>,
+    /// Times that everything is measured
+    #[arg(long, value_name = "N", default_value_t = bench::RUNS as u16, value_parser = clap::value_parser!(u16).range(1..))]
+    runs: u16,
+    /// How far up the modes of the kit's cymbals are coupled
+    #[arg(long, default_value = "standard")]
+    quality: Quality,
+    /// Sample rate, Hz
+    #[arg(long, value_name = "HZ", default_value_t = bench::RATE as u32, value_parser = clap::value_parser!(u32).range(RATES))]
+    rate: u32,
+    /// Use no wider instruction set
+    #[arg(long)]
+    simd: Option<Simd>,
+    /// Set the costs beside those of an older report, written with --json
+    #[arg(long, value_name = "OLD.json")]
+    compare: Option<PathBuf>,
+    /// Count instructions, too (needs valgrind)
+    #[arg(long)]
+    callgrind: bool,
+}
+
+impl BenchArguments {
+    /// What is asked for.
+    pub fn into_request(self) -> bench::Request {
+        bench::Request {
+            kit: self.kit,
+            runs: self.runs.into(),
+            quality: self.quality.into(),
+            rate: self.rate.into(),
+            simd: self.simd.map(Into::into),
+            compare: self.compare,
+            callgrind: self.callgrind,
+        }
+    }
+}
+
+/// Instruction sets of x86-64.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub enum Simd {
+    /// Four lanes, on every machine
+    Sse2,
+    /// Eight lanes
+    Avx2,
+    /// Sixteen lanes
+    Avx512,
+}
+
+impl From<Simd> for InstructionSet {
+    fn from(simd: Simd) -> InstructionSet {
+        match simd {
+            Simd::Sse2 => InstructionSet::Sse2,
+            Simd::Avx2 => InstructionSet::Avx2,
+            Simd::Avx512 => InstructionSet::Avx512,
+        }
+    }
+}
+
+fn rate(text: &str) -> Result<u32, String> {
+    text.parse().ok().filter(|&rate: &i64| RATES.contains(&rate)).map_or_else(
+        || Err(format!("accepted: {} to {} Hz", RATES.start(), RATES.end())),
+        |rate| u32::try_from(rate).map_err(|error| error.to_string()),
+    )
+}
+
+/// A number from `least` (left out if `open`) to `most`.
+pub(super) fn number(text: &str, least: f64, open: bool, most: f64, unit: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value <= most && (value > least || (value == least && !open)) => Ok(value),
+        _ if open => Err(format!("accepted: above {least} to {most}{unit}")),
+        _ => Err(format!("accepted: {least} to {most}{unit}")),
+    }
+}
+
+fn tail(text: &str) -> Result<f64, String> {
+    number(text, 0.0, false, LONGEST, " s")
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    number(text, 0.0, true, LONGEST, " s")
+}
+
+/// Reads the speed of a stroke, m/s.
+///
+/// # Errors
+/// The accepted range, for what is not in it.
+pub fn speed(text: &str) -> Result<f64, String> {
+    number(text, 0.0, true, Strike::MAX_SPEED, " m/s")
+}
+
+fn share(text: &str) -> Result<f64, String> {
+    number(text, 0.0, false, 1.0, " of the radius")
+}
+
+pub(super) fn angle(text: &str) -> Result<f64, String> {
+    number(text, -360.0, false, 360.0, " degrees")
+}

@@ -1,0 +1,362 @@
+//! Who plays: the engine itself, or the built plugin in an embedded host.
+//!
+//! Both are given the same notes at the same samples and the same parameters from the start, and
+//! give the same samples, bit by bit.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use anyhow::{Context, Result, ensure};
+use overhear::building::{BuildPlan, Pace};
+use overhear::kit_document::KitDocument;
+use overhear::parameters::{self, COUNT, host_id, parameters};
+use overhear::performer::{Performer, velocity_from_midi};
+use overhear_engine::piece::Piece;
+use overhear_engine::slot::Slot;
+
+use crate::bad_input;
+use crate::host::{self, Bundle, Instance, Processor};
+use crate::settings::Setting;
+
+/// Longest buffer that is played.
+pub const LONGEST_BLOCK: u32 = 8192;
+
+/// A note within a buffer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Hit {
+    /// Sample in the buffer (in a [`Take`]: in the whole).
+    pub sample: u64,
+    /// Channel, 0 to 15.
+    pub channel: u8,
+    /// MIDI note number.
+    pub key: u8,
+    /// Velocity, 1 to 127.
+    pub velocity: u8,
+}
+
+/// Something that turns notes into sound, buffer by buffer.
+pub trait Player {
+    /// Renders one buffer with the notes in it, ordered by sample.
+    ///
+    /// # Errors
+    /// If the plugin fails.
+    fn render(&mut self, hits: &[Hit], left: &mut [f32], right: &mut [f32]) -> Result<()>;
+}
+
+/// What plays.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Source {
+    /// The engine, through the performer the plugin uses.
+    Engine,
+    /// A CLAP bundle.
+    Clap(PathBuf),
+}
+
+/// How it is set up.
+#[derive(Debug, Clone)]
+pub struct Setup {
+    /// Sample rate, Hz.
+    pub rate: u32,
+    /// The kit and its notes.
+    pub kit: KitDocument,
+    /// Parameters moved before the start.
+    pub settings: Vec<Setting>,
+}
+
+impl Source {
+    /// Sets a player up and lets `work` use it.
+    ///
+    /// # Errors
+    /// [`BadInput`](crate::error::BadInput) if the bundle or the sample rate cannot be used; what
+    /// `work` returns.
+    pub fn perform<T: Send>(
+        &self,
+        setup: &Setup,
+        work: impl FnOnce(&mut dyn Player) -> Result<T> + Send,
+    ) -> Result<T> {
+        match self {
+            Source::Engine => work(&mut EnginePlayer::new(setup)?),
+            Source::Clap(path) => {
+                let mut instance = Bundle::load(path)?.instantiate()?;
+                instance.set_offline()?;
+                set_up(&mut instance, setup).map_err(|error| bad_input!("`{}` {error:#}", path.display()))?;
+                instance.run(f64::from(setup.rate), 1..=LONGEST_BLOCK, |processor| {
+                    work(&mut ClapPlayer { processor, events: Vec::new() })
+                })
+            }
+        }
+    }
+}
+
+/// Gives a plugin the kit and the parameters.
+fn set_up(instance: &mut Instance, setup: &Setup) -> Result<()> {
+    let kit = &setup.kit.kit;
+    let mut values = BTreeMap::new();
+    if setup.kit != KitDocument::standard() {
+        host::set_kit(instance, &setup.kit).context("does not take the kit")?;
+        // Those it has so far are the standard kit's.
+        values.extend((0..COUNT).map(|index| (index, parameters::default_value(index, kit))));
+    }
+    values.extend(setup.settings.iter().copied());
+    let known = instance.parameters()?;
+    let value = |(index, value): (usize, f32)| {
+        let parameter = &parameters()[index];
+        let id = host_id(parameter.id);
+        ensure!(known.iter().any(|info| info.id == id), "has no parameter {}", parameters::name(index, kit));
+        Ok((id, f64::from(parameter.normalized(value))))
+    };
+    instance.set_parameters(&values.into_iter().map(value).collect::<Result<Vec<_>>>()?)
+}
+
+/// The engine by itself.
+pub struct EnginePlayer {
+    /// Who plays it.
+    pub performer: Performer,
+}
+
+impl EnginePlayer {
+    /// Builds the kit as a file is rendered.
+    ///
+    /// # Errors
+    /// [`BadInput`](crate::error::BadInput) if the kit cannot be built at the sample rate.
+    pub fn new(setup: &Setup) -> Result<EnginePlayer> {
+        EnginePlayer::at_pace(setup, Pace::Offline)
+    }
+
+    /// Builds the kit as it is played, or as a file is rendered.
+    ///
+    /// # Errors
+    /// [`BadInput`](crate::error::BadInput) if the kit cannot be built at the sample rate.
+    pub fn at_pace(setup: &Setup, pace: Pace) -> Result<EnginePlayer> {
+        let rate = f64::from(setup.rate);
+        let mut performer = Performer::new(rate, &setup.kit, Arc::default());
+        // Before the pieces, as the plugin does it: they start with these values.
+        for &(index, value) in &setup.settings {
+            performer.set_parameter(index, value);
+        }
+        let value = |index: usize| {
+            let usual = || parameters::default_value(index, &setup.kit.kit);
+            performer.parameter(index).unwrap_or_else(usual)
+        };
+        let plan = BuildPlan::of(Arc::new(setup.kit.clone()), value, pace);
+        for slot in Slot::ALL {
+            let Some(build) = plan.build(slot) else { continue };
+            let piece =
+                Piece::new(slot, &build, &plan.options(rate)).map_err(|error| bad_input!("{error}"))?;
+            performer.install(Box::new(piece));
+        }
+        performer.hire(plan.staff().hire().context("the system starts no more threads")?);
+        Ok(EnginePlayer { performer })
+    }
+
+    /// Plays notes within a buffer; `render` is called for each part between them.
+    pub fn play(
+        &mut self,
+        hits: &[Hit],
+        frames: usize,
+        mut render: impl FnMut(&mut Performer, std::ops::Range<usize>),
+    ) {
+        let mut now = 0;
+        for hit in hits {
+            let at = hit.sample as usize;
+            if at > now {
+                render(&mut self.performer, now..at);
+                now = at;
+            }
+            self.performer.note_on(hit.key, velocity_from_midi(hit.velocity), hit.channel);
+        }
+        if now < frames {
+            render(&mut self.performer, now..frames);
+        }
+    }
+}
+
+impl Player for EnginePlayer {
+    fn render(&mut self, hits: &[Hit], left: &mut [f32], right: &mut [f32]) -> Result<()> {
+        self.play(hits, left.len(), |performer, part| {
+            performer.render(&mut left[part.clone()], &mut right[part]);
+        });
+        Ok(())
+    }
+}
+
+struct ClapPlayer<'a> {
+    processor: &'a mut Processor,
+    events: Vec<host::Event>,
+}
+
+impl Player for ClapPlayer<'_> {
+    fn render(&mut self, hits: &[Hit], left: &mut [f32], right: &mut [f32]) -> Result<()> {
+        self.events.clear();
+        self.events.extend(hits.iter().map(|hit| host::Event {
+            offset: hit.sample as u32,
+            what: host::What::NoteOn {
+                channel: hit.channel,
+                key: hit.key,
+                velocity: velocity_from_midi(hit.velocity),
+            },
+        }));
+        self.processor.process(&self.events, left, right)
+    }
+}
+
+/// How a take is cut into buffers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Blocks {
+    /// All of one length.
+    Fixed(u32),
+    /// Of 1 to [`LONGEST_BLOCK`] samples, the same sequence every time.
+    Random,
+}
+
+impl std::str::FromStr for Blocks {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Blocks, String> {
+        match text.parse() {
+            _ if text == "random" => Ok(Blocks::Random),
+            Ok(frames @ 1..=LONGEST_BLOCK) => Ok(Blocks::Fixed(frames)),
+            _ => Err(format!("accepted: 1 to {LONGEST_BLOCK} samples, or random")),
+        }
+    }
+}
+
+impl Blocks {
+    /// Lengths of the buffers, for ever.
+    pub fn lengths(self) -> impl Iterator<Item = usize> {
+        let mut random = fastrand::Rng::with_seed(0);
+        std::iter::from_fn(move || match self {
+            Blocks::Fixed(frames) => Some(frames as usize),
+            Blocks::Random => {
+                // Powers of two make short buffers as likely as long.
+                let longest = 1 << random.u32(..=LONGEST_BLOCK.ilog2());
+                Some(random.usize(1..=longest))
+            }
+        })
+    }
+}
+
+/// Notes to play and for how long.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Take {
+    /// Notes by sample.
+    pub hits: Vec<Hit>,
+    /// Length, samples.
+    pub frames: u64,
+}
+
+/// What came of playing a take.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Played {
+    /// Greatest magnitude of a sample, full scale 1.
+    pub peak: f32,
+    /// Whether every sample was a number.
+    pub finite: bool,
+    /// Time spent rendering.
+    pub busy: Duration,
+}
+
+impl Take {
+    /// Plays the take and hands every buffer of left and right samples to `sink`.
+    ///
+    /// # Errors
+    /// If the player or the sink fails.
+    pub fn play(
+        &self,
+        player: &mut dyn Player,
+        blocks: Blocks,
+        mut sink: impl FnMut(&[f32], &[f32]) -> Result<()>,
+    ) -> Result<Played> {
+        let mut played = Played { finite: true, ..Played::default() };
+        let mut buffers = [vec![0.0; LONGEST_BLOCK as usize], vec![0.0; LONGEST_BLOCK as usize]];
+        let [left, right] = &mut buffers;
+        let (mut start, mut next, mut inside) = (0, 0, Vec::new());
+        for length in blocks.lengths() {
+            let end = self.frames.min(start + length as u64);
+            if start == end {
+                break;
+            }
+            let later = self.hits[next..].iter().position(|hit| hit.sample >= end);
+            let last = later.map_or(self.hits.len(), |count| next + count);
+            inside.clear();
+            inside.extend(self.hits[next..last].iter().map(|hit| Hit { sample: hit.sample - start, ..*hit }));
+            let frames = (end - start) as usize;
+            let (left, right) = (&mut left[..frames], &mut right[..frames]);
+            let begun = Instant::now();
+            player.render(&inside, left, right).with_context(|| format!("at sample {start}"))?;
+            played.busy += begun.elapsed();
+            for &sample in left.iter().chain(right.iter()) {
+                played.peak = played.peak.max(sample.abs());
+                played.finite &= sample.is_finite();
+            }
+            sink(left, right)?;
+            (start, next) = (end, last);
+        }
+        Ok(played)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Writes the number of the sample, and 1000 more where a note is.
+    struct Ruler(u64);
+
+    impl Player for Ruler {
+        fn render(&mut self, hits: &[Hit], left: &mut [f32], right: &mut [f32]) -> Result<()> {
+            for sample in left.iter_mut() {
+                *sample = self.0 as f32;
+                self.0 += 1;
+            }
+            for hit in hits {
+                left[hit.sample as usize] += 1000.0;
+            }
+            right.copy_from_slice(left);
+            Ok(())
+        }
+    }
+
+    fn ruled(blocks: Blocks) -> Vec<f32> {
+        let hit = |sample| Hit { sample, channel: 9, key: 36, velocity: 1 };
+        let take = Take { hits: [0, 16, 17, 17, 99].map(hit).to_vec(), frames: 100 };
+        let mut all = Vec::new();
+        let played = take.play(&mut Ruler(0), blocks, |left, right| {
+            assert_eq!(left, right);
+            all.extend_from_slice(left);
+            Ok(())
+        });
+        assert_eq!(played.unwrap().peak, 2017.0);
+        all
+    }
+
+    #[test]
+    fn every_cut_gives_every_note_its_sample() {
+        let whole = ruled(Blocks::Fixed(8192));
+        assert_eq!(whole.len(), 100);
+        assert_eq!((whole[15], whole[16], whole[17], whole[99]), (15.0, 1016.0, 2017.0, 1099.0));
+        for blocks in [Blocks::Fixed(1), Blocks::Fixed(17), Blocks::Random] {
+            assert_eq!(ruled(blocks), whole, "{blocks:?}");
+        }
+    }
+
+    #[test]
+    fn random_blocks_are_the_same_every_time_and_within_bounds() {
+        let lengths = |_| Blocks::Random.lengths().take(10_000).collect::<Vec<_>>();
+        let sizes = lengths(0);
+        assert_eq!(sizes, lengths(1));
+        assert!(sizes.iter().all(|length| (1..=8192).contains(length)));
+        assert!(sizes.contains(&1) && sizes.iter().any(|length| *length > 6000));
+    }
+
+    #[test]
+    fn block_sizes_are_read_and_refused() {
+        assert_eq!("64".parse(), Ok(Blocks::Fixed(64)));
+        assert_eq!("random".parse(), Ok(Blocks::Random));
+        for text in ["0", "8193", "-1", "many", ""] {
+            assert!(text.parse::<Blocks>().unwrap_err().contains("1 to 8192"));
+        }
+    }
+}

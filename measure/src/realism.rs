@@ -1,0 +1,164 @@
+//! `realism`: every piece in the kit, struck softly to hard in several places, beside recordings of real ones.
+//!
+//! The kit is the plugin's at its defaults, as it is bounced or as it is played, by the plugin's performer. Each stroke is
+//! heard twice: by the piece's close microphone alone, and in the full mix, both as the mean of left and right. The
+//! [`features`] are measured and set beside the [`mod@reference`]; what is compared is the median over the places.
+
+mod ears;
+pub mod features;
+pub mod reference;
+mod report;
+mod subject;
+mod table;
+
+use std::sync::{Mutex, PoisonError};
+
+use anyhow::Result;
+use overhear::building::Pace;
+use overhear::kit_document::KitDocument;
+use overhear_engine::kit_spec::Kind;
+use overhear_engine::slot::Slot;
+use overhear_engine::strike::Strike;
+use rayon::prelude::*;
+
+use crate::settings::Setting;
+
+use ears::Stand;
+
+pub use ears::Ear;
+pub use report::{Count, PieceReport, Report, Row, Stroke};
+pub use subject::{SUBJECTS, Subject, subjects};
+
+/// Speeds of the strokes unless told otherwise, m/s: soft, medium, hard.
+pub const SPEEDS: [f64; 3] = [1.5, 3.0, 5.0];
+
+/// Sample rate, Hz.
+pub const RATE: u32 = 48_000;
+
+/// How long drums and cymbals are heard, s: until each octave has fallen by more than 25 dB.
+const DRUM_SECONDS: f64 = 4.0;
+const CYMBAL_SECONDS: f64 = 8.0;
+
+/// What to measure.
+#[derive(Debug, Clone)]
+pub struct Request {
+    /// The pieces, as they were recorded.
+    pub subjects: Vec<Subject>,
+    /// Speeds of the strokes, m/s, ascending.
+    pub speeds: Vec<f64>,
+    /// The kit, which has pieces of the subjects' names, and its notes.
+    pub kit: KitDocument,
+    /// Parameters that are not at their default.
+    pub settings: Vec<Setting>,
+    /// Whether the kit is bounced or played, which is what its cymbals' quality goes by.
+    pub pace: Pace,
+}
+
+/// One stroke of a subject.
+#[derive(Debug, Clone, Copy)]
+pub struct Job {
+    /// What is struck.
+    pub subject: Subject,
+    /// Its slot.
+    pub slot: Slot,
+    /// Speed, m/s.
+    pub speed: f64,
+    /// Place, share of the radius.
+    pub place: f64,
+}
+
+/// Who is shown a stroke and what the ears hear of it, full scale 1; an error ends the measurement.
+pub type Show<'a> = dyn Fn(&Job, &[Vec<f32>; 2]) -> Result<()> + Sync + 'a;
+
+impl Request {
+    /// How many strokes it asks for.
+    pub fn strokes(&self) -> usize {
+        self.subjects.iter().map(|subject| subject.places.len() * self.speeds.len()).sum()
+    }
+
+    /// Every stroke: subject by subject, speed by speed, place by place.
+    fn jobs(&self) -> Result<Vec<Job>> {
+        let mut jobs = Vec::new();
+        for &subject in &self.subjects {
+            let slot = subject.slot(&self.kit)?;
+            for &speed in &self.speeds {
+                jobs.extend(subject.places.map(|place| Job { subject, slot, speed, place }));
+            }
+        }
+        Ok(jobs)
+    }
+}
+
+/// Renders and measures everything, on as many threads as there are cores, each with a kit of its own.
+///
+/// # Errors
+/// [`BadInput`](crate::error::BadInput) if a subject's piece is missing or the kit cannot be built.
+pub fn run(request: &Request) -> Result<Report> {
+    run_and_show(request, &|_, _| Ok(()))
+}
+
+/// The same, showing every stroke, in no order, with what each ear hears of it (full scale 1).
+///
+/// # Errors
+/// As [`run`], and what `show` returns.
+pub fn run_and_show(request: &Request, show: &Show) -> Result<Report> {
+    // A kit is built for a thread, not for a stroke.
+    let stands: Mutex<Vec<Stand>> = Mutex::default();
+    let idle = || stands.lock().unwrap_or_else(PoisonError::into_inner).pop();
+    let strike = |job: &Job| -> Result<[Stroke; 2]> {
+        let mut stand = match idle() {
+            Some(stand) => stand,
+            None => Stand::new(RATE, &request.kit, &request.settings, request.pace)?,
+        };
+        let strokes = job.strike(&mut stand, request, show);
+        stands.lock().unwrap_or_else(PoisonError::into_inner).push(stand);
+        strokes
+    };
+    let strokes = request.jobs()?.par_iter().with_max_len(1).map(strike).collect::<Result<Vec<_>>>()?;
+    Report::new(RATE, request, &strokes)
+}
+
+impl Job {
+    /// Renders the stroke, shows what each ear hears, and measures it.
+    fn strike(&self, stand: &mut Stand, request: &Request, show: &Show) -> Result<[Stroke; 2]> {
+        let Job { subject, slot, speed, place } = *self;
+        let strike = Strike { speed, radius: place, ..subject.strike(&request.kit, slot) };
+        let kind = request.kit.kit.piece(slot).map(|piece| piece.instrument.kind());
+        let seconds = if kind == Some(Kind::Drum) { DRUM_SECONDS } else { CYMBAL_SECONDS };
+        let heard = stand.strike(slot, &strike, subject.pedal(&request.kit, slot), seconds);
+        show(self, &heard)?;
+        let rate = f64::from(RATE);
+        Ok(heard.map(|sound| Stroke {
+            features: features::measure(&sound, rate),
+            level_db: features::level_db(&sound, rate),
+        }))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_stroke_has_every_figure_that_is_compared_or_says_it_has_not() {
+        let report = run(&Request {
+            subjects: subjects(&["rack-tom".to_owned()]).unwrap(),
+            speeds: vec![2.0, 4.0],
+            kit: KitDocument::standard(),
+            settings: Vec::new(),
+            pace: Pace::RealTime,
+        });
+        let report = report.unwrap();
+        assert_eq!(report.pieces.iter().map(|piece| piece.heard).collect::<Vec<_>>(), Ear::ALL);
+        for piece in &report.pieces {
+            assert_eq!(piece.features.len(), reference::figures("rack-tom").len());
+            assert!(piece.features.iter().all(|row| row.values.len() == 2));
+            assert!(piece.features.iter().filter(|row| row.values[0].is_some()).count() > 12);
+            // The soft stroke is no stroke that the goals are about.
+            assert_eq!(piece.firm.of, piece.features.len());
+        }
+        // What the microphone over the rim hears is not what the overheads add up to.
+        assert_ne!(report.pieces[0].features[0].values, report.pieces[1].features[0].values);
+        assert!(report.to_string().contains("rack-tom"));
+    }
+}
