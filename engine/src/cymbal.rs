@@ -10,23 +10,27 @@ use std::f64::consts::TAU;
 use overhear_kept::{Kept, Shared};
 use serde::{Deserialize, Serialize};
 
-use crate::MARK;
 use crate::air;
+use crate::build_context::BuildContext;
 use crate::damping::{LossLaw, Muffler, SIGMA_T60, Thermoelastic};
 use crate::error::SpecError;
 use crate::fitted;
 use crate::glide::Glide;
 use crate::listening::Radiator;
 use crate::modal::Mode;
-use crate::piece::{BuildContext, Member, ModeInfo, ModeKind, Receivers};
+use crate::mode::Member;
+use crate::mode::ModeInfo;
+use crate::mode::ModeKind;
 use crate::plate::free_disc::{FreeDisc, Radiated};
 use crate::plate::{PlateModes, PlateSpec, PlateTables};
+use crate::receiver::Receivers;
+use crate::schema::MARK;
 use crate::shapes::{ShapeIndex, ShapeTable};
 use crate::split::Splitting;
 use crate::surface::{Surface, SurfaceParts};
 use crate::von_karman::{CoupledPair, VonKarman};
 
-mod spec;
+pub mod spec;
 
 pub use spec::{CymbalSpec, Stand};
 

@@ -24,34 +24,36 @@ pub mod edge;
 pub mod foot;
 pub mod half;
 pub mod pair;
+pub mod points;
 mod rest;
 pub mod rigid;
 pub mod rims;
-mod spec;
+pub mod spec;
 mod step;
 
 use std::f64::consts::TAU;
 
+use crate::build_context::BuildContext;
 use crate::contact::{ContactLaw, Tip};
-use crate::cymbal::{self, CymbalSpec};
+use crate::cymbal;
+use crate::cymbal::spec::CymbalSpec;
 use crate::damping::SIGMA_T60;
 use crate::error::SpecError;
 use crate::fitted;
 use crate::glide::Glide;
 use crate::math::roots;
 use crate::modal::Mode;
-use crate::piece::{BuildContext, ModeInfo, ModeKind};
+use crate::mode::ModeInfo;
+use crate::mode::ModeKind;
 use crate::surface::{Surface, SurfaceParts};
 
+pub use points::POINTS;
 pub use spec::HiHatSpec;
 
 use foot::SPEED;
 use half::{Damping, Half, Struck};
 use pair::{Pair, PairParts};
 use rigid::Rigid;
-
-/// Places around the rims where they may touch.
-pub const POINTS: usize = 16;
 
 /// Mean distance of the rims while the pedal is up, m. *Literature*: players set 2 to 4 cm.
 pub const GAP: f64 = 0.030;

@@ -1,17 +1,15 @@
 //! One piece of the kit: a drum or a cymbal, and what can be asked of it.
 
 mod controls;
-mod modes;
-mod options;
 
-pub use modes::{Member, ModeInfo, ModeKind};
-pub use options::{BuildContext, BuildOptions, Idealization, Quality, Receivers};
+pub use crate::build_context::{BuildContext, BuildOptions, Idealization, Quality};
+pub use crate::mode::{Member, ModeInfo, ModeKind};
 
+use crate::block::BLOCK;
 use crate::cymbal::Cymbal;
 use crate::drum::Drum;
 use crate::error::SpecError;
 use crate::hi_hat::HiHat;
-use crate::kit::BLOCK;
 use crate::kit_spec::{InstrumentSpec, Kind, PieceBuild};
 use crate::layout::Placement;
 use crate::microphones::CloseMicrophone;

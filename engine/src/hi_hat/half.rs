@@ -8,12 +8,14 @@
 use std::f64::consts::TAU;
 
 use crate::air;
-use crate::cymbal::{self, CymbalSpec};
+use crate::build_context::BuildContext;
+use crate::cymbal;
+use crate::cymbal::spec::CymbalSpec;
 use crate::damping::{LossLaw, Muffler, Thermoelastic};
 use crate::error::SpecError;
 use crate::modal::Mode;
 use crate::modal::simd::folded::Folded;
-use crate::piece::{BuildContext, Member};
+use crate::mode::Member;
 use crate::plate::free_disc::Radiated;
 use crate::plate::{PlateModes, PlateTables};
 use crate::shapes::{ShapeIndex, ShapeTable};
@@ -21,7 +23,7 @@ use crate::snapshot::FIELD_MODES;
 use crate::split::Splitting;
 use crate::von_karman::{CoupledPair, VonKarman};
 
-use super::POINTS;
+use super::points::POINTS;
 use super::rigid::Mount;
 
 /// One mode, as built.
@@ -240,9 +242,9 @@ fn monopole_area(spec: &CymbalSpec, omega: f64, radiated: &Radiated) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::build_context::BuildOptions;
     use crate::hi_hat::edge;
     use crate::modal::ModalBody;
-    use crate::piece::BuildOptions;
     use crate::reference;
 
     #[test]

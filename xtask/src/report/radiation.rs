@@ -4,8 +4,9 @@ use std::f64::consts::PI;
 
 use anyhow::Result;
 use overhear_engine::air::{DENSITY, SPEED_OF_SOUND};
-use overhear_engine::listening::{ListeningPoint, Radiator};
+use overhear_engine::listening::Radiator;
 use overhear_engine::plate::free_disc::{FreeDisc, Radiated};
+use overhear_engine::receiver::ListeningPoint;
 use overhear_lab::{round_piece, spec};
 
 use super::heads::mode_of;
