@@ -1,9 +1,11 @@
 //! The instrument: a physically modelled drum kit.
 //!
-//! The modules are listed from top to bottom: each imports only from those below it, and
-//! `tests/tests/tidy/direction.rs` reads the imports. A [`Kit`](kit::Kit) renders [`Piece`](piece::Piece)s; a piece is a drum or a
-//! cymbal; drums are made of a membrane, cymbals of a plate; both vibrate as a
-//! [`ModalBody`](modal::ModalBody) and are set going through the one law in [`contact`].
+//! A [`Kit`](kit::Kit) renders [`Piece`](piece::Piece)s; a piece is a drum or a cymbal; drums are made of a membrane,
+//! cymbals of a plate; both vibrate as a [`ModalBody`](modal::ModalBody) and are set going through the one law in
+//! [`contact`].
+//!
+//! The modules stand here from top to bottom: each imports from those below it only. `tests/tests/tidy/direction.rs` reads
+//! the imports.
 //!
 //! The crate knows no host, no MIDI, no parameters, no window, no file and no clock. After
 //! construction nothing in it allocates, locks, blocks or fails.
