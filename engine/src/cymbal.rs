@@ -16,6 +16,7 @@ use crate::damping::{LossLaw, Muffler, SIGMA_T60, Thermoelastic};
 use crate::error::SpecError;
 use crate::fitted;
 use crate::glide::Glide;
+use crate::instrument::Instrument;
 use crate::listening::Radiator;
 use crate::modal::Mode;
 use crate::mode::Member;
@@ -190,50 +191,35 @@ impl Cymbal {
             }
         }
     }
+}
 
-    /// The plate and what is about it.
-    pub fn surface(&self) -> &Surface {
+impl Instrument for Cymbal {
+    fn surface(&self) -> &Surface {
         &self.surface
     }
 
-    /// The plate and what is about it.
-    pub fn surface_mut(&mut self) -> &mut Surface {
+    fn surface_mut(&mut self) -> &mut Surface {
         &mut self.surface
     }
 
-    /// Asks for a ratio of all frequencies to the cymbal's own.
-    pub fn set_tuning(&mut self, ratio: f64) {
+    fn set_tuning(&mut self, ratio: f64) {
         self.tuning.set(ratio);
     }
 
-    /// Asks for muffling, 0 to 1.
-    pub fn set_muffling(&mut self, amount: f64) {
+    fn set_muffling(&mut self, amount: f64) {
         self.muffling.set(amount);
     }
 
-    /// Lets a hand take hold of the edge, from 0 to 1: firmly at 1, not at all at 0.
-    pub fn choke(&mut self, strength: f64) {
+    fn choke(&mut self, strength: f64) {
         self.hand.set(strength);
     }
 
-    /// Lets the controls glide for `seconds`.
-    pub fn advance_controls(&mut self, seconds: f64) {
+    fn advance_controls(&mut self, seconds: f64) {
         let moved = [&mut self.tuning, &mut self.muffling].map(|glide| glide.advance(seconds));
         self.stale |= moved.contains(&true) | self.hand.advance(seconds / Hand::SLOWER);
     }
 
-    /// Lets the controls arrive at once.
-    pub fn finish_controls(&mut self) {
-        let moved = [&mut self.tuning, &mut self.muffling, &mut self.hand].map(Glide::jump);
-        self.stale |= moved.contains(&true);
-        self.follow_controls();
-    }
-
-    /// Brings the modes to where the controls are.
-    ///
-    /// # Real-time
-    /// Nothing while they rest; linear in the number of modes while they move.
-    pub fn follow_controls(&mut self) {
+    fn follow_controls(&mut self) {
         if !std::mem::take(&mut self.stale) {
             return;
         }
@@ -259,8 +245,13 @@ impl Cymbal {
         }
     }
 
-    /// Every mode as it is now.
-    pub fn modes(&self) -> Vec<ModeInfo> {
+    fn finish_controls(&mut self) {
+        let moved = [&mut self.tuning, &mut self.muffling, &mut self.hand].map(Glide::jump);
+        self.stale |= moved.contains(&true);
+        self.follow_controls();
+    }
+
+    fn modes(&self) -> Vec<ModeInfo> {
         let rows = self.surface.body().modes().iter().zip(self.surface.shapes().index()).zip(&self.modes);
         rows.map(|((mode, shape), built)| ModeInfo {
             body: if built.kind == ModeKind::Rigid { "stand" } else { "plate" },

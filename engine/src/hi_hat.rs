@@ -41,6 +41,7 @@ use crate::damping::SIGMA_T60;
 use crate::error::SpecError;
 use crate::fitted;
 use crate::glide::Glide;
+use crate::instrument::{Instrument, Pedal};
 use crate::math::roots;
 use crate::modal::Mode;
 use crate::mode::ModeInfo;
@@ -134,95 +135,9 @@ impl HiHat {
         }
     }
 
-    /// The upper cymbal and what is about it.
-    pub fn surface(&self) -> &Surface {
-        &self.surface
-    }
-
-    /// The upper cymbal and what is about it.
-    pub fn surface_mut(&mut self) -> &mut Surface {
-        &mut self.surface
-    }
-
     /// Where the pedal has been asked to be, from 0 (up) to 1 (down): a share of its way.
     pub fn pedal(&self) -> f64 {
         self.pedal
-    }
-
-    /// Brings the pedal to a place, 0 (up) to 1 (down), at up to a speed (m/s, see [`SPEED`]).
-    ///
-    /// # Real-time
-    /// No allocation; linear in the number of modes.
-    pub fn press(&mut self, pedal: f64, speed: f64) {
-        if pedal.is_nan() || speed.is_nan() {
-            return;
-        }
-        let pedal = pedal.clamp(0.0, 1.0);
-        if pedal == self.pedal && speed == SPEED.1 {
-            return;
-        }
-        self.pedal = pedal;
-        let rod = self.rod(pedal);
-        self.surface.move_pedal(|foot| foot.go(rod, speed));
-    }
-
-    /// Brings the pedal down at up to a speed (m/s); a foot that is down already lifts first, as fast as it can.
-    ///
-    /// # Real-time
-    /// No allocation; linear in the number of modes.
-    pub fn stamp(&mut self, speed: f64) {
-        if speed.is_nan() {
-            return;
-        }
-        self.pedal = 1.0;
-        let closed = self.closed;
-        self.surface.move_pedal(|foot| foot.stamp(GAP - LIFT, closed, speed));
-    }
-
-    /// Brings the rims together at up to a speed (m/s) and the pedal up again at once, to where it was.
-    ///
-    /// # Real-time
-    /// No allocation; linear in the number of modes.
-    pub fn splash(&mut self, speed: f64) {
-        if speed.is_nan() {
-            return;
-        }
-        // Rims that are pressed together have to come apart to ring.
-        self.pedal = self.pedal.min(SPLASHING);
-        let rod = self.rod(self.pedal);
-        self.surface.move_pedal(|foot| foot.turn(GAP, rod, speed));
-    }
-
-    /// Asks for a ratio of all frequencies to the cymbals' own.
-    pub fn set_tuning(&mut self, ratio: f64) {
-        self.tuning.set(ratio);
-    }
-
-    /// Asks for muffling, 0 to 1.
-    pub fn set_muffling(&mut self, amount: f64) {
-        self.muffling.set(amount);
-    }
-
-    /// Lets a hand take hold of both edges, from 0 to 1: firmly at 1, not at all at 0.
-    pub fn choke(&mut self, strength: f64) {
-        self.hand.set(strength);
-    }
-
-    /// Lets the controls glide for `seconds`.
-    pub fn advance_controls(&mut self, seconds: f64) {
-        let moved = [&mut self.tuning, &mut self.muffling].map(|glide| glide.advance(seconds));
-        self.stale |= moved.contains(&true) | self.hand.advance(seconds / cymbal::Hand::SLOWER);
-    }
-
-    /// Lets the controls arrive at once, and the pedal.
-    pub fn finish_controls(&mut self) {
-        let moved = [&mut self.tuning, &mut self.muffling, &mut self.hand].map(Glide::jump);
-        self.stale |= moved.contains(&true);
-        self.surface.rest_pedal();
-        let rubbing = self.rubbing_now();
-        self.stale |= rubbing != self.rubbing;
-        self.rubbing = rubbing;
-        self.follow_controls();
     }
 
     /// How much the rims rub where they are, 0 to 1.
@@ -230,12 +145,39 @@ impl HiHat {
         let clamped = self.surface.pair().map_or(0.0, Pair::clamped);
         clamped / (clamped + self.half_rubbing)
     }
+}
 
-    /// Brings the modes to where the controls are.
-    ///
-    /// # Real-time
-    /// Nothing while they rest; linear in the number of modes while they move.
-    pub fn follow_controls(&mut self) {
+impl Instrument for HiHat {
+    fn surface(&self) -> &Surface {
+        &self.surface
+    }
+
+    fn surface_mut(&mut self) -> &mut Surface {
+        &mut self.surface
+    }
+
+    fn set_tuning(&mut self, ratio: f64) {
+        self.tuning.set(ratio);
+    }
+
+    fn set_muffling(&mut self, amount: f64) {
+        self.muffling.set(amount);
+    }
+
+    fn pedal_mut(&mut self) -> Option<&mut dyn Pedal> {
+        Some(self)
+    }
+
+    fn choke(&mut self, strength: f64) {
+        self.hand.set(strength);
+    }
+
+    fn advance_controls(&mut self, seconds: f64) {
+        let moved = [&mut self.tuning, &mut self.muffling].map(|glide| glide.advance(seconds));
+        self.stale |= moved.contains(&true) | self.hand.advance(seconds / cymbal::Hand::SLOWER);
+    }
+
+    fn follow_controls(&mut self) {
         let rubbing = self.rubbing_now();
         if (rubbing - self.rubbing).abs() > RUBBING_STEP {
             (self.rubbing, self.stale) = (rubbing, true);
@@ -260,8 +202,17 @@ impl HiHat {
         }
     }
 
-    /// Every mode as it is now.
-    pub fn modes(&self) -> Vec<ModeInfo> {
+    fn finish_controls(&mut self) {
+        let moved = [&mut self.tuning, &mut self.muffling, &mut self.hand].map(Glide::jump);
+        self.stale |= moved.contains(&true);
+        self.surface.rest_pedal();
+        let rubbing = self.rubbing_now();
+        self.stale |= rubbing != self.rubbing;
+        self.rubbing = rubbing;
+        self.follow_controls();
+    }
+
+    fn modes(&self) -> Vec<ModeInfo> {
         let bodies = [
             ("top", Some(self.surface.body()), &self.halves[0]),
             ("bottom", self.surface.pair().map(Pair::bottom), &self.halves[1]),
@@ -281,6 +232,40 @@ impl HiHat {
             })
         })
         .collect()
+    }
+}
+
+impl Pedal for HiHat {
+    fn press(&mut self, pedal: f64, speed: f64) {
+        if pedal.is_nan() || speed.is_nan() {
+            return;
+        }
+        let pedal = pedal.clamp(0.0, 1.0);
+        if pedal == self.pedal && speed == SPEED.1 {
+            return;
+        }
+        self.pedal = pedal;
+        let rod = self.rod(pedal);
+        self.surface.move_pedal(|foot| foot.go(rod, speed));
+    }
+
+    fn stamp(&mut self, speed: f64) {
+        if speed.is_nan() {
+            return;
+        }
+        self.pedal = 1.0;
+        let closed = self.closed;
+        self.surface.move_pedal(|foot| foot.stamp(GAP - LIFT, closed, speed));
+    }
+
+    fn splash(&mut self, speed: f64) {
+        if speed.is_nan() {
+            return;
+        }
+        // Rims that are pressed together have to come apart to ring.
+        self.pedal = self.pedal.min(SPLASHING);
+        let rod = self.rod(self.pedal);
+        self.surface.move_pedal(|foot| foot.turn(GAP, rod, speed));
     }
 }
 

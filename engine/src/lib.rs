@@ -24,6 +24,9 @@ pub mod hi_hat;
 pub mod cymbal;
 pub mod drum;
 
+// What all instruments can be asked.
+pub mod instrument;
+
 // The struck body: modes, contacts, and what is attached.
 pub mod surface;
 pub mod rim;

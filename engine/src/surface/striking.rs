@@ -186,6 +186,7 @@ mod tests {
     use super::*;
     use crate::build_context::BuildOptions;
     use crate::drum::Drum;
+    use crate::instrument::Instrument as _;
     use crate::modal::EARS;
     use crate::reference;
     use crate::strike::Striker;
