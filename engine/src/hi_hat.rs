@@ -35,7 +35,8 @@ use std::f64::consts::TAU;
 
 use crate::build_context::BuildContext;
 use crate::contact::{ContactLaw, Tip};
-use crate::cymbal;
+use crate::cymbal::assembly::{self, PlateShapes};
+use crate::cymbal::hand::Hand;
 use crate::cymbal::spec::CymbalSpec;
 use crate::damping::SIGMA_T60;
 use crate::error::SpecError;
@@ -46,13 +47,13 @@ use crate::math::roots;
 use crate::modal::Mode;
 use crate::mode::ModeInfo;
 use crate::mode::ModeKind;
-use crate::surface::{Surface, SurfaceParts};
+use crate::surface::Surface;
 
 pub use points::POINTS;
 pub use spec::HiHatSpec;
 
 use foot::SPEED;
-use half::{Damping, Half, Struck};
+use half::{Damping, Half};
 use pair::{Pair, PairParts};
 use rigid::Rigid;
 
@@ -90,17 +91,15 @@ impl HiHat {
     /// [`SpecError`] if a number is out of range.
     pub fn new(spec: &HiHatSpec, context: &BuildContext) -> Result<HiHat, SpecError> {
         spec.check()?;
-        let BuildContext { options, ideal, .. } = context;
-        let highest = options.quality.coupled_hz().min(cymbal::COUPLED_SHARE_OF_RATE * options.sample_rate);
-        let coupled_hz = (!ideal.linear).then_some(highest);
-        let (top, struck) = Half::new(&spec.top, (&spec.clutch, spec.rubbing), coupled_hz, context)?;
-        let (bottom, _) = Half::new(&spec.bottom, (&spec.seat, spec.rubbing), None, context)?;
-        let (surface, halves) = assemble(spec, context, [top, bottom], struck);
+        let coupled_hz = assembly::coupled_hz(context);
+        let top = Half::new(&spec.top, (&spec.clutch, spec.rubbing), coupled_hz, context)?;
+        let bottom = Half::new(&spec.bottom, (&spec.seat, spec.rubbing), None, context)?;
+        let (surface, halves) = assemble(spec, context, top, bottom);
         let (low, tuning, high) = CymbalSpec::TUNING;
         let mut hat = HiHat {
             surface,
             halves,
-            lossless: ideal.lossless,
+            lossless: context.ideal.lossless,
             tuning: Glide::new(tuning, low, high),
             muffling: Glide::new(0.0, 0.0, 1.0),
             hand: Glide::new(0.0, 0.0, 1.0),
@@ -174,7 +173,7 @@ impl Instrument for HiHat {
 
     fn advance_controls(&mut self, seconds: f64) {
         let moved = [&mut self.tuning, &mut self.muffling].map(|glide| glide.advance(seconds));
-        self.stale |= moved.contains(&true) | self.hand.advance(seconds / cymbal::Hand::SLOWER);
+        self.stale |= moved.contains(&true) | self.hand.advance(seconds / Hand::SLOWER);
     }
 
     fn follow_controls(&mut self) {
@@ -219,14 +218,14 @@ impl Instrument for HiHat {
         ];
         let rows = bodies.into_iter().filter_map(|(name, body, half)| Some((name, body?, half)));
         rows.flat_map(|(name, body, half)| {
-            body.modes().iter().zip(&half.modes).map(move |(mode, built)| ModeInfo {
+            body.modes().iter().zip(&half.cymbal.modes).map(move |(mode, built)| ModeInfo {
                 body: name,
                 m: built.m,
                 n: built.n,
                 member: built.member,
                 frequency_hz: mode.omega_d() / TAU,
                 t60: SIGMA_T60 / mode.sigma,
-                modal_mass: half.mass,
+                modal_mass: half.cymbal.mass,
                 radiation: built.monopole_area,
                 kind: ModeKind::Complete,
             })
@@ -282,39 +281,21 @@ const LIFT: f64 = fitted::HAT_LIFT;
 fn assemble(
     spec: &HiHatSpec,
     context: &BuildContext,
-    [mut top, mut bottom]: [Half; 2],
-    struck: Struck,
+    (mut top, struck): (Half, PlateShapes),
+    (mut bottom, below): (Half, PlateShapes),
 ) -> (Surface, [Half; 2]) {
     let BuildContext { options, ideal, .. } = context;
     let lossless = ideal.lossless;
-    let undamped = Damping { muffling: 0.0, hand: 0.0, rubbing: 0.0, lossless: true };
-    let bare = |half: &Half| (0..half.modes.len()).map(|k| half.mode(k, 1.0, &undamped)).collect();
-    let mut surface = Surface::new(SurfaceParts {
-        modes: bare(&top),
-        shapes: struck.shapes,
-        transfer: vec![[0.0; 2]; top.modes.len()],
-        material: spec.top.alloy,
-        lossless,
-        sample_rate: options.sample_rate,
-    });
-    let [near, far] = std::mem::take(&mut top.transfers);
-    surface.set_transfers(near.into_iter(), far.into_iter());
-    if let Some((potential, modes, highest_hz)) = struck.coupled {
-        surface.set_potential(
-            Box::new(potential),
-            modes,
-            cymbal::coupling_stride(highest_hz, options.sample_rate),
-        );
-    }
+    let mut surface = struck.into_surface(&spec.top, &top.cymbal, context);
     let tip = Tip::Solid { material: spec.rim, radius: spec.edge };
     let law = ContactLaw::new(&tip, &spec.bottom.alloy, if lossless { 1.0 } else { spec.restitution });
     let leaning = spec.top.plate().radius() * spec.tilt;
     let dt = 1.0 / options.sample_rate;
     let rigid = [(&top, &spec.clutch), (&bottom, &spec.seat)]
-        .map(|(half, mount)| Rigid::new(half.mass, mount, lossless, dt));
+        .map(|(half, mount)| Rigid::new(half.cymbal.mass, mount, lossless, dt));
     surface.set_pair(Pair::new(PairParts {
-        bottom: bare(&bottom),
-        transfers: std::mem::take(&mut bottom.transfers),
+        bottom: (0..bottom.cymbal.modes.len()).map(|k| bottom.cymbal.bare(k, 1.0)).collect(),
+        transfers: below.transfers,
         folded: [std::mem::take(&mut top.folded), std::mem::take(&mut bottom.folded)],
         rigid,
         law,
