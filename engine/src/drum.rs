@@ -17,18 +17,21 @@ pub mod tuned;
 
 use serde::Serialize;
 
-use crate::MARK;
 use crate::air::SPEED_OF_SOUND;
+use crate::build_context::BuildContext;
 use crate::cache::{Cache, Shared};
 use crate::damping::{Muffler, SIGMA_T60};
 use crate::error::SpecError;
 use crate::glide::Glide;
+use crate::instrument::Instrument;
 use crate::modal::Mode;
-use crate::piece::{BuildContext, Member, ModeInfo, ModeKind};
+use crate::mode::Member;
+use crate::mode::ModeInfo;
+use crate::mode::ModeKind;
 use crate::rim::Rim;
+use crate::schema::MARK;
 use crate::shapes::ShapeTable;
 use crate::split::Splitting;
-use crate::strike::Strike;
 use crate::surface::patch::Film;
 use crate::surface::wires::PRELOAD;
 use crate::surface::{Surface, SurfaceParts};
@@ -187,92 +190,20 @@ impl Drum {
         }
         Ok(drum)
     }
+}
 
-    /// The head and what is about it.
-    pub fn surface(&self) -> &Surface {
+impl Instrument for Drum {
+    fn surface(&self) -> &Surface {
         &self.surface
     }
 
-    /// The head and what is about it.
-    pub fn surface_mut(&mut self) -> &mut Surface {
+    fn surface_mut(&mut self) -> &mut Surface {
         &mut self.surface
-    }
-
-    /// Strikes the batter at the next sample.
-    ///
-    /// # Real-time
-    /// No allocation; linear in the number of modes and the head modes they mix.
-    pub fn strike(&mut self, strike: &Strike) {
-        self.follow_shapes();
-        self.surface.strike(strike);
-    }
-
-    /// Asks for a pitch (Hz) of the named mode.
-    pub fn set_tuning(&mut self, hz: f64) {
-        self.pitch.set(hz);
-    }
-
-    /// Asks for muffling, 0 to 1.
-    pub fn set_muffling(&mut self, amount: f64) {
-        self.muffling.set(amount);
-    }
-
-    /// Lets the controls glide for `seconds`.
-    pub fn advance_controls(&mut self, seconds: f64) {
-        let moved = [&mut self.pitch, &mut self.muffling].map(|glide| glide.advance(seconds));
-        self.stale |= moved.contains(&true);
-        if self.preload.advance(seconds) {
-            self.surface.set_preload(self.preload.value());
-        }
-    }
-
-    /// Lets the controls arrive at once.
-    pub fn finish_controls(&mut self) {
-        let moved = [&mut self.pitch, &mut self.muffling].map(Glide::jump);
-        self.stale |= moved.contains(&true);
-        if self.preload.jump() {
-            self.surface.set_preload(self.preload.value());
-        }
-        self.follow_controls();
-        self.follow_shapes();
-    }
-
-    /// Brings frequencies and losses to where the controls are.
-    ///
-    /// # Real-time
-    /// Nothing while they rest; linear in the number of modes while they move.
-    pub fn follow_controls(&mut self) {
-        if !std::mem::take(&mut self.stale) {
-            return;
-        }
-        self.shapes_stale = true;
-        let place = self.blueprint.scale.place(self.pitch.value());
-        for (rung, mode) in self.rungs.iter_mut().zip(&self.blueprint.modes) {
-            *rung = mode.at(&place);
-        }
-        let amount = self.muffling.value();
-        let (modes, rungs, muffler, blueprint) = (&self.modes, &self.rungs, &self.muffler, &self.blueprint);
-        let lossless = self.lossless;
-        self.surface.retune(|k, _| {
-            let mode = &modes[k];
-            let rung = &rungs[mode.pair];
-            let muffled =
-                if amount > 0.0 { amount * muffler.sigma(mode, rung, blueprint, &place) } else { 0.0 };
-            let sigma = if lossless { 0.0 } else { rung.sigma + muffled };
-            Mode { omega: rung.omega * mode.detuning, sigma, mass: rung.mass }
-        });
-        let [near, far] = self.surface.high_bands_mut();
-        if let Some(near) = near {
-            near.retune(self.blueprint.batter.tension(&place), &self.muffler.above(amount));
-        }
-        if let (Some(far), Some(head)) = (far, &self.blueprint.resonant) {
-            far.retune(head.tension(&place), &HighMuffling::NONE);
-        }
     }
 
     /// Brings the shapes and what is heard of them to where the pitch is; only strokes need the shapes, and hide that
     /// what still rings is heard a little differently.
-    pub fn follow_shapes(&mut self) {
+    fn follow_shapes(&mut self) {
         if !std::mem::take(&mut self.shapes_stale) {
             return;
         }
@@ -306,26 +237,70 @@ impl Drum {
         }
     }
 
-    /// Throws the snare wires on or off, if there are any.
-    pub fn throw_wires(&mut self, on: bool) {
+    fn set_tuning(&mut self, hz: f64) {
+        self.pitch.set(hz);
+    }
+
+    fn set_muffling(&mut self, amount: f64) {
+        self.muffling.set(amount);
+    }
+
+    fn throw_wires(&mut self, on: bool) {
         self.surface.throw_wires(on);
     }
 
-    /// Asks for a force of the strainer, N, if there is one.
-    pub fn set_preload(&mut self, newtons: f64) {
+    fn set_preload(&mut self, newtons: f64) {
         self.preload.set(newtons);
     }
 
-    /// Tension of each head, N/m.
-    pub fn tensions(&self) -> Vec<(&'static str, f64)> {
-        let place = self.blueprint.scale.place(self.pitch.value());
-        let heads =
-            [("batter", Some(&self.blueprint.batter)), ("resonant", self.blueprint.resonant.as_ref())];
-        heads.into_iter().filter_map(|(name, head)| Some((name, head?.tension(&place)))).collect()
+    fn advance_controls(&mut self, seconds: f64) {
+        let moved = [&mut self.pitch, &mut self.muffling].map(|glide| glide.advance(seconds));
+        self.stale |= moved.contains(&true);
+        if self.preload.advance(seconds) {
+            self.surface.set_preload(self.preload.value());
+        }
     }
 
-    /// Every mode as it is now.
-    pub fn modes(&self) -> Vec<ModeInfo> {
+    fn follow_controls(&mut self) {
+        if !std::mem::take(&mut self.stale) {
+            return;
+        }
+        self.shapes_stale = true;
+        let place = self.blueprint.scale.place(self.pitch.value());
+        for (rung, mode) in self.rungs.iter_mut().zip(&self.blueprint.modes) {
+            *rung = mode.at(&place);
+        }
+        let amount = self.muffling.value();
+        let (modes, rungs, muffler, blueprint) = (&self.modes, &self.rungs, &self.muffler, &self.blueprint);
+        let lossless = self.lossless;
+        self.surface.retune(|k, _| {
+            let mode = &modes[k];
+            let rung = &rungs[mode.pair];
+            let muffled =
+                if amount > 0.0 { amount * muffler.sigma(mode, rung, blueprint, &place) } else { 0.0 };
+            let sigma = if lossless { 0.0 } else { rung.sigma + muffled };
+            Mode { omega: rung.omega * mode.detuning, sigma, mass: rung.mass }
+        });
+        let [near, far] = self.surface.high_bands_mut();
+        if let Some(near) = near {
+            near.retune(self.blueprint.batter.tension(&place), &self.muffler.above(amount));
+        }
+        if let (Some(far), Some(head)) = (far, &self.blueprint.resonant) {
+            far.retune(head.tension(&place), &HighMuffling::NONE);
+        }
+    }
+
+    fn finish_controls(&mut self) {
+        let moved = [&mut self.pitch, &mut self.muffling].map(Glide::jump);
+        self.stale |= moved.contains(&true);
+        if self.preload.jump() {
+            self.surface.set_preload(self.preload.value());
+        }
+        self.follow_controls();
+        self.follow_shapes();
+    }
+
+    fn modes(&self) -> Vec<ModeInfo> {
         let rows = self.surface.body().modes().iter().zip(&self.modes);
         let complete = rows.map(|(mode, row)| {
             let tuned = &self.blueprint.modes[row.pair];
@@ -356,6 +331,13 @@ impl Drum {
         });
         let slices = self.surface.high_band().into_iter().flat_map(HighBand::slices);
         complete.chain(slices.map(sampled)).chain(rim).collect()
+    }
+
+    fn tensions(&self) -> Vec<(&'static str, f64)> {
+        let place = self.blueprint.scale.place(self.pitch.value());
+        let heads =
+            [("batter", Some(&self.blueprint.batter)), ("resonant", self.blueprint.resonant.as_ref())];
+        heads.into_iter().filter_map(|(name, head)| Some((name, head?.tension(&place)))).collect()
     }
 }
 

@@ -24,34 +24,38 @@ pub mod edge;
 pub mod foot;
 pub mod half;
 pub mod pair;
+pub mod points;
 mod rest;
 pub mod rigid;
 pub mod rims;
-mod spec;
+pub mod spec;
 mod step;
 
 use std::f64::consts::TAU;
 
+use crate::build_context::BuildContext;
 use crate::contact::{ContactLaw, Tip};
-use crate::cymbal::{self, CymbalSpec};
+use crate::cymbal::assembly::{self, PlateShapes};
+use crate::cymbal::hand::Hand;
+use crate::cymbal::spec::CymbalSpec;
 use crate::damping::SIGMA_T60;
 use crate::error::SpecError;
 use crate::fitted;
 use crate::glide::Glide;
+use crate::instrument::{Instrument, Pedal};
 use crate::math::roots;
 use crate::modal::Mode;
-use crate::piece::{BuildContext, ModeInfo, ModeKind};
-use crate::surface::{Surface, SurfaceParts};
+use crate::mode::ModeInfo;
+use crate::mode::ModeKind;
+use crate::surface::Surface;
 
+pub use points::POINTS;
 pub use spec::HiHatSpec;
 
 use foot::SPEED;
-use half::{Damping, Half, Struck};
+use half::{Damping, Half};
 use pair::{Pair, PairParts};
 use rigid::Rigid;
-
-/// Places around the rims where they may touch.
-pub const POINTS: usize = 16;
 
 /// Mean distance of the rims while the pedal is up, m. *Literature*: players set 2 to 4 cm.
 pub const GAP: f64 = 0.030;
@@ -87,17 +91,15 @@ impl HiHat {
     /// [`SpecError`] if a number is out of range.
     pub fn new(spec: &HiHatSpec, context: &BuildContext) -> Result<HiHat, SpecError> {
         spec.check()?;
-        let BuildContext { options, ideal, .. } = context;
-        let highest = options.quality.coupled_hz().min(cymbal::COUPLED_SHARE_OF_RATE * options.sample_rate);
-        let coupled_hz = (!ideal.linear).then_some(highest);
-        let (top, struck) = Half::new(&spec.top, (&spec.clutch, spec.rubbing), coupled_hz, context)?;
-        let (bottom, _) = Half::new(&spec.bottom, (&spec.seat, spec.rubbing), None, context)?;
-        let (surface, halves) = assemble(spec, context, [top, bottom], struck);
+        let coupled_hz = assembly::coupled_hz(context);
+        let top = Half::new(&spec.top, (&spec.clutch, spec.rubbing), coupled_hz, context)?;
+        let bottom = Half::new(&spec.bottom, (&spec.seat, spec.rubbing), None, context)?;
+        let (surface, halves) = assemble(spec, context, top, bottom);
         let (low, tuning, high) = CymbalSpec::TUNING;
         let mut hat = HiHat {
             surface,
             halves,
-            lossless: ideal.lossless,
+            lossless: context.ideal.lossless,
             tuning: Glide::new(tuning, low, high),
             muffling: Glide::new(0.0, 0.0, 1.0),
             hand: Glide::new(0.0, 0.0, 1.0),
@@ -132,95 +134,9 @@ impl HiHat {
         }
     }
 
-    /// The upper cymbal and what is about it.
-    pub fn surface(&self) -> &Surface {
-        &self.surface
-    }
-
-    /// The upper cymbal and what is about it.
-    pub fn surface_mut(&mut self) -> &mut Surface {
-        &mut self.surface
-    }
-
     /// Where the pedal has been asked to be, from 0 (up) to 1 (down): a share of its way.
     pub fn pedal(&self) -> f64 {
         self.pedal
-    }
-
-    /// Brings the pedal to a place, 0 (up) to 1 (down), at up to a speed (m/s, see [`SPEED`]).
-    ///
-    /// # Real-time
-    /// No allocation; linear in the number of modes.
-    pub fn press(&mut self, pedal: f64, speed: f64) {
-        if pedal.is_nan() || speed.is_nan() {
-            return;
-        }
-        let pedal = pedal.clamp(0.0, 1.0);
-        if pedal == self.pedal && speed == SPEED.1 {
-            return;
-        }
-        self.pedal = pedal;
-        let rod = self.rod(pedal);
-        self.surface.move_pedal(|foot| foot.go(rod, speed));
-    }
-
-    /// Brings the pedal down at up to a speed (m/s); a foot that is down already lifts first, as fast as it can.
-    ///
-    /// # Real-time
-    /// No allocation; linear in the number of modes.
-    pub fn stamp(&mut self, speed: f64) {
-        if speed.is_nan() {
-            return;
-        }
-        self.pedal = 1.0;
-        let closed = self.closed;
-        self.surface.move_pedal(|foot| foot.stamp(GAP - LIFT, closed, speed));
-    }
-
-    /// Brings the rims together at up to a speed (m/s) and the pedal up again at once, to where it was.
-    ///
-    /// # Real-time
-    /// No allocation; linear in the number of modes.
-    pub fn splash(&mut self, speed: f64) {
-        if speed.is_nan() {
-            return;
-        }
-        // Rims that are pressed together have to come apart to ring.
-        self.pedal = self.pedal.min(SPLASHING);
-        let rod = self.rod(self.pedal);
-        self.surface.move_pedal(|foot| foot.turn(GAP, rod, speed));
-    }
-
-    /// Asks for a ratio of all frequencies to the cymbals' own.
-    pub fn set_tuning(&mut self, ratio: f64) {
-        self.tuning.set(ratio);
-    }
-
-    /// Asks for muffling, 0 to 1.
-    pub fn set_muffling(&mut self, amount: f64) {
-        self.muffling.set(amount);
-    }
-
-    /// Lets a hand take hold of both edges, from 0 to 1: firmly at 1, not at all at 0.
-    pub fn choke(&mut self, strength: f64) {
-        self.hand.set(strength);
-    }
-
-    /// Lets the controls glide for `seconds`.
-    pub fn advance_controls(&mut self, seconds: f64) {
-        let moved = [&mut self.tuning, &mut self.muffling].map(|glide| glide.advance(seconds));
-        self.stale |= moved.contains(&true) | self.hand.advance(seconds / cymbal::Hand::SLOWER);
-    }
-
-    /// Lets the controls arrive at once, and the pedal.
-    pub fn finish_controls(&mut self) {
-        let moved = [&mut self.tuning, &mut self.muffling, &mut self.hand].map(Glide::jump);
-        self.stale |= moved.contains(&true);
-        self.surface.rest_pedal();
-        let rubbing = self.rubbing_now();
-        self.stale |= rubbing != self.rubbing;
-        self.rubbing = rubbing;
-        self.follow_controls();
     }
 
     /// How much the rims rub where they are, 0 to 1.
@@ -228,12 +144,39 @@ impl HiHat {
         let clamped = self.surface.pair().map_or(0.0, Pair::clamped);
         clamped / (clamped + self.half_rubbing)
     }
+}
 
-    /// Brings the modes to where the controls are.
-    ///
-    /// # Real-time
-    /// Nothing while they rest; linear in the number of modes while they move.
-    pub fn follow_controls(&mut self) {
+impl Instrument for HiHat {
+    fn surface(&self) -> &Surface {
+        &self.surface
+    }
+
+    fn surface_mut(&mut self) -> &mut Surface {
+        &mut self.surface
+    }
+
+    fn set_tuning(&mut self, ratio: f64) {
+        self.tuning.set(ratio);
+    }
+
+    fn set_muffling(&mut self, amount: f64) {
+        self.muffling.set(amount);
+    }
+
+    fn pedal_mut(&mut self) -> Option<&mut dyn Pedal> {
+        Some(self)
+    }
+
+    fn choke(&mut self, strength: f64) {
+        self.hand.set(strength);
+    }
+
+    fn advance_controls(&mut self, seconds: f64) {
+        let moved = [&mut self.tuning, &mut self.muffling].map(|glide| glide.advance(seconds));
+        self.stale |= moved.contains(&true) | self.hand.advance(seconds / Hand::SLOWER);
+    }
+
+    fn follow_controls(&mut self) {
         let rubbing = self.rubbing_now();
         if (rubbing - self.rubbing).abs() > RUBBING_STEP {
             (self.rubbing, self.stale) = (rubbing, true);
@@ -258,27 +201,70 @@ impl HiHat {
         }
     }
 
-    /// Every mode as it is now.
-    pub fn modes(&self) -> Vec<ModeInfo> {
+    fn finish_controls(&mut self) {
+        let moved = [&mut self.tuning, &mut self.muffling, &mut self.hand].map(Glide::jump);
+        self.stale |= moved.contains(&true);
+        self.surface.rest_pedal();
+        let rubbing = self.rubbing_now();
+        self.stale |= rubbing != self.rubbing;
+        self.rubbing = rubbing;
+        self.follow_controls();
+    }
+
+    fn modes(&self) -> Vec<ModeInfo> {
         let bodies = [
             ("top", Some(self.surface.body()), &self.halves[0]),
             ("bottom", self.surface.pair().map(Pair::bottom), &self.halves[1]),
         ];
         let rows = bodies.into_iter().filter_map(|(name, body, half)| Some((name, body?, half)));
         rows.flat_map(|(name, body, half)| {
-            body.modes().iter().zip(&half.modes).map(move |(mode, built)| ModeInfo {
+            body.modes().iter().zip(&half.cymbal.modes).map(move |(mode, built)| ModeInfo {
                 body: name,
                 m: built.m,
                 n: built.n,
                 member: built.member,
                 frequency_hz: mode.omega_d() / TAU,
                 t60: SIGMA_T60 / mode.sigma,
-                modal_mass: half.mass,
+                modal_mass: half.cymbal.mass,
                 radiation: built.monopole_area,
                 kind: ModeKind::Complete,
             })
         })
         .collect()
+    }
+}
+
+impl Pedal for HiHat {
+    fn press(&mut self, pedal: f64, speed: f64) {
+        if pedal.is_nan() || speed.is_nan() {
+            return;
+        }
+        let pedal = pedal.clamp(0.0, 1.0);
+        if pedal == self.pedal && speed == SPEED.1 {
+            return;
+        }
+        self.pedal = pedal;
+        let rod = self.rod(pedal);
+        self.surface.move_pedal(|foot| foot.go(rod, speed));
+    }
+
+    fn stamp(&mut self, speed: f64) {
+        if speed.is_nan() {
+            return;
+        }
+        self.pedal = 1.0;
+        let closed = self.closed;
+        self.surface.move_pedal(|foot| foot.stamp(GAP - LIFT, closed, speed));
+    }
+
+    fn splash(&mut self, speed: f64) {
+        if speed.is_nan() {
+            return;
+        }
+        // Rims that are pressed together have to come apart to ring.
+        self.pedal = self.pedal.min(SPLASHING);
+        let rod = self.rod(self.pedal);
+        self.surface.move_pedal(|foot| foot.turn(GAP, rod, speed));
     }
 }
 
@@ -295,39 +281,21 @@ const LIFT: f64 = fitted::HAT_LIFT;
 fn assemble(
     spec: &HiHatSpec,
     context: &BuildContext,
-    [mut top, mut bottom]: [Half; 2],
-    struck: Struck,
+    (mut top, struck): (Half, PlateShapes),
+    (mut bottom, below): (Half, PlateShapes),
 ) -> (Surface, [Half; 2]) {
     let BuildContext { options, ideal, .. } = context;
     let lossless = ideal.lossless;
-    let undamped = Damping { muffling: 0.0, hand: 0.0, rubbing: 0.0, lossless: true };
-    let bare = |half: &Half| (0..half.modes.len()).map(|k| half.mode(k, 1.0, &undamped)).collect();
-    let mut surface = Surface::new(SurfaceParts {
-        modes: bare(&top),
-        shapes: struck.shapes,
-        transfer: vec![[0.0; 2]; top.modes.len()],
-        material: spec.top.alloy,
-        lossless,
-        sample_rate: options.sample_rate,
-    });
-    let [near, far] = std::mem::take(&mut top.transfers);
-    surface.set_transfers(near.into_iter(), far.into_iter());
-    if let Some((potential, modes, highest_hz)) = struck.coupled {
-        surface.set_potential(
-            Box::new(potential),
-            modes,
-            cymbal::coupling_stride(highest_hz, options.sample_rate),
-        );
-    }
+    let mut surface = struck.into_surface(&spec.top, &top.cymbal, context);
     let tip = Tip::Solid { material: spec.rim, radius: spec.edge };
     let law = ContactLaw::new(&tip, &spec.bottom.alloy, if lossless { 1.0 } else { spec.restitution });
     let leaning = spec.top.plate().radius() * spec.tilt;
     let dt = 1.0 / options.sample_rate;
     let rigid = [(&top, &spec.clutch), (&bottom, &spec.seat)]
-        .map(|(half, mount)| Rigid::new(half.mass, mount, lossless, dt));
+        .map(|(half, mount)| Rigid::new(half.cymbal.mass, mount, lossless, dt));
     surface.set_pair(Pair::new(PairParts {
-        bottom: bare(&bottom),
-        transfers: std::mem::take(&mut bottom.transfers),
+        bottom: (0..bottom.cymbal.modes.len()).map(|k| bottom.cymbal.bare(k, 1.0)).collect(),
+        transfers: below.transfers,
         folded: [std::mem::take(&mut top.folded), std::mem::take(&mut bottom.folded)],
         rigid,
         law,

@@ -20,12 +20,16 @@ mod line;
 mod mix;
 mod post;
 mod retained;
-pub mod room;
+mod room;
 
 pub use arrangement::Arrangement;
 pub use control::{Control, Microphone};
 pub use gain::{LOUDEST_DB, SILENT_DB};
+pub use mix::Stereo;
 pub use post::{Crew, Post};
+
+pub use crate::block::BLOCK;
+pub use crate::level::FULL_SCALE;
 
 use crate::hi_hat::SPLASHING;
 use crate::hi_hat::foot::SPEED;
@@ -37,27 +41,15 @@ use crate::snapshot::KitSnapshot;
 use crate::strike::Strike;
 
 use air::Air;
-use gain::{Gain, GainRun};
+use gain::Gain;
 use mix::{Desk, PAIRS};
 use retained::RetainedControls;
-
-/// Longest stretch a piece renders at once, samples.
-pub const BLOCK: usize = 32;
-
-/// Sound pressure of full scale before the levels, Pa.
-pub const FULL_SCALE: f32 = 20.0;
 
 /// Outputs beside the main one: the close microphone of each slot, the overheads, the room.
 pub const OUTPUTS: usize = SLOTS + PAIRS;
 
 /// The silence of the room is looked for once in so many blocks.
 const SETTLE_BLOCKS: u64 = 128;
-
-/// A gain for every piece over a run.
-type GainRuns = [GainRun; SLOTS];
-
-/// Two outputs of one length: left, right; full scale is 1.
-pub type Stereo<'a> = [&'a mut [f32]; 2];
 
 /// The drum kit. Owns its pieces; renders them; the only way sound leaves the engine.
 pub struct Kit {

@@ -4,22 +4,27 @@
 //! [`KitSpec::standard`] is the only default there is. What acts while a piece rings is a control of its
 //! [slot](crate::slot::Slot); what needs building is here. The names under which fields are serialized carry their units.
 
+pub mod room;
 mod standard;
 
 use serde::{Deserialize, Serialize};
 
-use crate::cymbal::CymbalSpec;
-use crate::drum::DrumSpec;
+use crate::build_context::BuildContext;
+use crate::build_context::BuildOptions;
+use crate::build_context::Idealization;
+use crate::cymbal::spec::CymbalSpec;
+use crate::drum::spec::DrumSpec;
 use crate::error::SpecError;
-use crate::hi_hat::HiHatSpec;
-use crate::kit::room::RoomSpec;
+use crate::hi_hat::spec::HiHatSpec;
 use crate::layout::{FARTHEST, Layout, Pair, Placement, Point};
-use crate::listening::ListeningPoint;
 use crate::microphones::CloseSpec;
 use crate::numbers::{self, Numbers, Visitor};
-use crate::piece::{BuildContext, BuildOptions, Idealization, Receivers};
+use crate::receiver::ListeningPoint;
+use crate::receiver::Receivers;
 use crate::slot::{SLOTS, Slot};
 use crate::surface::wires;
+
+use room::RoomSpec;
 
 /// A kit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

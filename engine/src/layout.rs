@@ -3,7 +3,7 @@
 //! Coordinates (m): `x` to the drummer's right, `y` up, `z` toward the audience; the origin is on the
 //! floor under the middle of the kit.
 
-use crate::listening::ListeningPoint;
+use crate::receiver::ListeningPoint;
 use crate::slot::{SLOTS, Slot};
 
 /// A place, m.

@@ -11,8 +11,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::fitted;
 use crate::layout::CLOSE;
-use crate::listening::ListeningPoint;
 use crate::numbers::{Numbers, Visitor};
+use crate::receiver::ListeningPoint;
 
 /// A close microphone's description.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

@@ -29,7 +29,7 @@ use std::f64::consts::TAU;
 
 use aligned_vec::{AVec, ConstAlign};
 
-use simd::driven::Drive;
+use simd::ring::Drive;
 use simd::{Kernels, LANES};
 
 use crate::snapshot::{OCTAVES, octave_of};
@@ -174,9 +174,9 @@ impl Ear {
     }
 
     /// For [`ModalBody::ring`], from mode `first` on.
-    fn from<'a>(&'a self, first: usize, out: &'a mut [f32]) -> simd::Heard<'a> {
+    fn from<'a>(&'a self, first: usize, out: &'a mut [f32]) -> simd::ring::Heard<'a> {
         let from = |row: &'a [f32]| row.get(first..).unwrap_or_default();
-        simd::Heard { weight_re: from(&self.weight_re), weight_im: from(&self.weight_im), out }
+        simd::ring::Heard { weight_re: from(&self.weight_re), weight_im: from(&self.weight_im), out }
     }
 }
 
@@ -400,7 +400,7 @@ impl ModalBody {
         }
         let [near, far, few] = &pickup.ears;
         let [near_out, far_out, few_out] = out;
-        let mut ring = simd::Ring {
+        let mut ring = simd::ring::Ring {
             re: &mut self.state.re[first..],
             im: &mut self.state.im[first..],
             turn_re: &self.coefs.turn_re[first..],

@@ -1,17 +1,16 @@
 //! One piece of the kit: a drum or a cymbal, and what can be asked of it.
 
 mod controls;
-mod modes;
-mod options;
 
-pub use modes::{Member, ModeInfo, ModeKind};
-pub use options::{BuildContext, BuildOptions, Idealization, Quality, Receivers};
+pub use crate::build_context::{BuildContext, BuildOptions, Idealization, Quality};
+pub use crate::mode::{Member, ModeInfo, ModeKind};
 
+use crate::block::BLOCK;
 use crate::cymbal::Cymbal;
 use crate::drum::Drum;
 use crate::error::SpecError;
 use crate::hi_hat::HiHat;
-use crate::kit::BLOCK;
+use crate::instrument::Instrument;
 use crate::kit_spec::{InstrumentSpec, Kind, PieceBuild};
 use crate::layout::Placement;
 use crate::microphones::CloseMicrophone;
@@ -34,7 +33,7 @@ const DOZE: f64 = 0.05;
 pub struct Piece {
     slot: Slot,
     kind: Kind,
-    voice: Voice,
+    instrument: Box<dyn Instrument>,
     sample_rate: f64,
     /// Samples into the present block.
     phase: usize,
@@ -52,28 +51,13 @@ pub struct Piece {
     quiet: usize,
 }
 
-enum Voice {
-    Drum(Box<Drum>),
-    Cymbal(Box<Cymbal>),
-    HiHat(Box<HiHat>),
-}
-
-impl Voice {
-    fn surface(&self) -> &Surface {
-        match self {
-            Voice::Drum(drum) => drum.surface(),
-            Voice::Cymbal(cymbal) => cymbal.surface(),
-            Voice::HiHat(hat) => hat.surface(),
-        }
-    }
-
-    fn surface_mut(&mut self) -> &mut Surface {
-        match self {
-            Voice::Drum(drum) => drum.surface_mut(),
-            Voice::Cymbal(cymbal) => cymbal.surface_mut(),
-            Voice::HiHat(hat) => hat.surface_mut(),
-        }
-    }
+/// Builds what a description is of.
+fn build(spec: &InstrumentSpec, context: &BuildContext) -> Result<Box<dyn Instrument>, SpecError> {
+    Ok(match spec {
+        InstrumentSpec::Drum(drum) => Box::new(Drum::new(drum, context)?),
+        InstrumentSpec::Cymbal(cymbal) => Box::new(Cymbal::new(cymbal, context)?),
+        InstrumentSpec::HiHat(hat) => Box::new(HiHat::new(hat, context)?),
+    })
 }
 
 impl Piece {
@@ -83,16 +67,11 @@ impl Piece {
     /// [`SpecError`] if the options or a number of the description are out of range.
     pub fn new(slot: Slot, build: &PieceBuild, options: &BuildOptions) -> Result<Piece, SpecError> {
         SpecError::check("sample rate (Hz)", options.sample_rate, 22_050.0, 768_000.0)?;
-        let context = build.context(*options);
-        let voice = match &build.spec.instrument {
-            InstrumentSpec::Drum(drum) => Voice::Drum(Box::new(Drum::new(drum, &context)?)),
-            InstrumentSpec::Cymbal(cymbal) => Voice::Cymbal(Box::new(Cymbal::new(cymbal, &context)?)),
-            InstrumentSpec::HiHat(hat) => Voice::HiHat(Box::new(HiHat::new(hat, &context)?)),
-        };
+        let instrument = self::build(&build.spec.instrument, &build.context(*options))?;
         Ok(Piece {
             slot,
             kind: build.spec.instrument.kind(),
-            voice,
+            instrument,
             sample_rate: options.sample_rate,
             phase: 0,
             unglided: 0,
@@ -136,11 +115,7 @@ impl Piece {
             return;
         }
         self.asleep = false;
-        match &mut self.voice {
-            Voice::Drum(drum) => drum.strike(strike),
-            Voice::Cymbal(cymbal) => cymbal.surface_mut().strike(strike),
-            Voice::HiHat(hat) => hat.surface_mut().strike(strike),
-        }
+        self.instrument.strike(strike);
     }
 
     /// Renders sound pressure at the close microphone, far away as at a metre, and what other pieces hear as at a
@@ -158,8 +133,8 @@ impl Piece {
         }
         let samples = out[0].len();
         debug_assert!(samples <= BLOCK - self.phase);
-        let incident = incident.filter(|_| self.voice.surface().listens());
-        let deaf = self.asleep || self.voice.surface().has_parked_wires();
+        let incident = incident.filter(|_| self.instrument.surface().listens());
+        let deaf = self.asleep || self.instrument.surface().has_parked_wires();
         let loud = |incident: Incident<'_>| incident.iter().position(|pressure| pressure.abs() > AUDIBLE);
         let wakes = incident.filter(|_| deaf).and_then(loud);
         let before = wakes.unwrap_or(samples);
@@ -180,23 +155,21 @@ impl Piece {
             return;
         }
         let to = from + out[0].len();
-        self.voice.surface_mut().render_in_air(out, incident.map(|incident| &incident[from..to]));
+        self.instrument.surface_mut().render_in_air(out, incident.map(|incident| &incident[from..to]));
     }
 
     /// Wakes by sound.
     fn hear(&mut self) {
         self.asleep = false;
         self.quiet = 0;
-        if let Voice::Drum(drum) = &mut self.voice {
-            drum.follow_shapes();
-        }
-        self.voice.surface_mut().hear();
+        self.instrument.follow_shapes();
+        self.instrument.surface_mut().hear();
     }
 
     /// Falls asleep if nothing has been heard of it for a while and next to nothing moves.
     fn doze(&mut self) {
         let silent = std::mem::take(&mut self.loudest) < SILENT;
-        let surface = self.voice.surface();
+        let surface = self.instrument.surface();
         if self.asleep || !silent || surface.is_struck() || surface.motion() > STILL {
             self.quiet = 0;
             return;
@@ -204,7 +177,7 @@ impl Piece {
         self.quiet += BLOCK;
         if self.quiet as f64 >= DOZE * self.sample_rate {
             self.quiet = 0;
-            self.voice.surface_mut().rest();
+            self.instrument.surface_mut().rest();
             self.asleep = true;
         }
     }
@@ -217,18 +190,14 @@ impl Piece {
     /// What is done once a block: controls followed, silence made exact, faults caught.
     fn begin_block(&mut self) {
         self.glide();
-        match &mut self.voice {
-            Voice::Drum(drum) => drum.follow_controls(),
-            Voice::Cymbal(cymbal) => cymbal.follow_controls(),
-            Voice::HiHat(hat) => hat.follow_controls(),
-        }
+        self.instrument.follow_controls();
         if self.asleep {
             return;
         }
-        if !self.voice.surface_mut().settle() {
+        if !self.instrument.surface_mut().settle() {
             self.quarantines = self.quarantines.saturating_add(1);
         }
-        self.asleep = self.voice.surface().is_still();
+        self.asleep = self.instrument.surface().is_still();
     }
 
     /// Whether nothing moves and nothing is about: there is nothing to hear until the next stroke.
@@ -248,7 +217,7 @@ impl Piece {
 
     /// Puts the piece to rest and at the start of a block.
     pub fn reset(&mut self) {
-        self.voice.surface_mut().reset();
+        self.instrument.surface_mut().reset();
         self.asleep = true;
         (self.loudest, self.quiet) = (0.0, 0);
         self.finish_controls();
@@ -258,27 +227,27 @@ impl Piece {
 
     /// What the latest stroke's contact measured.
     pub fn last_strike(&self) -> StrikeSnapshot {
-        self.voice.surface().last_strike()
+        self.instrument.surface().last_strike()
     }
 
     /// Vibration energy of the piece itself, J.
     pub fn energy(&self) -> f64 {
-        self.voice.surface().energy()
+        self.instrument.surface().energy()
     }
 
     /// Kinetic energy of the strikers about and energy held in their contacts, J.
     pub fn striker_energy(&self) -> f64 {
-        self.voice.surface().striker_energy()
+        self.instrument.surface().striker_energy()
     }
 
     /// Kinetic energy that strikers have come with since the last reset, J.
     pub fn brought_energy(&self) -> f64 {
-        self.voice.surface().brought_energy()
+        self.instrument.surface().brought_energy()
     }
 
     /// Energy that strikers have taken away with them since the last reset, J.
     pub fn departed_energy(&self) -> f64 {
-        self.voice.surface().departed_energy()
+        self.instrument.surface().departed_energy()
     }
 
     /// Times the piece was put back to rest because a value was not finite.
@@ -288,31 +257,24 @@ impl Piece {
 
     /// Every mode with the present tuning and muffling, lowest first. Allocates.
     pub fn modes(&self) -> Vec<ModeInfo> {
-        match &self.voice {
-            Voice::Drum(drum) => drum.modes(),
-            Voice::Cymbal(cymbal) => cymbal.modes(),
-            Voice::HiHat(hat) => hat.modes(),
-        }
+        self.instrument.modes()
     }
 
     /// Tension of each stretched body, N/m: `("batter", 2729.0)`. Empty for cymbals. Allocates.
     pub fn tensions(&self) -> Vec<(&'static str, f64)> {
-        match &self.voice {
-            Voice::Drum(drum) => drum.tensions(),
-            Voice::Cymbal(_) | Voice::HiHat(_) => Vec::new(),
-        }
+        self.instrument.tensions()
     }
 
     /// The surface that is struck, for tests and tools that look closely.
     pub fn surface_mut(&mut self) -> &mut Surface {
         // It may be set going.
         self.asleep = false;
-        self.voice.surface_mut()
+        self.instrument.surface_mut()
     }
 
     /// Mode shapes for the displacement field. Allocates.
     pub fn field_shapes(&self) -> FieldShapes {
-        let surface = self.voice.surface();
+        let surface = self.instrument.surface();
         let mut all = vec![0.0_f32; surface.body().len()];
         let points = FieldShapes::grid();
         let shapes = points
@@ -335,16 +297,16 @@ impl Piece {
     /// # Real-time
     /// Linear in the number of modes.
     pub fn snapshot(&self, into: &mut PieceSnapshot) {
-        let body = self.voice.surface().body();
+        let body = self.instrument.surface().body();
         into.ready = true;
         into.energy = self.energy() as f32;
         into.octaves = body.energy_by_octave();
-        into.stretch = self.voice.surface().beyond().map_or(0.0, |force| force.energy() as f32);
+        into.stretch = self.instrument.surface().beyond().map_or(0.0, |force| force.energy() as f32);
         into.strike = self.last_strike();
         into.wires = self.wires();
         into.rims = self.rims();
         into.quarantines = self.quarantines;
-        into.hurried_strikers = self.voice.surface().hurried_strikers();
+        into.hurried_strikers = self.instrument.surface().hurried_strikers();
         for (k, q) in into.displacement.iter_mut().enumerate() {
             *q = if k < body.len() { body.displacement(k) } else { 0.0 };
         }

@@ -2,9 +2,9 @@
 //! are known.
 
 use crate::contact::Material;
-use crate::cymbal::CymbalSpec;
-use crate::drum::DrumSpec;
-use crate::hi_hat::HiHatSpec;
+use crate::cymbal::spec::CymbalSpec;
+use crate::drum::spec::DrumSpec;
+use crate::hi_hat::spec::HiHatSpec;
 use crate::kit_spec::{InstrumentSpec, KitSpec, PieceBuild};
 use crate::plate::PlateSpec;
 

@@ -20,10 +20,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::air::{DENSITY, SPEED_OF_SOUND};
 use crate::contact::Material;
-use crate::listening::ListeningPoint;
 use crate::modal::Mode;
+use crate::mode::Member;
+use crate::mode::ModeKind;
 use crate::numbers::{Numbers, Visitor};
-use crate::piece::{Member, ModeKind};
+use crate::receiver::ListeningPoint;
 
 /// A hoop's description, and of the stand its drum is on.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

@@ -4,7 +4,7 @@
 //! axes `theta_0` of a pair are where the body's small unevenness puts them.
 
 use crate::math::cubic::Stencil;
-use crate::piece::Member;
+use crate::mode::Member;
 use crate::surface::patch::{Discs, pressed_share};
 
 /// Intervals of the table. *Measured*: the finest shape of a cymbal at 22 kHz (wavelength a tenth

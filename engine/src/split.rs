@@ -6,8 +6,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::mode::Member;
 use crate::numbers::{Numbers, Visitor};
-use crate::piece::Member;
 
 /// How much the members of pairs are apart.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

@@ -6,8 +6,8 @@ use overhear_engine::cymbal::CymbalSpec;
 use overhear_engine::drum::{DrumSpec, HeadContact};
 use overhear_engine::hi_hat::HiHatSpec;
 use overhear_engine::kit_spec::{Defaults, InstrumentSpec, PieceSpec};
-use overhear_engine::listening::ListeningPoint;
 use overhear_engine::microphones::CloseSpec;
+use overhear_engine::receiver::ListeningPoint;
 
 use crate::{altered, spec};
 

@@ -2,8 +2,7 @@
 
 use overhear_engine::kit_spec::{KitSpec, PieceSpec, PlaceSpec};
 use overhear_engine::slot::SLOTS;
-
-use crate::standard;
+use overhear_measure::standard;
 
 /// How far from the first ones the copies stand, m: a second kit behind the drummer.
 const BEHIND: f64 = 2.5;

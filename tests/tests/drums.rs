@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use overhear_engine::damping::Muffler;
 use overhear_engine::drum::{Drum, DrumSpec, ResonantSpec};
+use overhear_engine::instrument::Instrument as _;
 use overhear_engine::kit_spec::PieceSpec;
 use overhear_engine::piece::{BuildOptions, ModeInfo, ModeKind, Piece};
 use overhear_engine::split::Splitting;

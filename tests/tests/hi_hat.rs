@@ -4,6 +4,7 @@ use std::cell::RefCell;
 
 use overhear_engine::hi_hat::foot::SPEED;
 use overhear_engine::hi_hat::{HiHat, HiHatSpec, POINTS};
+use overhear_engine::instrument::{Instrument as _, Pedal as _};
 use overhear_engine::kit_spec::{InstrumentSpec, PieceSpec};
 use overhear_engine::piece::{BuildOptions, Piece};
 use overhear_engine::strike::{Strike, Striker};

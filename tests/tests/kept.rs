@@ -288,12 +288,12 @@ fn what_is_kept_changes_only_with_the_number_in_the_mark() {
     let version = MARK.split('-').next().unwrap_or_default();
     assert!(
         unchanged || version != FIGURES_OF,
-        "what caches hold has changed: count the number of `MARK` in engine/src/lib.rs up to {}, and renew FIGURES_OF and \
+        "what caches hold has changed: count the number of `MARK` in engine/src/schema.rs up to {}, and renew FIGURES_OF and \
          FIGURES in this file:\n{table}",
         FIGURES_OF.parse::<u32>().unwrap_or_default() + 1
     );
     assert!(
         unchanged && version == FIGURES_OF,
-        "`MARK` in engine/src/lib.rs has the number {version}: renew FIGURES_OF and FIGURES in this file:\n{table}"
+        "`MARK` in engine/src/schema.rs has the number {version}: renew FIGURES_OF and FIGURES in this file:\n{table}"
     );
 }

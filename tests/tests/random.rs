@@ -7,6 +7,7 @@ use std::cell::Cell;
 
 use overhear_engine::drum::{Drum, DrumSpec, HeadSpec, ResonantSpec};
 use overhear_engine::hi_hat::foot::SPEED;
+use overhear_engine::instrument::Instrument as _;
 use overhear_engine::kit_spec::{Kind, PieceSpec};
 use overhear_engine::piece::{BuildOptions, ModeInfo, ModeKind, Piece};
 use overhear_engine::strike::Strike;

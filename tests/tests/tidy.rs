@@ -1,6 +1,8 @@
 //! What can be counted of the house's order: docs of modules, sizes of files, names in documents, notes to oneself, units,
-//! and who names a piece.
+//! who names a piece, and which way imports go.
 
+#[path = "tidy/direction.rs"]
+mod direction;
 #[path = "tidy/pieces.rs"]
 mod pieces;
 #[path = "tidy/units.rs"]
@@ -23,7 +25,6 @@ const LONG_FOR_A_REASON: [(&str, &str); 4] = [
     ),
     ("engine/src/drum/high_band.rs", "one model from its count to its run; a fifth of it are equations"),
     ("engine/src/potential.rs", "one scheme; a fifth of it are its equations"),
-    ("engine/src/modal/simd.rs", "the kernels and their table side by side"),
 ];
 
 fn root() -> &'static Path {

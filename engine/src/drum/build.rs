@@ -6,6 +6,7 @@ use std::f64::consts::{SQRT_2, TAU};
 use serde::{Deserialize, Serialize};
 
 use crate::air::{DENSITY, MassCurves};
+use crate::build_context::BuildContext;
 use crate::cavity::{CavityOrder, HeadShape};
 use crate::drum::coupled::{CoupledMode, OrderProblem, Stretched};
 use crate::drum::high_band::{Ear, HighBandSpec};
@@ -14,7 +15,7 @@ use crate::drum::tuned::{self, Grid, PITCHES, PitchScale, Place, TunedMode};
 use crate::error::SpecError;
 use crate::math::bessel::{self, JTable};
 use crate::membrane::{self, Membrane, MembraneMode, MembraneSpec, ModeRange, Surroundings};
-use crate::piece::{BuildContext, Receivers};
+use crate::receiver::Receivers;
 use crate::shapes::{ShapeIndex, ShapeTable};
 use crate::split::Splitting;
 use crate::surface::patch::Film;

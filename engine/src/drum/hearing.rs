@@ -23,7 +23,8 @@ use crate::drum::coupled::Outside;
 use crate::drum::shadow;
 use crate::drum::spec::DrumSpec;
 use crate::drum::tuned::{Place, TunedMode};
-use crate::listening::{ListeningPoint, Radiator, Rayleigh};
+use crate::listening::{Radiator, Rayleigh};
+use crate::receiver::ListeningPoint;
 use crate::split::Splitting;
 
 /// Modes up to so many times the default pitch are heard one by one. *By ear*.

@@ -52,10 +52,10 @@ use std::f64::consts::{PI, SQRT_2, TAU};
 use crate::air::{DENSITY, SPEED_OF_SOUND};
 use crate::drum::coupled::Outside;
 use crate::drum::shadow;
-use crate::listening::ListeningPoint;
 use crate::membrane::MembraneSpec;
 use crate::modal::simd::MAX_RUN;
 use crate::modal::{EARS, MAX_DRIVES, ModalBody, Mode, Pickup, Port};
+use crate::receiver::ListeningPoint;
 use crate::split::hash;
 use crate::surface::patch::Discs;
 

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use crate::modal::folded::ClassCompliances;
 use crate::modal::simd::folded::{Amplitudes, MAX_CLASSES};
 
-use super::POINTS;
+use super::points::POINTS;
 
 const _: () = assert!(POINTS / 2 < MAX_CLASSES);
 

@@ -33,10 +33,10 @@ use crate::snapshot::RimSnapshot;
 use crate::surface::STRIKER_PLACES;
 use crate::surface::together::Compliances;
 
-use super::POINTS;
 use super::balance;
 use super::edge;
 use super::foot::Foot;
+use super::points::POINTS;
 use super::rest::Rest;
 use super::rigid::{Rigid, Weights};
 

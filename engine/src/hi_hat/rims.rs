@@ -9,7 +9,7 @@
 use crate::contact::ContactLaw;
 use crate::modal::simd::Kernels;
 
-use super::POINTS;
+use super::points::POINTS;
 
 /// Newton steps; it needs 2 to 4.
 const MAX_STEPS: usize = 12;

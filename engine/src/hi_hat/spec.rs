@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::contact::Material;
-use crate::cymbal::CymbalSpec;
+use crate::cymbal::spec::CymbalSpec;
 use crate::damping::LossLaw;
 use crate::error::SpecError;
 use crate::numbers::{self, Numbers, Visitor};

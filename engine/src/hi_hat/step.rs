@@ -11,9 +11,9 @@ use crate::modal::{EARS, Heard, ModalBody, Port};
 use crate::potential::NonlinearForce;
 use crate::surface::together::Meeting;
 
-use super::POINTS;
 use super::edge;
 use super::pair::{MARGIN, Pair, SETTLING};
+use super::points::POINTS;
 use super::rigid::Rigid;
 use super::rims::{self, Rims};
 

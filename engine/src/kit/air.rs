@@ -8,13 +8,15 @@
 //! and cymbals, which are dipoles, are given to the side what they send up.
 
 use super::arrangement::Arrangement;
+use super::gain::GainRuns;
 use super::line::{Line, MovingTap, Tap};
 use super::mix::{Desk, PAIRS};
 use super::post::Post;
-use super::room::{self, RoomSpec, SILENT_RUN, Tail};
-use super::{BLOCK, GainRuns};
+use super::room::{self, SILENT_RUN, Tail};
 use crate::air::SPEED_OF_SOUND;
+use crate::block::BLOCK;
 use crate::kit_spec::Kind;
+use crate::kit_spec::room::RoomSpec;
 use crate::layout::{CLOSE, Layout, Pair, Placement, distance};
 use crate::microphones::CloseMicrophone;
 use crate::modal::EARS;

@@ -1,7 +1,8 @@
 //! How a kit that plays becomes another one: all of it that is neither a piece nor a control.
 
-use super::room::{RoomSpec, Tail};
+use super::room::Tail;
 use crate::kit_spec::KitSpec;
+use crate::kit_spec::room::RoomSpec;
 use crate::layout::Layout;
 use crate::piece::Piece;
 use crate::slot::SLOTS;

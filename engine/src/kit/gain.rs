@@ -1,6 +1,7 @@
 //! Gains that follow their targets without a step.
 
-use super::BLOCK;
+use crate::block::BLOCK;
+use crate::slot::SLOTS;
 
 /// Levels at or below this are silence, dB.
 pub const SILENT_DB: f64 = -60.0;
@@ -28,6 +29,9 @@ pub(super) struct Gain {
 
 /// A gain over the samples of a run.
 pub(super) type GainRun = [f32; BLOCK];
+
+/// A gain for every piece over a run.
+pub(super) type GainRuns = [GainRun; SLOTS];
 
 impl Gain {
     pub(super) fn new(sample_rate: f64) -> Gain {

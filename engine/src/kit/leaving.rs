@@ -1,6 +1,6 @@
 //! A piece that another has replaced: it fades out under the new one instead of stopping short.
 
-use crate::kit::BLOCK;
+use crate::block::BLOCK;
 use crate::modal::EARS;
 use crate::piece::Piece;
 

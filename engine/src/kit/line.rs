@@ -6,8 +6,8 @@
 //!
 //! Positions on a line are counted by the kit's clock, so that nothing depends on how time is cut.
 
-use super::BLOCK;
 use crate::air::SPEED_OF_SOUND;
+use crate::block::BLOCK;
 use crate::layout::FARTHEST;
 
 /// Samples that a cubic needs before and after the place it is read at, less one.

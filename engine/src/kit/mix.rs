@@ -8,9 +8,10 @@
 
 use super::control::Microphone;
 use super::gain::{Gain, GainRun, Pan, gain};
-use super::{BLOCK, FULL_SCALE, Stereo};
+use crate::block::BLOCK;
 use crate::fitted;
 use crate::kit_spec::KitSpec;
+use crate::level::FULL_SCALE;
 use crate::slot::{SLOTS, Slot};
 
 /// Strips: close ones by slot, then the pairs.
@@ -21,6 +22,9 @@ pub(super) const PAIRS: usize = 2;
 
 /// Full scale above which the safety clip bends. *By ear*: 1.4 dB are left to it.
 const KNEE: f32 = fitted::CLIP_KNEE as f32;
+
+/// Two outputs of one length: left, right; full scale is 1.
+pub type Stereo<'a> = [&'a mut [f32]; 2];
 
 /// One strip.
 struct Strip {

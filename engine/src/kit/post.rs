@@ -3,8 +3,8 @@
 //! Within a run no piece can hear another: whatever it hears was sent before. So posts can be rendered in any
 //! order and on any thread; whoever does it is a [`Crew`].
 
-use super::BLOCK;
 use super::leaving::Leaving;
+use crate::block::BLOCK;
 use crate::modal::EARS;
 use crate::piece::Piece;
 

@@ -2,23 +2,29 @@
 //!
 //! Sizes are those of the trade. Constants that were chosen by comparing with recordings say so (*fitted*).
 
+use crate::build_context::Idealization;
 use crate::contact::Material;
-use crate::cymbal::{CymbalSpec, Stand};
+use crate::cymbal::spec::CymbalSpec;
+use crate::cymbal::spec::Stand;
 use crate::damping::{LossLaw, Muffler};
-use crate::drum::{DrumSpec, HeadContact, HeadSpec, PitchOf, ResonantSpec, ShellSpec};
+use crate::drum::spec::DrumSpec;
+use crate::drum::spec::HeadContact;
+use crate::drum::spec::HeadSpec;
+use crate::drum::spec::PitchOf;
+use crate::drum::spec::ResonantSpec;
+use crate::drum::spec::ShellSpec;
 use crate::fitted;
-use crate::hi_hat::HiHatSpec;
 use crate::hi_hat::rigid::Mount;
-use crate::kit::room::RoomSpec;
+use crate::hi_hat::spec::HiHatSpec;
 use crate::layout::Point;
-use crate::listening::ListeningPoint;
 use crate::microphones::CloseSpec;
-use crate::piece::Idealization;
 use crate::plate::Bell;
+use crate::receiver::ListeningPoint;
 use crate::rim::HoopSpec;
 use crate::split::Splitting;
 use crate::surface::wires::WiresSpec;
 
+use super::room::RoomSpec;
 use super::{Defaults, InstrumentSpec, KitSpec, MicrophonesSpec, PieceSpec, PlaceSpec};
 
 /// So many inches, m: the number nearest to the exact one.

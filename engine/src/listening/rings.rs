@@ -15,7 +15,7 @@ use std::f64::consts::{PI, TAU};
 
 use pulp::{Arch, Simd, WithSimd};
 
-use super::ListeningPoint;
+use crate::receiver::ListeningPoint;
 
 /// Places that go side by side.
 const LANES: usize = 8;

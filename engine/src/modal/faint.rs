@@ -9,8 +9,8 @@ use super::simd::flush::QUIET;
 use super::{ModalBody, Pickup, Port, Row, zero_row};
 
 /// Pressure that nobody misses, Pa: 120 dB under full scale, which is
-/// [`FULL_SCALE`](crate::kit::FULL_SCALE).
-const INAUDIBLE: f64 = 1e-6 * crate::kit::FULL_SCALE as f64;
+/// [`FULL_SCALE`](crate::level::FULL_SCALE).
+const INAUDIBLE: f64 = 1e-6 * crate::level::FULL_SCALE as f64;
 
 /// Largest displacement that may be forgotten however little is heard of it, m: wires and sticks do not feel it. *Derived*: a
 /// millionth of what a soft stroke bends a head by at a kilohertz.

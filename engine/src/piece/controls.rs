@@ -1,6 +1,6 @@
 //! What can be asked of a piece while it rings: all of it glides from the sample on at which it is asked.
 
-use super::{Piece, Voice};
+use super::Piece;
 use crate::hi_hat::pair::Pair;
 use crate::snapshot::{RimSnapshot, WireSnapshot};
 
@@ -13,11 +13,7 @@ impl Piece {
     /// No allocation, no lock.
     pub fn set_tuning(&mut self, tuning: f64) {
         self.glide();
-        match &mut self.voice {
-            Voice::Drum(drum) => drum.set_tuning(tuning),
-            Voice::Cymbal(cymbal) => cymbal.set_tuning(tuning),
-            Voice::HiHat(hat) => hat.set_tuning(tuning),
-        }
+        self.instrument.set_tuning(tuning);
     }
 
     /// Asks for muffling, from 0 to 1: none, and all there is. Acts while it rings, as the tuning does.
@@ -26,11 +22,7 @@ impl Piece {
     /// No allocation, no lock.
     pub fn set_muffling(&mut self, amount: f64) {
         self.glide();
-        match &mut self.voice {
-            Voice::Drum(drum) => drum.set_muffling(amount),
-            Voice::Cymbal(cymbal) => cymbal.set_muffling(amount),
-            Voice::HiHat(hat) => hat.set_muffling(amount),
-        }
+        self.instrument.set_muffling(amount);
     }
 
     /// Lets a hand take hold of a cymbal, firmly at 1, or let go of it, 0. Closes over some 25 ms from
@@ -40,11 +32,7 @@ impl Piece {
     /// No allocation, no lock.
     pub fn choke(&mut self, strength: f64) {
         self.glide();
-        match &mut self.voice {
-            Voice::Drum(_) => {}
-            Voice::Cymbal(cymbal) => cymbal.choke(strength),
-            Voice::HiHat(hat) => hat.choke(strength),
-        }
+        self.instrument.choke(strength);
     }
 
     /// Brings a hi-hat's pedal to a place, 0 (up, open) to 1 (down, clamped), from the next sample on, at up to a
@@ -53,8 +41,8 @@ impl Piece {
     /// # Real-time
     /// No allocation, no lock; linear in the number of modes.
     pub fn press_pedal(&mut self, pedal: f64, speed: f64) {
-        if let Voice::HiHat(hat) = &mut self.voice {
-            hat.press(pedal, speed);
+        if let Some(own) = self.instrument.pedal_mut() {
+            own.press(pedal, speed);
             self.asleep = false;
         }
     }
@@ -64,8 +52,8 @@ impl Piece {
     /// # Real-time
     /// No allocation, no lock; linear in the number of modes.
     pub fn stamp_pedal(&mut self, speed: f64) {
-        if let Voice::HiHat(hat) = &mut self.voice {
-            hat.stamp(speed);
+        if let Some(own) = self.instrument.pedal_mut() {
+            own.stamp(speed);
             self.asleep = false;
         }
     }
@@ -75,8 +63,8 @@ impl Piece {
     /// # Real-time
     /// No allocation, no lock; linear in the number of modes.
     pub fn splash_pedal(&mut self, speed: f64) {
-        if let Voice::HiHat(hat) = &mut self.voice {
-            hat.splash(speed);
+        if let Some(own) = self.instrument.pedal_mut() {
+            own.splash(speed);
             self.asleep = false;
         }
     }
@@ -88,9 +76,7 @@ impl Piece {
     /// No allocation, no lock; linear in the number of modes.
     pub fn throw_wires(&mut self, on: bool) {
         self.glide();
-        if let Voice::Drum(drum) = &mut self.voice {
-            drum.throw_wires(on);
-        }
+        self.instrument.throw_wires(on);
     }
 
     /// Asks for a force that presses the snare wires on, all of them together, N; see
@@ -100,19 +86,17 @@ impl Piece {
     /// No allocation, no lock.
     pub fn set_preload(&mut self, newtons: f64) {
         self.glide();
-        if let Voice::Drum(drum) = &mut self.voice {
-            drum.set_preload(newtons);
-        }
+        self.instrument.set_preload(newtons);
     }
 
     /// What the snare wires have done since the latest stroke.
     pub fn wires(&self) -> WireSnapshot {
-        self.voice.surface().wires()
+        self.instrument.surface().wires()
     }
 
     /// What a hi-hat's rims have done since the latest stroke.
     pub fn rims(&self) -> RimSnapshot {
-        self.voice.surface().pair().map_or_else(RimSnapshot::default, Pair::landings)
+        self.instrument.surface().pair().map_or_else(RimSnapshot::default, Pair::landings)
     }
 
     /// Lets tuning and muffling arrive at once instead of gliding.
@@ -120,20 +104,12 @@ impl Piece {
     /// # Real-time
     /// No allocation, no lock; linear in the number of modes.
     pub fn finish_controls(&mut self) {
-        match &mut self.voice {
-            Voice::Drum(drum) => drum.finish_controls(),
-            Voice::Cymbal(cymbal) => cymbal.finish_controls(),
-            Voice::HiHat(hat) => hat.finish_controls(),
-        }
+        self.instrument.finish_controls();
     }
 
     /// Lets the controls glide up to now, so that what is asked next starts here, not at a block.
     pub(super) fn glide(&mut self) {
         let seconds = std::mem::take(&mut self.unglided) as f64 / self.sample_rate;
-        match &mut self.voice {
-            Voice::Drum(drum) => drum.advance_controls(seconds),
-            Voice::Cymbal(cymbal) => cymbal.advance_controls(seconds),
-            Voice::HiHat(hat) => hat.advance_controls(seconds),
-        }
+        self.instrument.advance_controls(seconds);
     }
 }

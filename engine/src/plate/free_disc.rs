@@ -37,12 +37,13 @@ use serde::{Deserialize, Serialize};
 use super::radial::angular_norm;
 use crate::air::{DENSITY, SPEED_OF_SOUND};
 use crate::cache::Shared;
+use crate::listening::Radiator;
 use crate::listening::rings::Rings;
-use crate::listening::{ListeningPoint, Radiator};
 use crate::math::bessel;
 use crate::math::bessel::lanes::LANES;
 use crate::math::jacobi;
 use crate::math::quadrature::{self, GaussLegendre};
+use crate::receiver::ListeningPoint;
 
 /// What a mode does to the air.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

@@ -4,8 +4,9 @@ use std::f64::consts::PI;
 
 use super::free_disc::FreeDisc;
 use super::*;
-use crate::listening::{ListeningPoint, Radiator};
+use crate::listening::Radiator;
 use crate::math::quadrature::GaussLegendre;
+use crate::receiver::ListeningPoint;
 use crate::reference::{self, cap_crash, cap_ride, cap_splash};
 
 fn hz(plate: &PlateModes, m: u32, n: u32) -> f64 {

@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex};
 use super::*;
 use crate::contact::Material;
 use crate::modal::Mode;
-use crate::piece::Member;
+use crate::mode::Member;
 use crate::shapes::{ShapeIndex, ShapeTable};
 use crate::strike::{Strike, Striker};
 use crate::surface::{Surface, SurfaceParts};

@@ -1,9 +1,9 @@
 //! A surface with another one underneath: the [pair](Pair) of a hi-hat.
 
 use crate::contact::ContactStep;
-use crate::hi_hat::POINTS;
 use crate::hi_hat::foot::Foot;
 use crate::hi_hat::pair::{Pair, Settled};
+use crate::hi_hat::points::POINTS;
 use crate::modal::simd::MAX_RUN;
 use crate::modal::{Heard, Mode};
 use crate::potential::NonlinearForce;

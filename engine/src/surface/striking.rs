@@ -184,9 +184,10 @@ fn report(last: &mut StrikeSnapshot, toucher: &Toucher, points: &[TouchPoint], d
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::build_context::BuildOptions;
     use crate::drum::Drum;
+    use crate::instrument::Instrument as _;
     use crate::modal::EARS;
-    use crate::piece::BuildOptions;
     use crate::reference;
     use crate::strike::Striker;
 

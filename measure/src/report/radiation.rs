@@ -5,8 +5,9 @@ use std::f64::consts::PI;
 use crate::{round_piece, spec};
 use anyhow::Result;
 use overhear_engine::air::{DENSITY, SPEED_OF_SOUND};
-use overhear_engine::listening::{ListeningPoint, Radiator};
+use overhear_engine::listening::Radiator;
 use overhear_engine::plate::free_disc::{FreeDisc, Radiated};
+use overhear_engine::receiver::ListeningPoint;
 
 use super::heads::mode_of;
 use super::page::bodies::{EQUATION, ROUND};

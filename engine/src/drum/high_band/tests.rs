@@ -1,9 +1,9 @@
 use super::*;
-use crate::drum::DrumSpec;
+use crate::build_context::BuildOptions;
 use crate::drum::build::Blueprint;
 use crate::drum::hearing::Hearing;
+use crate::drum::spec::DrumSpec;
 use crate::kit_spec::PieceBuild;
-use crate::piece::BuildOptions;
 use crate::reference;
 
 const RATE: f64 = 44_100.0;

@@ -6,7 +6,8 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
-use super::MILLER_LARGE;
+/// Values above this are scaled down during Miller's recurrence, long before they overflow.
+pub(super) const MILLER_LARGE: f64 = 1e200;
 
 /// Arguments that go side by side.
 pub(crate) const LANES: usize = 8;

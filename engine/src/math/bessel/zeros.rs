@@ -6,7 +6,7 @@
 //!
 //! Source: Watson, A Treatise on the Theory of Bessel Functions, 15.3 and 15.8.
 
-use super::{j, j_prime};
+use super::single::{j, j_prime};
 use crate::math::roots;
 
 /// Relative accuracy asked of a zero.

@@ -2,7 +2,7 @@
 
 use pulp::Simd;
 
-use super::{Kernel, Kernels, LANES};
+use super::dispatch::{Kernel, Kernels, LANES};
 
 /// One block of a [`BlockProduct`].
 #[derive(Debug, Clone, Copy)]

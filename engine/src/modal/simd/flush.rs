@@ -2,7 +2,7 @@
 
 use pulp::Simd;
 
-use super::{Kernel, Kernels};
+use super::dispatch::{Kernel, Kernels};
 
 /// Below this any mode's state is set to zero: 20 decades under the motion of a soft stroke, and
 /// 18 above the smallest normal `f32`. *Derived*.

@@ -6,7 +6,7 @@
 
 use pulp::Simd;
 
-use super::{Kernel, Kernels, LANES};
+use super::dispatch::{Kernel, Kernels, LANES};
 use crate::modal::{Row, zero_row};
 
 /// Most classes there can be.

@@ -2,7 +2,9 @@
 
 use pulp::Simd;
 
-use super::{EARS, Kernel, Kernels, turn};
+use super::dispatch::{Kernel, Kernels};
+use super::primitives::turn;
+use super::ring::EARS;
 
 /// Forces that act in one sample, at most.
 pub const FORCES: usize = 2;

@@ -4,7 +4,7 @@
 
 use pulp::Simd;
 
-use super::{Kernel, Kernels};
+use super::dispatch::{Kernel, Kernels};
 
 /// Registers of sums: as many as hide the latency of one sum, and fit with the two factors.
 const SUMS: usize = 12;

@@ -10,7 +10,7 @@
 
 use pulp::Simd;
 
-use super::{Kernel, Kernels};
+use super::dispatch::{Kernel, Kernels};
 
 /// Radial functions of one order, at most.
 pub const SLOTS: usize = 16;

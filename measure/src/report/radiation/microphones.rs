@@ -7,8 +7,8 @@ use crate::{alone, build, decibels, kit_of, reference, spec, stroke};
 use overhear_engine::air::SPEED_OF_SOUND;
 use overhear_engine::kit::{Control, Microphone, OUTPUTS, Stereo};
 use overhear_engine::kit_spec::PieceSpec;
-use overhear_engine::listening::ListeningPoint;
 use overhear_engine::piece::BuildOptions;
+use overhear_engine::receiver::ListeningPoint;
 use overhear_engine::slot::SLOTS;
 use overhear_engine::strike::{Strike, Striker};
 

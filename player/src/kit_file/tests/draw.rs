@@ -5,10 +5,10 @@ use std::ops::RangeInclusive;
 use overhear_engine::damping::Muffler;
 use overhear_engine::drum::{HeadContact, PitchOf, ShellSpec};
 use overhear_engine::kit_spec::{InstrumentSpec, KitSpec, PieceSpec};
-use overhear_engine::listening::ListeningPoint;
 use overhear_engine::microphones::CloseSpec;
 use overhear_engine::numbers::{Numbers as _, Visitor};
 use overhear_engine::piece::Idealization;
+use overhear_engine::receiver::ListeningPoint;
 use overhear_engine::slot::Slot;
 use overhear_engine::strike::Striker;
 

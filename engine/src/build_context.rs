@@ -1,8 +1,8 @@
-//! How a piece is built, and in which surroundings.
+//! What building an instrument depends on beside its description: sample rate, quality, receivers, what is left out.
 
 use serde::{Deserialize, Serialize};
 
-use crate::listening::ListeningPoint;
+use crate::receiver::Receivers;
 
 /// How far up a cymbal's modes are coupled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
@@ -62,15 +62,6 @@ impl BuildOptions {
     pub const fn new(sample_rate: f64) -> Self {
         BuildOptions { sample_rate, quality: Quality::Standard }
     }
-}
-
-/// From where a piece is heard, seen from its struck surface.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Receivers {
-    /// The close microphone.
-    pub near: ListeningPoint,
-    /// A point far away, in the direction of the overheads.
-    pub far: ListeningPoint,
 }
 
 /// What is left out of a piece: for measuring one part of the physics without the others.

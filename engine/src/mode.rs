@@ -1,6 +1,6 @@
-//! What is told of a mode.
+//! What is told of a mode: its kind, its member of a pair, its numbers.
 
-/// What kind of mode a row of [`Piece::modes`](super::Piece::modes) is.
+/// What kind of mode a row of [`Piece::modes`](crate::piece::Piece::modes) is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ModeKind {
     /// A mode of the surface itself.

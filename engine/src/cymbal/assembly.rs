@@ -1,0 +1,290 @@
+//! From a cymbal's description to a body that can be struck: what a cymbal on a stand and the two of a hi-hat share.
+//!
+//! ```text
+//! CymbalSpec --> CymbalPlate --(order of the modes, what holds it)--> CymbalModes, PlateShapes --> Surface
+//! ```
+//!
+//! Whoever builds a cymbal chooses the order of its modes and what moves before them as a whole; each step takes what the
+//! one before it returns.
+
+use std::f64::consts::TAU;
+
+use crate::cache::Shared;
+
+use crate::air;
+use crate::build_context::BuildContext;
+use crate::damping::Thermoelastic;
+use crate::error::SpecError;
+use crate::mode::ModeKind;
+use crate::plate::free_disc::Radiated;
+use crate::plate::{PlateModes, PlateTables, ShellMode};
+use crate::receiver::Receivers;
+use crate::shapes::{ShapeIndex, ShapeTable};
+use crate::split::Splitting;
+use crate::surface::{Surface, SurfaceParts};
+use crate::von_karman::{CoupledPair, VonKarman};
+
+use super::modes::{BuiltMode, CymbalModes};
+use super::sounding_plate::SoundingPlate;
+use super::spec::CymbalSpec;
+
+/// Rate at which the stretching is evaluated, Hz, over the highest coupled mode, and at most, as long as it is
+/// five times that. *Converged*: at seven times, third octaves of a hard stroke are within 0.4 dB in the mean of
+/// those with every sample; a stroke a millimetre beside changes them by more.
+const COUPLING_RATE_PER_HZ: f64 = 7.0;
+const MOST_COUPLING_RATE: f64 = 20_000.0;
+
+/// Samples between evaluations of the stretching of modes up to `highest_hz`.
+fn coupling_stride(highest_hz: f64, sample_rate: f64) -> u32 {
+    let rate = (COUPLING_RATE_PER_HZ * highest_hz).min(MOST_COUPLING_RATE).max(5.0 * highest_hz);
+    (sample_rate / rate) as u32
+}
+
+/// Share of the sample rate that coupled modes may reach.
+const COUPLED_SHARE_OF_RATE: f64 = 0.3;
+
+/// Highest mode, Hz: the edge of hearing. The same at every rate that can carry it, so that a
+/// stroke meets the same body.
+const LIMIT_HZ: f64 = 21_000.0;
+
+/// Share of the sample rate that modes may reach.
+const LIMIT_OF_RATE: f64 = 0.48;
+
+/// Up to where hard strokes couple modes, Hz, as the options of a build say; none if bending stays small.
+pub fn coupled_hz(context: &BuildContext) -> Option<f64> {
+    let BuildContext { options, ideal, .. } = context;
+    let highest = options.quality.coupled_hz().min(COUPLED_SHARE_OF_RATE * options.sample_rate);
+    (!ideal.linear).then_some(highest)
+}
+
+/// A motion of the plate as a whole.
+pub struct RigidMotion {
+    /// Nodal diameters.
+    pub m: u32,
+    /// Radial shape at a share of the radius, of unit mean square over the disc.
+    pub shape: fn(f64) -> f64,
+    /// Undamped angular frequency, rad/s.
+    pub omega: f64,
+    /// Decay rate, 1/s.
+    pub sigma: f64,
+}
+
+/// A shell mode in the order of the body's.
+#[derive(Debug, Clone, Copy)]
+pub struct Ordered {
+    /// Which of the plate's.
+    pub shell: usize,
+    /// Whether it is among those in front, all of which the stretching may act on.
+    pub in_front: bool,
+}
+
+/// What a struck cymbal has beside its modes, to become a [`Surface`].
+pub struct PlateShapes {
+    shapes: ShapeTable,
+    /// How each mode is heard from near and from far away, as at a metre, `[mode]`: Pa s2/m of its acceleration, real
+    /// and imaginary part.
+    pub transfers: [Vec<[f64; 2]>; 2],
+    coupled: Option<Coupled>,
+}
+
+/// The stretching, the modes in front that it acts on, and the highest of them, Hz.
+struct Coupled {
+    potential: VonKarman,
+    modes: usize,
+    highest_hz: f64,
+}
+
+/// A cymbal's plate: its shell modes, not yet in the order of a body's.
+pub struct CymbalPlate<'a> {
+    spec: &'a CymbalSpec,
+    receivers: &'a Receivers,
+    known: Shared<SoundingPlate>,
+    tables: PlateTables,
+    splitting: Splitting,
+    /// Modes up to this are coupled, Hz.
+    highest_hz: Option<f64>,
+}
+
+impl<'a> CymbalPlate<'a> {
+    /// The plate of a description that has been checked, its modes coupled up to a frequency (Hz) if they are. Allocates;
+    /// takes some tenths of a second.
+    ///
+    /// # Errors
+    /// [`SpecError`] if a number is out of range.
+    pub fn new(
+        spec: &'a CymbalSpec,
+        coupled_hz: Option<f64>,
+        context: &'a BuildContext,
+    ) -> Result<CymbalPlate<'a>, SpecError> {
+        let BuildContext { options, receivers, ideal } = context;
+        let limit_hz = LIMIT_HZ.min(LIMIT_OF_RATE * options.sample_rate);
+        let known = SoundingPlate::of(&spec.plate(), receivers, limit_hz)?;
+        let (orders, extent) = known.plate.table_extent(limit_hz);
+        let tables = PlateTables::new(orders, extent);
+        let splitting = if ideal.round { Splitting::ROUND } else { spec.evenness };
+        let highest_hz = coupled_hz.map(|hz| VonKarman::reach(&known.plate, hz));
+        Ok(CymbalPlate { spec, receivers, known, tables, splitting, highest_hz })
+    }
+
+    /// The shell modes, by frequency.
+    pub fn shells(&self) -> &[ShellMode] {
+        &self.known.plate.shells
+    }
+
+    /// Whether a shell mode is coupled with others.
+    pub fn is_coupled(&self, shell: &ShellMode) -> bool {
+        self.highest_hz.is_some_and(|hz| shell.omega <= TAU * hz)
+    }
+
+    /// Radial shape of every shell mode at a share of the radius, `[shell]`.
+    pub fn shapes_at(&self, radius: f64) -> Vec<f64> {
+        self.known.plate.radial_shapes(&self.tables, &[radius])
+    }
+
+    /// Direction of the axes of a shell mode's pair, rad.
+    pub fn axis(&self, shell: &ShellMode) -> f64 {
+        self.spec.evenness.axis(shell.m, shell.n)
+    }
+
+    /// Puts rigid motions and then shell modes in their order; `mounted` is the decay rate that the mount adds to each
+    /// shell mode, 1/s. Allocates; takes some tenths of a second where modes are coupled.
+    pub fn assemble(
+        self,
+        rigid: &[RigidMotion],
+        order: &[Ordered],
+        mounted: impl Fn(usize, &ShellMode) -> f64,
+    ) -> (CymbalModes, PlateShapes) {
+        let mut rows = Rows::default();
+        rigid.iter().enumerate().for_each(|(radial, motion)| rows.push_rigid(radial, motion));
+        let SoundingPlate { plate, radiated } = &*self.known;
+        let mut pairs = Vec::new();
+        let mut front = 0;
+        for &Ordered { shell: row, in_front } in order {
+            let shell = &plate.shells[row];
+            if self.is_coupled(shell) {
+                pairs.push(CoupledPair { shell: row, mode: rows.modes.len(), axis: self.axis(shell) });
+            }
+            self.push_shell(&mut rows, rigid.len() + row, shell, &radiated[row], mounted(row, shell));
+            if in_front {
+                front = rows.modes.len();
+            }
+        }
+        let coupled = self.highest_hz.filter(|_| !pairs.is_empty()).map(|highest_hz| Coupled {
+            potential: VonKarman::new(plate, &self.tables, &pairs),
+            modes: front,
+            highest_hz,
+        });
+        let shapes = ShapeTable::new(&radial_rows(rigid, plate, &self.tables), rows.index);
+        let mut modes = CymbalModes {
+            modes: rows.modes,
+            loss: self.spec.loss,
+            heat: Thermoelastic::bronze(&self.spec.plate()),
+            mass: self.spec.mass,
+        };
+        modes.damp(&self.spec.muffler, &shapes);
+        (modes, PlateShapes { shapes, transfers: rows.transfers, coupled })
+    }
+
+    /// Appends the members of one shell mode.
+    fn push_shell(
+        &self,
+        rows: &mut Rows,
+        radial: usize,
+        shell: &ShellMode,
+        radiated: &Radiated,
+        mounted: f64,
+    ) {
+        let (axis, receivers) = (self.axis(shell), self.receivers);
+        // Both faces are in the resistance, one in the area.
+        let radius = self.spec.plate().radius();
+        let unit = air::DENSITY * shell.omega * radius.powi(3);
+        let monopole_area = air::monopole_area(radius, 0.5 * radiated.resistance / unit, shell.omega);
+        for (member, detuning) in self.splitting.members(shell.m, shell.n) {
+            rows.modes.push(BuiltMode {
+                m: shell.m,
+                n: shell.n,
+                member,
+                kind: ModeKind::Complete,
+                omega: shell.omega * detuning,
+                radiated: radiated.resistance / (2.0 * self.spec.mass),
+                mounted,
+                muffling: 0.0,
+                choking: 0.0,
+                monopole_area,
+            });
+            rows.index.push(ShapeIndex { radial, rows: 1, m: shell.m, member, axis });
+            let points = [(receivers.near, 1.0), (receivers.far, receivers.far.distance)];
+            for (at, (point, scale)) in points.into_iter().enumerate() {
+                let share = scale * point.toward(shell.m, member, axis);
+                rows.transfers[at].push(radiated.transfers[at].map(|x| share * x));
+            }
+        }
+    }
+}
+
+/// Rows about the modes, `[mode]`, as they are put together.
+#[derive(Default)]
+struct Rows {
+    modes: Vec<BuiltMode>,
+    index: Vec<ShapeIndex>,
+    transfers: [Vec<[f64; 2]>; 2],
+}
+
+impl Rows {
+    /// Appends the members of a rigid motion, which is too slow to be heard.
+    fn push_rigid(&mut self, radial: usize, motion: &RigidMotion) {
+        let &RigidMotion { m, omega, sigma, .. } = motion;
+        for (member, _) in Splitting::ROUND.members(m, 0) {
+            self.modes.push(BuiltMode {
+                m,
+                n: 0,
+                member,
+                kind: ModeKind::Rigid,
+                omega,
+                radiated: 0.0,
+                mounted: sigma,
+                muffling: 0.0,
+                choking: 0.0,
+                monopole_area: 0.0,
+            });
+            self.index.push(ShapeIndex { radial, rows: 1, m, member, axis: 0.0 });
+            self.transfers.iter_mut().for_each(|transfers| transfers.push([0.0; 2]));
+        }
+    }
+}
+
+/// Radial shapes of everything where a [`ShapeTable`] wants them, rigid motions first.
+fn radial_rows(rigid: &[RigidMotion], plate: &PlateModes, tables: &PlateTables) -> Vec<f64> {
+    let radii = ShapeTable::radii();
+    let mut rows: Vec<f64> =
+        rigid.iter().flat_map(|motion| radii.iter().map(|&r| (motion.shape)(r))).collect();
+    rows.extend(plate.radial_shapes(tables, &radii));
+    rows
+}
+
+impl PlateShapes {
+    /// The shapes alone, of a cymbal that is not struck.
+    pub fn shapes(&self) -> &ShapeTable {
+        &self.shapes
+    }
+
+    /// The struck cymbal, at rest. Allocates.
+    pub fn into_surface(self, spec: &CymbalSpec, modes: &CymbalModes, context: &BuildContext) -> Surface {
+        let BuildContext { options, ideal, .. } = context;
+        let mut surface = Surface::new(SurfaceParts {
+            modes: (0..modes.modes.len()).map(|k| modes.bare(k, 1.0)).collect(),
+            shapes: self.shapes,
+            transfer: vec![[0.0; 2]; modes.modes.len()],
+            material: spec.alloy,
+            lossless: ideal.lossless,
+            sample_rate: options.sample_rate,
+        });
+        let [near, far] = self.transfers;
+        surface.set_transfers(near.into_iter(), far.into_iter());
+        if let Some(Coupled { potential, modes, highest_hz }) = self.coupled {
+            let stride = coupling_stride(highest_hz, options.sample_rate);
+            surface.set_potential(Box::new(potential), modes, stride);
+        }
+        surface
+    }
+}
