@@ -97,7 +97,9 @@ pub fn about(parameter: &Parameter) -> &'static str {
     match parameter.drives {
         Drives::Slot(_, what) => of_slot(what),
         Drives::Control(MicrophoneLevel(_)) => "Level of the pair of microphones in the mix.",
-        Drives::Control(CloseLevel) => "Level of the close microphones in the mix and at the pieces' outputs.",
+        Drives::Control(CloseLevel) => {
+            "Level of the close microphones in the mix and at the pieces' outputs."
+        }
         Drives::Control(Balance(_)) => "Balance of the pair of microphones, left to right.",
         Drives::Control(Mute(_)) => "Mutes the microphone.",
         Drives::Control(Solo(_)) => "If any microphone has solo, only those with solo are in the mix.",
@@ -112,7 +114,9 @@ pub fn about(parameter: &Parameter) -> &'static str {
         Drives::Stand(_, Width) => "Distance between the two microphones, relative to the default.",
         Drives::Playing(manner) => playing(manner),
         Drives::Building(Quality) => "*Built.* Highest coupled cymbal mode during playback.",
-        Drives::Building(OfflineQuality) => "*Built.* Highest coupled cymbal mode while the host renders offline.",
+        Drives::Building(OfflineQuality) => {
+            "*Built.* Highest coupled cymbal mode while the host renders offline."
+        }
         Drives::Building(Workers) => {
             "*Built.* Additional threads that render pieces. They change no sample, and poll for work while the kit \
              sounds."
