@@ -46,7 +46,7 @@ pub fn run(folder: &Path) -> Result<()> {
     let style = style(Source::Clap(clap.clone()));
     let (take, _) = takes(&song, &style)?;
     let (played, left, right) = play(&take, &style, "groove")?;
-    ensure!(played.finite, "the plugin gave values that are not numbers");
+    ensure!(played.finite, "the plugin produced values that are not numbers");
     ensure!(played.peak > 0.0, "the plugin stayed silent");
     step(3, "playing it as a host plays it live, and striking every piece by itself");
     let live = live_share(&take, &style)?;

@@ -199,7 +199,7 @@ fn with_view(state: &[u8], shot: &Shot, (light, zoom): (bool, u32), size: [u32; 
     host::with_fields(state, |fields| {
         let known = fields.get("view").and_then(Value::as_str).context("the state has no view")?;
         let mut view: Value = serde_json::from_str(known)?;
-        let usual = view.as_array_mut().context("the view is no list")?;
+        let usual = view.as_array_mut().context("the view is not a list")?;
         ensure!(usual.len() == 5, "the view has other fields than this command knows");
         let kit = KitSpec::standard();
         let (slot, _) = kit.find(shot.piece).with_context(|| format!("no {} in the kit", shot.piece))?;

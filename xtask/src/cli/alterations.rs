@@ -51,7 +51,7 @@ impl Alterations {
             piece.instrument = InstrumentSpec::Drum(drum);
             piece.defaults = Defaults { preload, ..piece.defaults };
         } else if let Some(option) = self.of_drums() {
-            return Err(bad_input!("{option} is of drums, the {} is a cymbal", piece.name));
+            return Err(bad_input!("{option} applies to drums; the {} is a cymbal", piece.name));
         }
         if self.lossless {
             piece = piece.lossless();
@@ -155,7 +155,7 @@ mod tests {
     fn what_a_piece_has_not_is_refused_by_its_name() {
         let open = Alterations { open: true, ..Alterations::default() };
         let error = altered("ride", &open).unwrap_err().to_string();
-        assert_eq!(error, "--open is of drums, the ride is a cymbal");
+        assert_eq!(error, "--open applies to drums; the ride is a cymbal");
         let ratio = Alterations { resonant_ratio: Some(1.2), ..Alterations::default() };
         assert!(altered("timpani", &ratio).unwrap_err().to_string().contains("no resonant head"));
         assert!(altered("kick", &Alterations { open: true, ..ratio }).is_err());

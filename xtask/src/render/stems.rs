@@ -39,7 +39,7 @@ impl Stems {
             let path = folder.join(format!("{name}.wav"));
             if path == song {
                 return Err(bad_input!(
-                    "`{}` would be the song and a stem, accepted: different names",
+                    "`{}` would be both the song and a stem, accepted: different names",
                     path.display(),
                 ));
             }

@@ -251,7 +251,7 @@ fn audio_time(instance: &mut Instance, meter: &Meter, notes: &Sender<(u8, f32)>)
 
 /// What every thread of this process has taken so far.
 fn times() -> Result<Times> {
-    let tasks = std::fs::read_dir("/proc/self/task").context("the system does not tell its threads")?;
+    let tasks = std::fs::read_dir("/proc/self/task").context("the system does not list its threads")?;
     let one = |folder: &Path| {
         let id = folder.file_name()?.to_str()?.parse().ok()?;
         let name = std::fs::read_to_string(folder.join("comm")).ok()?;
