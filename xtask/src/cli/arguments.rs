@@ -28,31 +28,31 @@ const LONGEST: f64 = 600.0;
 /// What to do.
 #[derive(Debug, Subcommand)]
 pub enum Task {
-    /// Set up, build, bundle, play a groove through the built CLAP plugin: demo.wav and demo.png
+    /// Build and bundle the plugin and play a groove through it: demo.wav and demo.png
     Demo {
-        /// Instead, half a minute of it with every preset, into demo-presets
+        /// Instead play half a minute with every preset, into demo-presets
         #[arg(long)]
         all_presets: bool,
     },
-    /// Check everything the project promises, the hosts included
+    /// Run every check, including tests in hosts
     Test,
-    /// Build the release bundles (CLAP, VST3) and the program that needs no host
+    /// Build the release bundles (CLAP, VST3) and the standalone program
     Bundle {
-        /// On macOS: one file for both kinds of processors
+        /// On macOS: build for both processor types
         #[arg(long)]
         universal: bool,
     },
-    /// Build the release bundles and copy them where hosts look
+    /// Build the release bundles and copy them to the plugin folders
     Install,
     /// Render MIDI files to WAV files
     Render(RenderArguments),
     /// Strike one piece once and measure it
     Hear(HearArguments),
-    /// List everything that vibrates in a piece
+    /// List every mode of a piece
     Modes(ModesArguments),
-    /// Measure every piece beside recordings of real kits
+    /// Compare every piece with recordings of real kits
     Realism(RealismArguments),
-    /// Measure what the instrument costs
+    /// Measure the CPU cost of the instrument
     Bench(BenchArguments),
     /// Play one scene of `bench` once, for callgrind to count
     #[command(hide = true)]
@@ -68,48 +68,48 @@ pub enum Task {
     },
     /// Measure and write the pages of docs/report
     Report {
-        /// modal, contact, heads, glide, drums, snare, plate, cymbal, cascade, hi-hat, radiation, kit, realism, cost; all if
-        /// none is given
+        /// modal, contact, heads, glide, drums, snare, plate, cymbal, cascade, hi-hat, radiation, kit, realism, cost;
+        /// default: all
         #[arg(value_name = "PAGE")]
         pages: Vec<String>,
-        /// The folder to write to; docs/report if not given
+        /// The folder to write to; default: docs/report
         #[arg(short, long, value_name = "DIR")]
         output: Option<PathBuf>,
     },
     /// List, show, save, rename, delete and check presets
     Presets {
-        /// The folder of the user's presets, if not the platform's
+        /// The folder of your presets; default: the platform's
         #[arg(long, value_name = "DIR", global = true)]
         folder: Option<PathBuf>,
         #[command(subcommand)]
         task: Option<PresetTask>,
     },
-    /// Show, begin and check kit files
+    /// Show, create and check kit files
     Kit {
         #[command(subcommand)]
         task: KitTask,
     },
-    /// Write the manual's pages that come from the code: docs/midi.md and docs/parameters.md
+    /// Write the pages of the manual that are generated from the code: docs/midi.md and docs/parameters.md
     Docs,
     /// Take pictures of the built plugin's editor on a virtual display
     Shots {
         /// The folder to write to
         #[arg(short, long, value_name = "FOLDER", default_value = "shots")]
         out: PathBuf,
-        /// A built CLAP plugin; without it the plugin is built and bundled first
+        /// A built CLAP plugin; by default the plugin is built and bundled first
         #[arg(long, value_name = "FILE")]
         plugin: Option<PathBuf>,
-        /// Count what an open window costs instead
+        /// Instead measure the processor time of an open window
         #[arg(long)]
         cost: bool,
-        /// Only in the dark palette at 1x
+        /// Only the dark palette at 1x
         #[arg(long, conflicts_with = "cost")]
         glance: bool,
-        /// Use the display there is
+        /// Use the existing display
         #[arg(long, hide = true, requires = "plugin")]
         here: bool,
     },
-    /// Write the demonstration groove (assets/groove.mid) anew
+    /// Write the demonstration groove (assets/groove.mid) again
     #[command(hide = true)]
     Groove {
         /// The MIDI file to write
@@ -121,13 +121,13 @@ pub enum Task {
 /// What to do with kits.
 #[derive(Debug, Subcommand)]
 pub enum KitTask {
-    /// Print the complete file of a kit: the standard one if nothing is named
+    /// Print the complete file of a kit; default: the standard kit
     Show {
-        /// A preset, whose kit is meant, or a kit file
+        /// A preset with a kit, or a kit file
         #[arg(value_name = "NAME|FILE")]
         what: Option<String>,
     },
-    /// Begin a kit file: the standard kit, with remarks on how to change it
+    /// Create a kit file: the standard kit, with comments on how to change it
     New {
         /// The file to write
         file: PathBuf,
@@ -138,7 +138,7 @@ pub enum KitTask {
         #[arg(required = true, value_name = "FILE")]
         files: Vec<PathBuf>,
     },
-    /// List every constant that was fitted, to what, and what else it moves
+    /// List every fitted constant, what it was fitted to, and what else it affects
     Fitted {
         /// Print one JSON list (see docs/commands.md)
         #[arg(long)]
@@ -161,18 +161,18 @@ pub enum PresetTask {
         /// The preset to start from
         #[arg(long, value_name = "NAME", default_value = "default")]
         from: String,
-        /// Move a parameter, as in kick_tune=60; repeatable
+        /// Set a parameter, as in kick_tune=60; repeatable
         #[arg(long, value_name = "NAME=VALUE")]
         set: Vec<String>,
-        /// What it is for, in a line
+        /// A description in one line
         #[arg(long, default_value = "")]
         about: String,
     },
-    /// Give one of your presets another name
+    /// Rename one of your presets
     Rename {
-        /// The name it has
+        /// Its present name
         from: String,
-        /// The name it gets
+        /// Its new name
         to: String,
     },
     /// Delete one of your presets
@@ -180,7 +180,7 @@ pub enum PresetTask {
         /// A name
         name: String,
     },
-    /// Check files, or all presets if none is given
+    /// Check preset files; default: all presets
     Check {
         /// Files
         files: Vec<PathBuf>,
@@ -199,10 +199,10 @@ pub struct RenderArguments {
     /// Start from a preset: a name that `presets` lists, or a file
     #[arg(long, value_name = "NAME|FILE.toml", default_value = "default")]
     preset: String,
-    /// Play the kit of a file, in place of the preset's
+    /// Play the kit of a file instead of a kit in the preset
     #[arg(long, value_name = "FILE")]
     kit: Option<PathBuf>,
-    /// Move a parameter before the start, as in kick_tune=60 or ride_level=-6; repeatable
+    /// Set a parameter before the start, as in kick_tune=60 or ride_level=-6; repeatable
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
     /// Sample rate, Hz
@@ -211,26 +211,26 @@ pub struct RenderArguments {
     /// Samples rendered at a time, 1 to 8192 or `random`; does not change the sound
     #[arg(long, value_name = "N|random", default_value = "512")]
     block: Blocks,
-    /// Write one more WAV file per microphone into this folder
+    /// Also write one WAV file per microphone into this folder
     #[arg(long, value_name = "DIR")]
     stems: Option<PathBuf>,
     /// Bits per sample
     #[arg(long, default_value = "32f")]
     bits: Bits,
-    /// Play the engine itself (the default)
+    /// Play through the engine directly (the default)
     #[arg(long, conflicts_with = "clap")]
     engine: bool,
-    /// Play a CLAP bundle in an embedded host; the same samples
+    /// Play through a CLAP bundle in an embedded host; gives the same samples
     #[arg(long, value_name = "PATH")]
     clap: Option<PathBuf>,
-    /// Put a piece, a pair of microphones or a close microphone somewhere, metres: kick=0,.3,-.2,
+    /// Position of a piece, a pair of microphones or a close microphone, metres: kick=0,.3,-.2,
     /// overheads=-1,2,0,1,2,0, snare-mic=-.4,.8,-.3; repeatable
     #[arg(long, value_name = "NAME=X,Y,Z", allow_hyphen_values = true)]
     place: Vec<String>,
-    /// Threads that render pieces beside the first, 0 to 3; does not change the sound
+    /// Additional threads that render pieces, 0 to 3; does not change the sound
     #[arg(long, alias = "workers", value_name = "N", value_parser = clap::value_parser!(u8).range(0..=3))]
     render_threads: Option<u8>,
-    /// Songs rendered at once; as many as there are cores if not given
+    /// Songs rendered at the same time; default: the number of cores
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
     /// Sound after the last note, s
@@ -270,12 +270,12 @@ impl RenderArguments {
     }
 }
 
-/// How far up a cymbal's modes are coupled.
+/// Highest coupled cymbal mode.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 pub enum Quality {
     /// To 1 kHz.
     Eco,
-    /// To 2 kHz, as played by default.
+    /// To 2 kHz, the default during playback.
     Standard,
     /// To 4 kHz.
     High,
@@ -306,14 +306,14 @@ pub struct HearArguments {
     /// Speed of the stroke, m/s, up to 25
     #[arg(long, value_name = "M/S", default_value_t = hear::DEFAULT_SPEED, value_parser = speed)]
     speed: f64,
-    /// Distance of the place from the centre, share of the radius; where it is played if not given
+    /// Distance from the centre, relative to the radius; default: that of the piece's ordinary note
     #[arg(long, value_name = "R", value_parser = share)]
     at: Option<f64>,
-    /// Direction of the place, degrees from the player's side
+    /// Direction of the strike position, degrees from the player's side
     #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = angle)]
     angle: Option<f64>,
     /// stick, shoulder, nylon, felt-beater, plastic-beater, timpani-mallet, hard-mallet, yarn-mallet, rimshot or
-    /// cross-stick; what the piece is played with if not given
+    /// cross-stick; default: that of the piece's ordinary note
     #[arg(long, value_name = "NAME")]
     striker: Option<String>,
     /// Tune or muffle the piece, as in snare_tune=240 or ride_muffle=.3; repeatable
@@ -328,12 +328,12 @@ pub struct HearArguments {
     /// Print one JSON object (see docs/commands.md)
     #[arg(long)]
     pub json: bool,
-    /// Write the sound as 32-bit float, 20 Pa being full scale
+    /// Write the sound as 32-bit float; full scale is 20 Pa
     #[arg(long, value_name = "OUT.wav")]
     wav: Option<PathBuf>,
     #[command(flatten)]
     alterations: Alterations,
-    /// How far up a cymbal's modes are coupled
+    /// Highest coupled cymbal mode
     #[arg(long, default_value = "offline")]
     quality: Quality,
 }
@@ -394,7 +394,7 @@ pub struct ModesArguments {
     /// Sample rate, Hz
     #[arg(long, value_name = "HZ", default_value = "48000", value_parser = rate)]
     rate: u32,
-    /// Take off what closes a drum: the resonant head, or the timpani's kettle
+    /// Remove the resonant head of a drum, or the kettle of a timpani
     #[arg(long)]
     open: bool,
     /// Perfectly round bodies, whose pairs of modes share one frequency
@@ -418,7 +418,7 @@ impl ModesArguments {
 /// Arguments of `realism`.
 #[derive(Debug, Args)]
 pub struct RealismArguments {
-    /// kick, snare, rack-tom, floor-tom, crash, ride, splash, hi-hat-closed, hi-hat-open; all if not given
+    /// kick, snare, rack-tom, floor-tom, crash, ride, splash, hi-hat-closed, hi-hat-open; default: all
     #[arg(value_name = "PIECE")]
     pieces: Vec<String>,
     /// Speeds of the strokes, m/s, up to 25
@@ -428,16 +428,16 @@ pub struct RealismArguments {
     /// Strike the pieces of these names in the kit of a file
     #[arg(long, value_name = "FILE")]
     kit: Option<PathBuf>,
-    /// Move a parameter from its default, as in snare_tune=180 or offline_quality=high; repeatable
+    /// Set a parameter, as in snare_tune=180 or offline_quality=high; repeatable
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
-    /// The kit as a host plays it, cymbals at the quality for that; else as it is bounced
+    /// Measure playback, with cymbals at `quality`; by default a bounce, at `offline_quality`
     #[arg(long)]
     live: bool,
     /// Print one JSON object (see docs/commands.md)
     #[arg(long)]
     pub json: bool,
-    /// Keep the sounds in this folder, as 32-bit float
+    /// Write the sounds to this folder, as 32-bit float
     #[arg(long, value_name = "DIR")]
     wav: Option<PathBuf>,
 }
@@ -468,22 +468,22 @@ pub struct BenchArguments {
     /// Measure the kit of a file
     #[arg(long, value_name = "FILE")]
     kit: Option<PathBuf>,
-    /// Times that everything is measured
+    /// Number of runs
     #[arg(long, value_name = "N", default_value_t = bench::RUNS as u16, value_parser = clap::value_parser!(u16).range(1..))]
     runs: u16,
-    /// How far up the modes of the kit's cymbals are coupled
+    /// Highest coupled mode of the kit's cymbals
     #[arg(long, default_value = "standard")]
     quality: Quality,
     /// Sample rate, Hz
     #[arg(long, value_name = "HZ", default_value_t = bench::RATE as u32, value_parser = clap::value_parser!(u32).range(RATES))]
     rate: u32,
-    /// Use no wider instruction set
+    /// Widest instruction set to use
     #[arg(long)]
     simd: Option<Simd>,
-    /// Set the costs beside those of an older report, written with --json
+    /// Print the costs of an older report, written with --json, beside the new ones
     #[arg(long, value_name = "OLD.json")]
     compare: Option<PathBuf>,
-    /// Count instructions, too (needs valgrind)
+    /// Also count instructions (needs valgrind)
     #[arg(long)]
     callgrind: bool,
 }
