@@ -116,8 +116,8 @@ fn write_all(pages: &[(&str, Measure)], folder: &Path) -> Result<()> {
 fn index(pages: &[(&str, String)]) -> String {
     let mut out = String::from(
         "# The report\n\n\
-         Every claim of this project with its figure. `cargo xtask report` measures and writes these pages anew, all but the\n\
-         one on costs the same on every run of the same sources; `cargo xtask report NAME` writes one.\n\n\
+         Every claim of this project with its figure. `cargo xtask report` measures all claims and writes these pages; the same\n\
+         sources give the same pages, except for the one on costs. `cargo xtask report NAME` writes one page.\n\n\
          | page | | claims met |\n|---|---|---|\n",
     );
     let rows = |text: &str, met: &str| text.lines().filter(|line| line.ends_with(met)).count();

@@ -32,7 +32,7 @@ pub fn page() -> Result<Page> {
         "contact",
         "Contacts",
         bodies::PLAYED,
-        "The one force law against a rigid wall, where it has closed forms, and on whole pieces at the rates hosts use.\n\
+        "The force law of all contacts, against a rigid wall, where it has closed forms, and on whole pieces at common sample rates.\n\
          `engine/src/contact/tests.rs` and `tests/tests/contacts.rs` hold them.",
     );
     let times = hertz(&mut sheet);
@@ -175,7 +175,7 @@ fn wall(sheet: &mut Sheet) {
         met: Some(fine < 2e-3),
     });
     sheet.claim(Claim {
-        what: "the same of felt at 44.1 kHz".to_owned(),
+        what: "restitution of felt at 44.1 kHz".to_owned(),
         on: bodies::EQUATION,
         figure: format!("{felt:.4} off at most"),
         reference: "0.01".to_owned(),

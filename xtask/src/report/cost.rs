@@ -23,9 +23,9 @@ pub fn page() -> Result<Page> {
         "Costs",
         PLAYED,
         &format!(
-            "What the instrument costs on the machine that wrote this page, one thread, {}, {} Hz: `cargo xtask bench --runs {RUNS}`. A\n\
-             calibration is the time of a fixed loop ({:.4} s here), measured in turns with the instrument. Machines differ and so does\n\
-             what else they do; [performance.md](../performance.md) says more.",
+            "CPU cost of the instrument on the machine that wrote this page, one thread, {}, {} Hz: `cargo xtask bench --runs {RUNS}`. A\n\
+             calibration is the time of a fixed loop ({:.4} s here), measured in alternation with the instrument. Machines and their\n\
+             other load differ; [performance.md](../performance.md) says more.",
             text(&report, "simd"),
             number(&report, &["sample_rate_hz"]),
             number(&report, &["calibration_s"]),
@@ -123,7 +123,7 @@ fn text<'a>(report: &'a Value, key: &str) -> &'a str {
 /// Every piece by itself: a table and a plot, costs in calibrations.
 fn pieces(sheet: &mut Sheet, report: &Value) -> Result<()> {
     sheet.heading("The pieces");
-    sheet.text("Each by itself, the second after a stroke of 6 m/s, calibrations.");
+    sheet.text("Each piece alone, the second after a stroke of 6 m/s, calibrations.");
     let tiers = ["eco", "standard", "high", "offline"];
     let names = overhear_lab::names();
     let cost = |piece: &str, tier: &str| {

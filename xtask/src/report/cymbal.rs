@@ -33,10 +33,10 @@ pub fn page() -> Result<Page> {
         "cymbal",
         "Cymbals",
         PLAYED,
-        "The crash (and the splash, where it says so) of the standard kit by itself, and the same as caps as thick everywhere, of\n\
-         which figures were published: at their close microphones, 44.1 kHz, coupled to 2 kHz. How a hard stroke brightens is on\n\
-         [the page on the cascade](cascade.md). `tests/tests/cymbals.rs` holds these figures, the gradient against finite\n\
-         differences (1e-6) `engine/src/von_karman/tests.rs`.",
+        "The crash (and the splash, where stated) of the standard kit alone, and both as caps of uniform thickness, for which\n\
+         figures were published: at their close microphones, 44.1 kHz, coupled to 2 kHz. [The page on the cascade](cascade.md)\n\
+         shows how a hard stroke brightens. `tests/tests/cymbals.rs` checks these figures; the gradient is checked against\n\
+         finite differences (1e-6) by `engine/src/von_karman/tests.rs`.",
     );
     let crashes = [Body(spec("crash"), PLAYED), Body(reference::cap_crash(), CAP)];
     let splashes = [Body(spec("splash"), PLAYED), Body(reference::cap_splash(), CAP)];

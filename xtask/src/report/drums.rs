@@ -31,9 +31,9 @@ pub fn page() -> Result<Page> {
         "drums",
         "Drums",
         PLAYED,
-        "Each drum by itself at its close microphone, 44.1 kHz. Published contacts and changes with the stroke's speed are of drums on\n\
-         which every stroke presses the same disc: they are told of such a reference, and beside it of the standard kit, whose heads wrap\n\
-         themselves around the tip. `hear` gives the same figures of the kit; `tests/tests/strokes.rs`, `tests/tests/drums.rs` and\n\
+        "Each drum alone at its close microphone, 44.1 kHz. Published contacts and changes with the stroke's speed assume that every\n\
+         stroke presses on a disc of fixed size. They are compared with a reference that has such a disc. The standard kit, whose heads wrap\n\
+         around the tip, is listed beside it. `hear` gives the same figures of the kit; `tests/tests/strokes.rs`, `tests/tests/drums.rs` and\n\
          `tests/tests/passivity.rs` hold them.",
     );
     contacts(&mut sheet);

@@ -35,8 +35,8 @@ pub fn page() -> Result<Page> {
         "Pitch glide",
         PLAYED,
         "Floor toms struck at half their radius: how much higher the strongest partial is from 5 to 85 ms than from 400 to 480 ms,\n\
-         from that mode's own motion. The one of the standard kit has two heads. Published glides are of one of 82 Hz without its\n\
-         lower head, which every stroke presses on with the stick's own disc. `hear floor-tom --at 0.5` gives the figures of the\n\
+         measured on the motion of that mode. The floor tom of the standard kit has two heads. Published glides are those of a drum of 82 Hz\n\
+         without its lower head and with a contact disc of fixed size. `hear floor-tom --at 0.5` gives the figures of the\n\
          first; `tests/tests/drums.rs` holds them.",
     );
     let (published, played) = (Glides::of(&one_headed())?, Glides::of(&spec("floor-tom"))?);

@@ -28,7 +28,7 @@ pub fn page() -> Result<Page> {
         "heads",
         "Heads",
         bodies::ROUND,
-        "A timpani of 26 inches, its head alone in air and over its kettle; and strokes in the centre of every round drum. Ratios of\n\
+        "A timpani of 26 inches: its head alone in air, and over its kettle. Strokes in the centre of every round drum. Ratios of\n\
          real heads: T. D. Rossing, Science of Percussion Instruments. `tests/tests/acoustics.rs` and `tests/tests/drums.rs` hold them.",
     );
     let timpani = build(&timpani_head(), &BuildOptions::new(RATE));

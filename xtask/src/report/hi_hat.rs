@@ -26,7 +26,7 @@ pub fn page() -> Result<Page> {
         "hi-hat",
         "Hi-hat",
         PLAYED,
-        "The hi-hat of the standard kit by itself: two 14 in cymbals, sixteen contacts around their rims, struck near the edge; the\n\
+        "The hi-hat of the standard kit alone: two 14 in cymbals, sixteen contacts around their rims, struck near the edge; the\n\
          pedal from 0 (open) to 1 (clamped). `tests/tests/hi_hat.rs` holds these figures.",
     );
     energy(&mut sheet);

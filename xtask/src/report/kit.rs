@@ -31,7 +31,7 @@ pub fn page() -> Result<Page> {
         "kit",
         "The kit",
         PLAYED,
-        "All pieces of the standard kit where they stand, 44.1 kHz. `tests/tests/sympathy.rs`, `tests/tests/equivalence.rs`,\n\
+        "All pieces of the standard kit at their positions, 44.1 kHz. `tests/tests/sympathy.rs`, `tests/tests/equivalence.rs`,\n\
          `tests/tests/workers.rs`, `tests/tests/kit.rs` and `tests/tests/sleep.rs` hold these figures.",
     );
     let mut kit = kit(RATE);
@@ -215,7 +215,7 @@ fn delays(sheet: &mut Sheet) -> Result<()> {
         met: Some(samples == 54),
     });
     sheet.heading("Delays");
-    sheet.text("From each piece (row) to each drum that hears it (column), ms.");
+    sheet.text("Delay from each piece (row) to each drum (column), ms.");
     let mut head = vec![""];
     head.extend(drums.iter().map(|&to| name(&spec, to)));
     let delay = |way: f64| format!("{:.2}", 1e3 * way / SPEED_OF_SOUND);
@@ -261,8 +261,8 @@ const PEN_UP: (f64, f64) = (f64::NAN, f64::NAN);
 fn sympathy(sheet: &mut Sheet, kit: &mut Kit) {
     sheet.heading("Sympathy");
     sheet.text(
-        "Each piece struck as its ordinary note strikes it, at 5 m/s: the greatest energy of each drum in the second after it, dB of\n\
-         the stroke's.",
+        "Each piece is struck as by its ordinary note, at 5 m/s. The table shows the greatest energy of each drum in the next second, in dB\n\
+         relative to the stroke.",
     );
     let spec = standard();
     let drums: Vec<Slot> = spec.drums().map(|(slot, _)| slot).collect();

@@ -48,8 +48,8 @@ pub fn page() -> Result<Page> {
         "modal",
         "Modes",
         bodies::PLAYED,
-        "Every mode of every piece, 44.1 kHz, single precision: frequency and decay over 8 s from the phase and the size of its own\n\
-         motion; deflection under a force that is laid on slowly and held. `tests/tests/acoustics.rs` holds them.",
+        "Every mode of every piece, 44.1 kHz, single precision: frequency and decay over 8 s, from the phase and amplitude of the mode's\n\
+         motion, and deflection under a force that is applied slowly and held. `tests/tests/acoustics.rs` holds them.",
     );
     let (off, decay) = worst_ringing();
     sheet.claim(Claim {

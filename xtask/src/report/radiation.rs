@@ -32,8 +32,8 @@ pub fn page() -> Result<Page> {
         "radiation",
         "Radiation and microphones",
         ROUND,
-        "Closed forms of a rigid disc in free air; what drums lose to the air; what microphones hear from where they stand. Drums are\n\
-         those of the standard kit; where single modes are told apart, without what makes them uneven.\n\
+        "Closed forms of a rigid disc in free air; radiation losses of drums; sound at the microphones. The drums are those of the\n\
+         standard kit; where single modes are distinguished, without mode splitting.\n\
          `engine/src/plate/free_disc.rs`, `engine/src/listening/tests.rs`, `tests/tests/damping.rs` and `tests/tests/microphones.rs`\n\
          hold these figures.",
     );
@@ -131,8 +131,8 @@ fn distances(sheet: &mut Sheet) {
         }
     }
     sheet.text(
-        "What a microphone that is moved away loses beside is a stroke's first highs, on ways of a broken number of samples, the most at\n\
-         44.1 kHz; and a drum is no point. The standard kit's heads wrap around the tip, which makes the stroke brighter.",
+        "A microphone that is moved away also loses high frequencies of the attack when the path is a fractional number of samples, most at\n\
+         44.1 kHz. Besides, a drum is not a point source. The standard kit's heads wrap around the tip, which makes the stroke brighter.",
     );
 }
 

@@ -28,11 +28,11 @@ pub fn page() -> Result<Page> {
         "realism",
         "Beside recordings",
         PLAYED,
-        "Every piece in the kit as the plugin has it, struck softly to hard in three places, at its close microphone and in the full\n\
-         mix, beside 3,123 one-shots of 36 acoustic kits: `cargo xtask realism`. Bounced, which tables and pictures are, cymbals are coupled to 8 kHz;\n\
-         played live, to 2 kHz (`--live`; drums are the same but for the cymbals that answer them). A range is that of 10 to 90 % of the recordings; where\n\
-         only the median is known, what is near it is our choice. What lies outside, and why, is in [realism.md](../realism.md); how each\n\
-         figure is defined in [commands.md](../commands.md#realism).",
+        "Every piece in the kit with the plugin's defaults, struck from soft to hard at three positions, at its close microphone and in the full\n\
+         mix, compared with 3,123 one-shots of 36 acoustic kits: `cargo xtask realism`. Tables and pictures show the bounce, with cymbals coupled to 8 kHz;\n\
+         played live, they are coupled to 2 kHz (`--live`; drums differ only by the sound of the cymbals). A range is that of 10 to 90 % of the\n\
+         recordings; where only the median is known, the range near it is our choice. [realism.md](../realism.md) discusses what lies outside;\n\
+         [commands.md](../commands.md#realism) defines each figure.",
     );
     let request = |subjects: Vec<Subject>, pace| realism::Request {
         subjects,

@@ -28,8 +28,8 @@ pub fn page() -> Result<Page> {
         "snare",
         "Snare",
         PLAYED,
-        "A snare by itself, struck at .3 of its radius, 44.1 kHz: that of the standard kit, and one of 220 Hz with a fixed disc under\n\
-         the stick and .15 N on its wires, of which the landings were published. Landings count every group of wires. `hear snare`\n\
+        "A snare alone, struck at .3 of its radius, 44.1 kHz: that of the standard kit, and one of 220 Hz with a fixed disc under\n\
+         the stick and .15 N on its wires, for which landings were published. Landings count every group of wires. `hear snare`\n\
          gives the same figures of the first; `tests/tests/strokes.rs` and `tests/tests/drums.rs` hold them.",
     );
     let (published, played) = (reference::fixed_disc_snare(), spec("snare"));
