@@ -126,9 +126,7 @@ fn index(pages: &[(&str, String)]) -> String {
         let title = text.lines().next().unwrap_or_default().trim_start_matches("# ");
         let _ = writeln!(out, "| [{name}]({name}.md) | {title} | {met} of {} |", met + missed);
     }
-    out.push_str(
-        "\n## Not met\n\n| page | claim | measured on | figure | should be |\n|---|---|---|---|---|\n",
-    );
+    out.push_str("\n## Not met\n\n| page | claim | measured on | figure | target |\n|---|---|---|---|---|\n");
     for (name, text) in pages {
         for row in text.lines().filter(|line| line.ends_with(page::MISSED)) {
             let cells: Vec<&str> = row.trim_start_matches("| ").split(" | ").take(4).collect();

@@ -200,7 +200,8 @@ fn claims(sheet: &mut Sheet, courses: &[Course], blooms: &[Bloom]) {
             what: format!("{}, at {radius}: sound above 3 kHz strongest, at 1.5, 5, 6 m/s", quality.name()),
             on,
             figure: format!("{soft:.0}, {hard:.0}, {harder:.0} ms"),
-            reference: "at once when soft, after more than 30 ms when hard (recordings 83 ms)".to_owned(),
+            reference: "immediately for soft strokes, after more than 30 ms for hard ones (recordings 83 ms)"
+                .to_owned(),
             source: MEASURED,
             met: Some(*soft < 15.0 && *hard > 30.0 && *harder > 30.0),
         });

@@ -122,7 +122,7 @@ fn hertz(sheet: &mut Sheet) -> Vec<(f64, f64, f64)> {
     }
     let exponent = (times[3].1 / times[0].1).ln() / (times[3].0 / times[0].0).ln();
     sheet.claim(Claim {
-        what: "its exponent over the speed".to_owned(),
+        what: "exponent of the contact time over the speed".to_owned(),
         on: bodies::EQUATION,
         figure: format!("{exponent:.4}"),
         reference: "-0.2, 0.001".to_owned(),
@@ -158,7 +158,7 @@ fn wall(sheet: &mut Sheet) {
         }
     }
     sheet.claim(Claim {
-        what: "lossless, any tip on a wall, 44.1 to 192 kHz, 0.1 to 25 m/s: energy after over before"
+        what: "lossless, any tip on a wall, 44.1 to 192 kHz, 0.1 to 25 m/s: energy after over energy before"
             .to_owned(),
         on: bodies::EQUATION,
         figure: format!("{kept:.0e} off at most"),
@@ -167,7 +167,7 @@ fn wall(sheet: &mut Sheet) {
         met: Some(kept < 1e-4),
     });
     sheet.claim(Claim {
-        what: "restitution got for .1 to .95 asked, any tip, fine step".to_owned(),
+        what: "measured restitution against specified, .1 to .95, any tip, fine step".to_owned(),
         on: bodies::EQUATION,
         figure: format!("{fine:.0e} off at most"),
         reference: "0.002".to_owned(),
@@ -239,7 +239,7 @@ fn energy(sheet: &mut Sheet) {
         }
         sheet.claim(Claim {
             what: format!(
-                "lossless, every striker on every piece, 100 ms at {rate} Hz: energy about over brought"
+                "lossless, every striker on every piece, 100 ms at {rate} Hz: energy in piece and striker over energy brought"
             ),
             on: bodies::PLAYED,
             figure: format!("{worst:.0e} off at most"),

@@ -91,7 +91,7 @@ pub fn page() -> Result<Page> {
         .map(|all| all.iter().filter_map(Value::as_f64).map(|s| format!("{s:.2}")).collect())
         .unwrap_or_default();
     sheet.claim(Claim::told(
-        "these three builds, all processors together: what other work on the machine adds least to",
+        "CPU time of these three builds, all processors together",
         PLAYED,
         format!("{} CPU s", cpu.join(", ")),
         "6.5 cold, .2 warm",

@@ -295,7 +295,7 @@ fn shortcuts(sheet: &mut Sheet, Body(crash, on): &Body) {
     }
     let beside = mean_difference(&every, &strided(1, 0.925));
     sheet.claim(Claim::told(
-        "the same stroke a millimetre beside",
+        "the same stroke moved by a millimetre",
         on,
         format!("{beside:.2} dB in the mean"),
         "more than either",

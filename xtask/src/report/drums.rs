@@ -40,7 +40,7 @@ pub fn page() -> Result<Page> {
     leaving(&mut sheet);
     let pillow = pillow_db();
     sheet.claim(Claim {
-        what: "a pillow takes from a kick's boom, 30 to 120 Hz".to_owned(),
+        what: "attenuation of a kick's boom by a pillow, 30 to 120 Hz".to_owned(),
         on: PLAYED,
         figure: format!("{pillow:.1} dB"),
         reference: "6 dB or more".to_owned(),
@@ -50,7 +50,7 @@ pub fn page() -> Result<Page> {
     for (kick, on) in [(reference::fixed_disc_kick(), FIXED_DISC), (spec("kick"), PLAYED)] {
         let plastic = plastic_db(&kick);
         sheet.claim(Claim {
-            what: "a plastic beater over felt, above 4 kHz".to_owned(),
+            what: "plastic beater compared with felt, above 4 kHz".to_owned(),
             on,
             figure: format!("{plastic:+.1} dB"),
             reference: "+6 dB or more (10)".to_owned(),
@@ -127,7 +127,7 @@ fn contacts(sheet: &mut Sheet) {
             what: format!("{name}: a stick touches, at .5 and 10 m/s"),
             on: PLAYED,
             figure: format!("{soft:.2} and {hard:.2} ms"),
-            reference: "3 to 9 ms (real sticks 3 to 6), no longer when harder".to_owned(),
+            reference: "3 to 9 ms (real sticks 3 to 6), not longer for harder strokes".to_owned(),
             source: MEASURED,
             met: Some((3.0..9.0).contains(&soft) && hard <= 1.001 * soft),
         });
@@ -234,7 +234,7 @@ fn speeds(sheet: &mut Sheet) -> Result<()> {
         what: "timpani, felt against hard mallet: centroid".to_owned(),
         on: PLAYED,
         figure: format!("{felt:.0} against {hard:.0} Hz"),
-        reference: "436 against 1122 Hz: half as high again or more".to_owned(),
+        reference: "436 against 1122 Hz: at least half as high again".to_owned(),
         source: EARLIER,
         met: Some(hard > 1.5 * felt),
     });
@@ -273,7 +273,7 @@ fn high_band(sheet: &mut Sheet) -> Result<()> {
     let above = |spectrum: &Spectrum| spectrum.band(4000.0, 20_000.0).sqrt();
     let gain = decibels(above(&with.0), above(&without.0));
     sheet.claim(Claim {
-        what: "rack tom, 4 m/s: what the high band adds above 4 kHz".to_owned(),
+        what: "rack tom, 4 m/s: level that the high band adds above 4 kHz".to_owned(),
         on: PLAYED,
         figure: format!("{gain:+.1} dB"),
         reference: "+10 dB or more".to_owned(),
@@ -282,7 +282,7 @@ fn high_band(sheet: &mut Sheet) -> Result<()> {
     });
     let moved = with.1.iter().zip(without.1).map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max);
     sheet.claim(Claim {
-        what: "what it changes of the contact".to_owned(),
+        what: "effect of the high band on the contact".to_owned(),
         on: PLAYED,
         figure: format!("{:.2} %", 100.0 * moved),
         reference: "3 %".to_owned(),
@@ -291,7 +291,7 @@ fn high_band(sheet: &mut Sheet) -> Result<()> {
     });
     let top = decibels(with.0.band(14_000.0, 16_000.0).sqrt(), without.0.band(14_000.0, 16_000.0).sqrt());
     sheet.claim(Claim {
-        what: "what it adds from 14 to 16 kHz".to_owned(),
+        what: "level that the high band adds from 14 to 16 kHz".to_owned(),
         on: PLAYED,
         figure: format!("{top:+.1} dB"),
         reference: "more than 0 (the earlier engine is silent above 10.8 kHz)".to_owned(),

@@ -60,7 +60,7 @@ pub fn page() -> Result<Page> {
         what: "two heads, at 0.5, 3 and 6 m/s".to_owned(),
         on: PLAYED,
         figure: format!("{soft:.2}, {firm:.1}, {hard:.1} cents"),
-        reference: "next to none of a soft stroke (1.1 at most), more of each harder one".to_owned(),
+        reference: "almost none for a soft stroke (1.1 at most), more for each harder one".to_owned(),
         source: EARLIER,
         met: Some(soft < 1.1 && soft < firm && firm < hard),
     });

@@ -113,8 +113,7 @@ fn decays(sheet: &mut Sheet) -> Result<()> {
     let decays = PLACES.map(|pedal| (pedal, decay(&mut hat, pedal)));
     let means: Vec<String> = decays.iter().map(|(_, decay)| format!("{:.2}", decay.mean)).collect();
     sheet.claim(Claim {
-        what: "the farther down the pedal the shorter: T60, mean of the octaves from 500 Hz to 8 kHz"
-            .to_owned(),
+        what: "T60 against the position of the pedal, mean of the octaves from 500 Hz to 8 kHz".to_owned(),
         on: PLAYED,
         figure: format!("{} s", means.join(", ")),
         reference: "falls; open 2 to 5 s".to_owned(),
@@ -129,7 +128,7 @@ fn decays(sheet: &mut Sheet) -> Result<()> {
         what: "clamped: T60 and mean time".to_owned(),
         on: PLAYED,
         figure: format!("{:.2} s, {:.0} ms", closed.mean, closed.centroid_ms),
-        reference: ".25 to .5 s, less than 51 ms (half again of recordings' 34)".to_owned(),
+        reference: ".25 to .5 s, less than 51 ms (half as much again as the 34 of recordings)".to_owned(),
         source: GOAL,
         met: Some((0.25..0.5).contains(&closed.mean) && closed.centroid_ms < 51.0),
     });

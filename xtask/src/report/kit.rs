@@ -152,7 +152,7 @@ fn falls_asleep(kit: &mut Kit, slot: Slot) -> f64 {
 fn sleep(sheet: &mut Sheet, kit: &mut Kit) {
     let longest = standard().slots().map(|(slot, _)| falls_asleep(kit, slot)).fold(0.0, f64::max);
     sheet.claim(Claim {
-        what: "every piece in turn: from the last sound above -100 dBFS to sleep".to_owned(),
+        what: "every piece in turn: time from the last sound above -100 dBFS to sleep".to_owned(),
         on: PLAYED,
         figure: format!("{longest:.2} s at most"),
         reference: "1 s".to_owned(),
@@ -259,7 +259,7 @@ fn ways_from(spec: &KitSpec, title: &str, from_drums: bool) -> (String, Vec<Line
 const PEN_UP: (f64, f64) = (f64::NAN, f64::NAN);
 
 fn sympathy(sheet: &mut Sheet, kit: &mut Kit) {
-    sheet.heading("Sympathy");
+    sheet.heading("Sympathetic resonance");
     sheet.text(
         "Each piece is struck as by its ordinary note, at 5 m/s. The table shows the greatest energy of each drum in the next second, in dB\n\
          relative to the stroke.",
@@ -282,7 +282,7 @@ fn sympathy(sheet: &mut Sheet, kit: &mut Kit) {
     }
     sheet.table(&head, rows);
     sheet.claim(Claim {
-        what: "the most any drum takes of a stroke on another piece".to_owned(),
+        what: "largest energy of a drum after a stroke on another piece".to_owned(),
         on: PLAYED,
         figure: format!("{largest:.0} dB"),
         reference: "less than -10 dB: energy is only lost on the way".to_owned(),

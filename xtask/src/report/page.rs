@@ -179,14 +179,14 @@ impl Sheet {
         );
         if !claims.is_empty() {
             markdown.push_str(
-                "\n| claim | measured on | figure | should be | by | met |\n|---|---|---|---|---|---|\n",
+                "\n| claim | measured on | figure | target | source | met |\n|---|---|---|---|---|---|\n",
             );
         }
         for Claim { what, on, figure, reference, source, met } in &claims {
             let met = match met {
                 Some(true) => MET,
                 Some(false) => MISSED,
-                None => "| told |",
+                None => "| info |",
             };
             let _ = writeln!(markdown, "| {what} | {on} | {figure} | {reference} | {source} {met}");
         }

@@ -68,7 +68,7 @@ fn rigid_disc(sheet: &mut Sheet) {
     let (slow, fast) = (rigid(0.05), rigid(30.0));
     let moment = 8.0 / 3.0 * DENSITY * RADIUS.powi(3);
     sheet.claim(Claim::near(
-        "rigid disc, slow: air moved along over (8/3) rho a³",
+        "rigid disc, slow: added mass of air over (8/3) rho a³",
         EQUATION,
         (slow.air_mass / moment, ""),
         (1.0, 0.01),
@@ -100,7 +100,7 @@ fn toms(sheet: &mut Sheet) {
         let modes = piece.modes().into_iter().filter(|mode| mode.body == "resonant" && mode.m == 0);
         let Some(apart) = modes.min_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz)) else { continue };
         sheet.claim(Claim {
-            what: format!("{name}: heads together, and apart ({:.0} Hz), T60", apart.frequency_hz),
+            what: format!("{name}: heads in phase, and in antiphase ({:.0} Hz), T60", apart.frequency_hz),
             on: ROUND,
             figure: format!("{:.2} s, {:.2} s", together.t60, apart.t60),
             reference: "more than 1 s, less than a quarter of it".to_owned(),
@@ -119,7 +119,7 @@ fn distances(sheet: &mut Sheet) {
             };
             sheet.claim(Claim {
                 what: format!(
-                    "rack tom, {name}, from {} m: 34.3 cm farther, a millisecond later; twice as far, half",
+                    "rack tom, {name}, from {} m: error when moved 34.3 cm away (1 ms later), and to twice the distance (half)",
                     at.0
                 ),
                 on,

@@ -26,7 +26,7 @@ const RECORDINGS: &str = "3,123 recorded strokes";
 pub fn page() -> Result<Page> {
     let mut sheet = Sheet::new(
         "realism",
-        "Beside recordings",
+        "Compared with recordings",
         PLAYED,
         "Every piece in the kit with the plugin's defaults, struck from soft to hard at three positions, at its close microphone and in the full\n\
          mix, compared with 3,123 one-shots of 36 acoustic kits: `cargo xtask realism`. Tables and pictures show the bounce, with cymbals coupled to 8 kHz;\n\
@@ -65,7 +65,7 @@ pub fn page() -> Result<Page> {
             [report.all(heard, |piece| piece.ranges), report.all(heard, |piece| piece.medians)];
         for (what, count) in [("in the range of recordings", ranges), ("near their median", medians)] {
             let what = format!("all pieces, {}: figures {what}", heard.name());
-            sheet.claim(Claim::told(&what, PLAYED, counted(count), "as many as can be", RECORDINGS));
+            sheet.claim(Claim::told(&what, PLAYED, counted(count), "as many as possible", RECORDINGS));
         }
     }
     sheet.plot(
@@ -91,7 +91,7 @@ fn shares(sheet: &mut Sheet, report: &Report, how: &str) {
             let (share, goal) = (piece.firm.share(), heard.goal());
             sheet.claim(Claim {
                 what: format!(
-                    "{}, {how}, {}: figures of strokes from 3 m/s on as recorded",
+                    "{}, {how}, {}: figures of strokes of 3 m/s and more within the recordings",
                     piece.piece,
                     heard.name()
                 ),

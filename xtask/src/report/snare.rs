@@ -143,7 +143,7 @@ fn wires(sheet: &mut Sheet, snare: &PieceSpec, on: &'static str) {
     });
     let gain = decibels(with, without);
     claim(
-        "what the wires add above 3 kHz in the first 50 ms".to_owned(),
+        "level that the wires add above 3 kHz in the first 50 ms".to_owned(),
         format!("{gain:+.1} dB"),
         "+4 dB or more",
         gain >= 4.0,
@@ -197,7 +197,8 @@ fn air(sheet: &mut Sheet, snares: [(&PieceSpec, &'static str); 2]) -> Result<()>
     for (snare, on) in snares {
         let share = 100.0 * transverse_share(snare)?;
         sheet.claim(Claim {
-            what: "of the snare side's energy in modes of one nodal diameter, 50 ms after 4 m/s".to_owned(),
+            what: "share of the snare side's energy in modes of one nodal diameter, 50 ms after 4 m/s"
+                .to_owned(),
             on,
             figure: format!("{share:.1} %"),
             reference: "3 % or more".to_owned(),
