@@ -1,4 +1,4 @@
-//! Numbers that look drawn by chance.
+//! Pseudo-random numbers.
 
 use std::f64::consts::TAU;
 use std::time::{SystemTime, UNIX_EPOCH};

@@ -1,8 +1,8 @@
-//! Pieces that nobody has thought of: any within the accepted ranges, though no larger than can be built quickly.
+//! Random pieces within the accepted ranges, no larger than can be built quickly.
 //!
 //! Each begins as a piece of the standard kit, gains or loses parts, and has every number of its description moved: by a
-//! factor of up to [`FACTOR`] either way, sometimes to the very end of its accepted range. What the description refuses,
-//! and what has too many modes, is drawn anew.
+//! factor of up to [`FACTOR`] either way, sometimes to the very end of its accepted range. Pieces that the description refuses,
+//! or that have too many modes, are drawn again.
 
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;

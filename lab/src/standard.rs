@@ -1,4 +1,4 @@
-//! The played instrument: the standard kit, and pieces of it by themselves.
+//! The played instrument: the standard kit, and single pieces of it.
 
 use overhear_engine::drum::DrumSpec;
 use overhear_engine::kit::Kit;

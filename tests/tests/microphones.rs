@@ -1,4 +1,4 @@
-//! Microphones hear what their place gives them.
+//! The sound at a microphone depends on its position as physics requires.
 
 use overhear_tests::spec;
 use xtask::report::radiation::microphones::{

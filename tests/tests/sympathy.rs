@@ -1,4 +1,4 @@
-//! Pieces hear each other through the air: when, how much, and what it does.
+//! Sympathetic resonance: its delay, its level, and its effects.
 
 use overhear_engine::air::SPEED_OF_SOUND;
 use overhear_engine::kit::{BLOCK, Control, Kit};

@@ -1,5 +1,5 @@
-//! What can be counted of the house's order: docs of modules, sizes of files, names in documents, notes to oneself, units,
-//! and who names a piece.
+//! Rules of order that can be counted: docs of modules, sizes of files, names in documents, reminders, units, and names of
+//! pieces in code.
 
 #[path = "tidy/pieces.rs"]
 mod pieces;

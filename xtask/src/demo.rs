@@ -1,8 +1,8 @@
-//! `demo`: from a fresh clone to a groove you can hear.
+//! `demo`: from a fresh clone to an audible groove.
 //!
 //! Sets up, builds, bundles, loads the built CLAP into the embedded host, plays
-//! `assets/groove.mid` through it at 48 kHz, writes `demo.wav` and `demo.png`, says how loud each
-//! piece is at each microphone and what it cost, and takes pictures of the editor where there is what that needs.
+//! `assets/groove.mid` through it at 48 kHz, writes `demo.wav` and `demo.png`, prints the level of each
+//! piece at each microphone and the cost, and takes pictures of the editor if the requirements are met.
 
 pub mod presets;
 

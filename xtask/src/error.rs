@@ -1,6 +1,6 @@
-//! What is wrong with what the user gave, as opposed to what went wrong on the way.
+//! Errors in the user's input, as opposed to failures while a command runs.
 //!
-//! Bad input ends a command with exit code 2, anything else that fails with 1.
+//! Bad input ends a command with exit code 2, any other failure with 1.
 
 /// Input that cannot be used: one line with the value and what is accepted.
 #[derive(Debug, thiserror::Error)]

@@ -1,7 +1,7 @@
 //! `hear`: one stroke on one piece by itself, measured.
 //!
-//! The piece is a kit of its own and rendered as every kit is: what is heard is the sound pressure at its close
-//! microphone, 20 Pa being full scale. The gain of that microphone and the piece's place in a mix are left out.
+//! The piece is a kit of its own and is rendered like every kit. The output is the sound pressure at its close
+//! microphone; full scale is 20 Pa. The gain of that microphone and the mix are not applied.
 
 mod measure;
 mod table;

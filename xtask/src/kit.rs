@@ -1,4 +1,4 @@
-//! `kit`: kits as files, shown, begun and checked; and the constants that were fitted.
+//! `kit`: shows, creates and checks kit files; lists the fitted constants.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};

@@ -1,4 +1,4 @@
-//! `modes`: everything that vibrates in a piece.
+//! `modes`: every mode of a piece.
 
 use std::collections::BTreeMap;
 use std::fmt;

@@ -1,4 +1,4 @@
-//! Files that appear whole or not at all.
+//! Files that are written completely or not at all.
 //!
 //! A [`Draft`] is written beside its target and takes the target's name in one step when it is
 //! finished; dropped before that, it leaves nothing behind.

@@ -1,4 +1,4 @@
-//! Who plays: the engine itself, or the built plugin in an embedded host.
+//! Players: the engine itself, or the built plugin in an embedded host.
 //!
 //! Both are given the same notes at the same samples and the same parameters from the start, and
 //! give the same samples, bit by bit.

@@ -1,4 +1,4 @@
-//! `presets`: the presets there are, and what can be done with files of them.
+//! `presets`: lists presets and edits their files.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;

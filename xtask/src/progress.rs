@@ -1,4 +1,4 @@
-//! Progress on standard error, where somebody watches.
+//! Progress on standard error, if it is a terminal.
 
 use std::io::{IsTerminal, Write};
 use std::time::{Duration, Instant};

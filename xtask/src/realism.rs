@@ -1,8 +1,8 @@
-//! `realism`: every piece in the kit, struck softly to hard in several places, beside recordings of real ones.
+//! `realism`: every piece in the kit, struck from soft to hard at several positions, compared with recordings.
 //!
-//! The kit is the plugin's at its defaults, as it is bounced or as it is played, by the plugin's performer. Each stroke is
-//! heard twice: by the piece's close microphone alone, and in the full mix, both as the mean of left and right. The
-//! [`features`] are measured and set beside the [`mod@reference`]; what is compared is the median over the places.
+//! The kit has the plugin's defaults and is bounced or played live by the plugin's performer. Each stroke is
+//! recorded twice: by the piece's close microphone alone, and in the full mix, both as the mean of left and right. The
+//! median over the positions of each of the [`features`] is compared with the [`mod@reference`].
 
 mod ears;
 pub mod features;

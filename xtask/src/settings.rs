@@ -1,4 +1,4 @@
-//! `--kit`, `--preset` and `--set name=value`: the kit a command plays and the parameters it moves.
+//! `--kit`, `--preset` and `--set name=value`: the kit that a command plays and the parameters that it sets.
 
 use std::path::Path;
 

@@ -1,7 +1,7 @@
 //! `shots`: pictures of the built plugin's editor.
 //!
-//! Opens the editor of the built CLAP in the embedded host, in a window of a display that nobody looks at, plays,
-//! and writes what is seen. What is shown is set as a project would: by the view in the plugin's state.
+//! Opens the editor of the built CLAP in the embedded host, in a window on a virtual display, plays, and writes
+//! screenshots. The page is selected as a project selects it: by the view in the plugin's state.
 
 mod cost;
 mod window;

@@ -1,4 +1,4 @@
-//! `--place NAME=x,y,z`: where pieces and microphones stand.
+//! `--place NAME=x,y,z`: positions of pieces and microphones.
 
 use anyhow::Result;
 use overhear_engine::kit_spec::{KitSpec, PieceSpec};

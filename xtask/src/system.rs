@@ -1,7 +1,7 @@
-//! What a machine must have beside Rust, and how it comes there.
+//! Requirements of a machine beside Rust, and their installation.
 //!
 //! Debian's packages are installed by apt-get when the command runs as root; otherwise, and on
-//! other systems, what is missing is named and the command stops.
+//! other systems, the command lists what is missing and stops.
 
 use std::env;
 use std::path::PathBuf;

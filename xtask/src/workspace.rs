@@ -1,4 +1,4 @@
-//! Where things lie: the workspace, its target folder and the bundles in it.
+//! Paths of the workspace, its target folder and the bundles in it.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -1,5 +1,5 @@
-//! A hand at the editor's window, in a host: what it does reaches the audio and the host, and sizes are kept. And what
-//! there is where no window can be.
+//! Mouse and keyboard in the editor's window, in a host: input reaches the audio and the host, and sizes are stored. Also
+//! hosts in which no window can open.
 
 use std::process::Command;
 use std::sync::Mutex;

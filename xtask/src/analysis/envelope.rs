@@ -1,4 +1,4 @@
-//! How a struck sound rises and falls: attack, click, crest, temporal centroid, bloom.
+//! Time features of a struck sound: attack, click, crest, temporal centroid, bloom.
 //!
 //! The envelope is the root of the power averaged over a raised cosine of 2 ms, which follows a
 //! stroke's rise and leaves the swing of low notes in: what a bass drum's attack is, is then the

@@ -1,4 +1,4 @@
-//! The kit as the plugin plays it, and the two ways in which a stroke on it is heard.
+//! The kit as the plugin plays it, and the two recording chains of a stroke.
 
 use std::sync::Arc;
 

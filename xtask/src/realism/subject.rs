@@ -1,4 +1,4 @@
-//! What recordings tell apart: pieces, and of the hi-hat what its pedal does.
+//! The subjects of the recordings: pieces, and the hi-hat closed and open.
 
 use anyhow::Result;
 use overhear::kit_document::KitDocument;

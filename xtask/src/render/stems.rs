@@ -1,4 +1,4 @@
-//! The microphones of a song, each to a file of its own.
+//! Stems: each microphone of a song in a file of its own.
 //!
 //! One pass of the engine, whatever plays the song: both give the same samples. Every piece's close microphone, the
 //! overheads and the room, at the level of the mix, so that they add up to the song.

@@ -1,4 +1,4 @@
-//! The cascade: how a crash's energy climbs from the modes a stroke excites to those above.
+//! The cascade: energy of a crash moves from the modes that a stroke excites to higher ones.
 //!
 //! The crash of the standard kit and a cap are struck softly, at medium speed and hard, at each tier; along the way the mean
 //! frequency of the modes to 2 kHz is taken, weighted by their energy, for that is the set every tier from `standard`

@@ -1,4 +1,4 @@
-//! Contacts: Hertz's law, energy, restitution, and whether a contact is the same at every sample rate.
+//! Contacts: Hertz's law, energy, restitution, and independence of the sample rate.
 
 use std::ops::Range;
 

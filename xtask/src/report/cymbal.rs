@@ -1,4 +1,4 @@
-//! Cymbals: energy, the stretching's own bookkeeping, offset, and what may be left out.
+//! Cymbals: energy, drift of the scalar auxiliary variable, offset, and permissible simplifications.
 
 mod third_octaves;
 

@@ -1,4 +1,4 @@
-//! Drums: contacts, what a stroke's speed and striker change, the pillow, the band above the modes.
+//! Drums: contacts, effects of speed and striker, the pillow, the band above the modes.
 
 use anyhow::Result;
 use overhear_engine::cavity::{CavitySpec, HeadShape};

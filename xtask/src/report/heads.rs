@@ -1,4 +1,4 @@
-//! Heads: what the air around a timpani's and the air in its kettle do to its modes.
+//! Heads: effects of the outer air and of the air in the kettle on a timpani's modes.
 
 use std::f64::consts::TAU;
 

@@ -1,4 +1,4 @@
-//! The hi-hat: energy, what the pedal does to its decay, sizzle, and the foot by itself.
+//! The hi-hat: energy, decay against the pedal, sizzle, and the foot alone.
 
 use anyhow::Result;
 use overhear_engine::hi_hat::foot::SPEED;

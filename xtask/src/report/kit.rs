@@ -1,4 +1,4 @@
-//! The kit: delays, what pieces hear of each other, outputs that nothing changes, and sleep.
+//! The kit: delays, sympathetic resonance, determinism of the output, and sleep.
 
 use anyhow::{Context, Result};
 use overhear::kit_document::KitDocument;

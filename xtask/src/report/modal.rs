@@ -1,7 +1,7 @@
-//! Modes: whether they ring where they should, decay as they should, and bend as they should.
+//! Modes: errors of frequency, decay and static deflection.
 //!
-//! The two-pole recurrence `y[n+1] = 2 cos(omega dt) y[n] - y[n-1]` stands beside as what is usually written: in single
-//! precision its coefficient cannot say a low frequency.
+//! The usual two-pole recurrence `y[n+1] = 2 cos(omega dt) y[n] - y[n-1]` is shown for comparison: in single
+//! precision its coefficient cannot represent a low frequency.
 
 use std::f64::consts::TAU;
 

@@ -1,4 +1,4 @@
-//! Radiation: what vibrating discs do to the air, and what is heard of them near and far.
+//! Radiation: air load of vibrating discs, and their sound near and far.
 
 use std::f64::consts::PI;
 

@@ -1,4 +1,4 @@
-//! What an open editor costs: the window's threads, and the audio thread beside it.
+//! CPU cost of an open editor: the window's threads, and the audio thread.
 //!
 //! Counted is the processor time that the kernel gave to each thread (`/proc/self/task/*/schedstat`), which says the same
 //! on a machine that others use as well. A window's threads are those that were not there before the first one was opened:

@@ -1,4 +1,4 @@
-//! A host's window under X11, and what is seen in it.
+//! A host's window under X11, and screenshots of it.
 
 use std::collections::HashSet;
 use std::thread;

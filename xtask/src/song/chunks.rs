@@ -1,4 +1,4 @@
-//! The chunks of a MIDI file, none of them cut off.
+//! The chunks of a MIDI file, checked for truncation.
 //!
 //! The parser behind [`super`] reads what it can of a damaged file; half a song that looks like a
 //! whole one is worse than none, so the frame of the file is checked here.

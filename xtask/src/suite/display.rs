@@ -1,4 +1,4 @@
-//! A display for windows nobody looks at.
+//! A virtual display.
 
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};

@@ -1,4 +1,4 @@
-//! Running checks and tests, and counting what came of them.
+//! Runs checks and tests and counts the results.
 
 use std::fmt;
 use std::io::{BufRead, BufReader};

@@ -1,4 +1,4 @@
-//! What the tests need beside the workspace.
+//! Requirements of the tests outside the workspace.
 
 use std::fs;
 use std::path::{Path, PathBuf};
