@@ -45,7 +45,7 @@ impl Visitor for Shaker<'_> {
         } else {
             *value * FACTOR.powf(chance.between(-1.0, 1.0))
         };
-        // The range may be none at all, which the check refuses.
+        // The range may be empty, which the check refuses.
         *value = moved.max(low).min(high);
     }
 
@@ -128,7 +128,7 @@ fn rebuilt(drum: DrumSpec, chance: &mut Chance) -> DrumSpec {
     if chance.happens(0.1) {
         drum = drum.opened();
     }
-    // A timpani's pitch is that of the whole drum, which a kettle much too small or too large would rule.
+    // A timpani's pitch is that of the whole drum; a kettle much too small or too large would dominate it.
     let sensible = |chance: &mut Chance| drum.diameter.powi(3) * chance.between(0.3, 0.8);
     match drum.shell {
         Some(ShellSpec::Kettle { air_q, .. }) => {

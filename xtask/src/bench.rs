@@ -172,14 +172,14 @@ impl Builds {
         let ([build_warm_s, warm_cpu_s], _) = build(document, rate)?;
         let limit = Some(Limit::measure(&kit, rate));
         drop(kit);
-        // As the plugin keeps it; what an earlier process left has no part in it.
+        // As in the plugin; results of an earlier process are not used.
         let folder = std::env::temp_dir().join(format!("overhear-bench-{}", std::process::id()));
         overhear_kept::provide(Box::new(FolderShelf::new(&folder)));
         overhear_kept::forget();
         build(document, rate)?;
         overhear_kept::forget();
         let from_disk = build(document, rate);
-        // What is left in a folder for what is temporary harms nobody.
+        // Files left in a temporary folder do no harm.
         let _ = std::fs::remove_dir_all(&folder);
         let ([build_from_disk_s, disk_cpu_s], _) = from_disk?;
         let memory_mb = memory.physical_mem as f64 / 1e6;
@@ -211,7 +211,7 @@ fn build(document: &KitDocument, rate: f64) -> Result<([f64; 2], Vec<Piece>)> {
             std::iter::from_fn(|| make(*next()?)).collect::<Vec<_>>()
         };
         let builders: Vec<_> = (0..processors).map(|_| scope.spawn(work)).collect();
-        // One that panics has said so.
+        // A thread that panics has reported it.
         builders.into_iter().flat_map(|builder| builder.join().unwrap_or_default()).collect()
     });
     let seconds = [start.elapsed(), start_cpu.elapsed()].map(|time| time.as_secs_f64());

@@ -58,7 +58,7 @@ pub fn run(folder: &Path) -> Result<()> {
     output::write(&png, &picture::png("Overhear: assets/groove.mid", &left, &right, RATE)?)?;
     step(5, "taking pictures of the editor");
     let shots = folder.join("demo-shots");
-    // A machine that only renders has no use for a display, and its groove is none the worse.
+    // A machine that only renders needs no display; the groove does not depend on it.
     let looked = system::ensure(&[XVFB, WINDOW_LIBRARIES])
         .and_then(|()| shots::run(&shots::Aim::Glance(shots.clone()), Some(clap.clone())));
     report(&take, [live, busy_share(&take, &played)], &played, &levels, [&wav, &png, &clap]);

@@ -96,7 +96,7 @@ fn set_up(instance: &mut Instance, setup: &Setup) -> Result<()> {
     let mut values = BTreeMap::new();
     if setup.kit != KitDocument::standard() {
         host::set_kit(instance, &setup.kit).context("does not take the kit")?;
-        // Those it has so far are the standard kit's.
+        // So far the plugin has the parameters of the standard kit.
         values.extend((0..COUNT).map(|index| (index, parameters::default_value(index, kit))));
     }
     values.extend(setup.settings.iter().copied());

@@ -178,10 +178,10 @@ mod tests {
             assert_eq!(piece.features.len(), reference::figures("rack-tom").len());
             assert!(piece.features.iter().all(|row| row.values.len() == 2));
             assert!(piece.features.iter().filter(|row| row.values[0].is_some()).count() > 12);
-            // The soft stroke is no stroke that the goals are about.
+            // The goals do not count the soft stroke.
             assert_eq!(piece.firm.of, piece.features.len());
         }
-        // What the microphone over the rim hears is not what the overheads add up to.
+        // The sound at the microphone over the rim differs from that at the overheads.
         assert_ne!(report.pieces[0].features[0].values, report.pieces[1].features[0].values);
         assert!(report.to_string().contains("rack-tom"));
     }

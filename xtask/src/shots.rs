@@ -180,7 +180,7 @@ fn take(
     pass(instance, shot.wait * zoom);
     let png = window.png()?;
     instance.close_editor()?;
-    // The window goes after what is in it.
+    // The window must be destroyed after the editor in it.
     drop(window);
     Ok(png)
 }
@@ -234,7 +234,7 @@ fn play(
         }
         buffer(&mut || processor.process(&events, &mut left, &mut right))?;
         due += length;
-        // What is late is not caught up with: a picture needs no steady sound.
+        // Late buffers are not made up: a picture needs no continuous sound.
         let now = Instant::now();
         due = due.max(now);
         thread::sleep(due - now);

@@ -128,7 +128,7 @@ impl TimeBase {
             Timing::Timecode(fps, subframes) => {
                 let subframes = u128::from(subframes);
                 match fps.as_int() {
-                    // What is called 29 is 30000 / 1001 frames a second.
+                    // The code 29 means 30000 / 1001 frames a second.
                     29 => (30_000 * subframes, Some(1001)),
                     whole => (u128::from(whole) * subframes, Some(1)),
                 }
@@ -165,7 +165,7 @@ fn read_track(number: usize, bytes: &[u8]) -> Result<Vec<TrackEvent>, String> {
         read += source.len();
         tick += u64::from(event.delta.as_int());
         let what = match event.kind {
-            // A velocity of nothing is another way to end a note.
+            // A note-on with velocity 0 ends a note.
             TrackEventKind::Midi { channel, message: MidiMessage::NoteOn { key, vel } } if vel > 0 => {
                 What::Note { channel: channel.as_int(), key: key.as_int(), velocity: vel.as_int() }
             }

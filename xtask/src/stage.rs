@@ -16,7 +16,7 @@ const LOWEST: f64 = 1.4;
 /// # Errors
 /// [`BadInput`](crate::error::BadInput) with what was given and what is accepted.
 pub fn place(mut kit: KitSpec, places: &[String]) -> Result<KitSpec> {
-    // A piece may be moved after its microphone was put somewhere.
+    // A piece may be moved after its microphone was placed.
     let mut microphones = Vec::new();
     for text in places {
         put(&mut kit, text, &mut microphones)?;

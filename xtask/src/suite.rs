@@ -40,7 +40,7 @@ pub fn run() -> Result<()> {
     let mut clippy = workspace::cargo();
     clippy.args(["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]);
     check(&mut tally, "lints", &mut clippy);
-    // By themselves: their allocator and the framework's exclude each other.
+    // A separate run: their allocator and the framework's exclude each other.
     let traps = ["--package", "overhear-tests", "--features", "traps", "--test", "process", "--test", "fuzz"];
     let mut clippy = workspace::cargo();
     clippy.arg("clippy").args(traps).args(["--", "-D", "warnings"]);

@@ -44,7 +44,7 @@ pub fn attack_ms(shot: &OneShot) -> Option<f64> {
         let level = (share * greatest).powi(2);
         let after = envelope.iter().position(|&power| power >= level)?;
         let before = after.checked_sub(1).map_or(0.0, |n| envelope[n]);
-        // Between samples, as the power goes.
+        // Interpolated between samples, by the power.
         Some(after as f64 - (envelope[after] - level) / (envelope[after] - before).max(f64::MIN_POSITIVE))
     };
     Some((reaches(0.9)? - reaches(0.1)?) / shot.rate * 1000.0)

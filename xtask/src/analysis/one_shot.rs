@@ -33,7 +33,7 @@ impl OneShot {
         }
         let first = samples.iter().position(|sample| sample.abs() >= ONSET_SHARE * peak)?;
         let onset = (LEAD * rate) as usize;
-        // What is before the beginning is part of the sound, and kept as far as there is room.
+        // The part before the beginning belongs to the sound and is kept as far as there is room.
         let kept = first.min(onset);
         let mut padded = vec![0.0; onset - kept];
         padded.extend_from_slice(&samples[first - kept..]);

@@ -74,7 +74,7 @@ impl Measurement {
         let samples = &sound.samples;
         let spectrum = Spectrum::of_onset(samples, rate, ONSET);
         let strongest = spectrum.strongest();
-        // A stroke that never touched measured nothing.
+        // A stroke without a contact has no measurement.
         let touched = (sound.contact.touches > 0).then_some(sound.contact);
         let measured = |figure: fn(&StrikeSnapshot) -> f32| {
             touched.map(|contact| exact(figure(&contact))).filter(|figure| figure.is_finite())

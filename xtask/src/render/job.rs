@@ -86,7 +86,7 @@ impl Job {
             files.extend(stems.render(&take, style, progress(format!("{name}, stems")))?);
         }
         let stems = files.len() - 1;
-        // All are whole before any gets its name.
+        // All files are complete before any of them is renamed.
         let clipped = files.into_iter().map(WavFile::finish).sum::<Result<u64>>()?;
         Ok(Report {
             output: self.output.clone(),

@@ -341,7 +341,7 @@ fn fine_step(sheet: &mut Sheet, name: &str, (spec, on): (&PieceSpec, &'static st
 fn pulse(spec: &PieceSpec, strike: &Strike, rate: f64) -> Vec<(f64, f64)> {
     let mut piece = at_rate(spec, rate);
     piece.strike(strike);
-    // What a trace holds without putting samples together: less than its steps.
+    // Longest sound that a trace holds without merging samples: fewer samples than its steps.
     render(&mut piece, 90.0 / rate, rate);
     let trace = piece.last_strike().force;
     let points = trace.steps.iter().enumerate().take(90);

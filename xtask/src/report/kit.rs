@@ -204,7 +204,7 @@ fn delays(sheet: &mut Sheet) -> Result<()> {
     let ways = pairs.filter_map(|(from, to)| Some((way(from, to)?, [from, to])));
     let (shortest, ends) = ways.min_by(|a, b| a.0.total_cmp(&b.0)).context("the kit has not two drums")?;
     let [from, to] = ends.map(|slot| name(&spec, slot));
-    // Reading between samples needs one that is newer.
+    // Interpolation needs one newer sample.
     let samples = (shortest / SPEED_OF_SOUND * RATE).floor() as usize - 1;
     sheet.claim(Claim {
         what: "shortest delay between drums".to_owned(),

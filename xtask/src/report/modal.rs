@@ -109,7 +109,7 @@ pub fn page() -> Result<Page> {
 fn two_pole_error(hz: f64) -> f64 {
     let coefficient = (2.0 * (TAU * hz / RATE).cos()) as f32;
     let heard = (0.5 * f64::from(coefficient)).clamp(-1.0, 1.0).acos() * RATE / TAU;
-    // What cannot be told from standing still is as far off as the plot goes.
+    // A mode that does not measurably move has the largest error of the plot.
     if heard > 0.0 { cents(heard, hz) } else { 100.0 }
 }
 
@@ -241,7 +241,7 @@ pub fn worst_deflection(name: &str) -> f64 {
     surface.shapes().fill(0.37, 0.8, port.shape_mut());
     let body = surface.body_mut();
     body.connect(&mut port);
-    // Laid on slowly, so that little is left to ring.
+    // Applied slowly, so that little ringing remains.
     let (ramp, hold) = (4 * RATE as usize, 2 * RATE as usize);
     for sample in 0..ramp + hold {
         let share = (sample as f64 / ramp as f64).min(1.0);
@@ -254,7 +254,7 @@ pub fn worst_deflection(name: &str) -> f64 {
         let shape = f64::from(port.shape()[k]);
         let own = shape * FORCE / (mode.mass * mode.omega.powi(2));
         exact += shape * own;
-        // A mode whose node lies there has nothing to measure.
+        // A mode with a node there cannot be measured.
         if shape.abs() > 0.01 {
             worst = worst.max((f64::from(body.displacement(k)) / own - 1.0).abs());
         }

@@ -42,7 +42,7 @@ pub fn page() -> Result<Page> {
         pace,
         wav: None,
     };
-    // What the mix hears of the middle place, by piece and speed.
+    // Sound of the mix at the middle position, by piece and speed.
     let heard: Mutex<BTreeMap<(&str, u64), Vec<f32>>> = Mutex::default();
     let report =
         realism::run_and_show(&request(realism::subjects(&[])?, Pace::Offline), &|job, [_, mix]| {

@@ -88,7 +88,7 @@ pub fn here(plugin: &Path) -> Result<()> {
             let (ringing, frames) = beside_window(instance, page, |instance, window| {
                 Ok((count(instance, &before, Some(&notes))?, frames(instance, window, &notes)?))
             })?;
-            // A window that has stopped costs nothing, and that is not what is asked.
+            // A window that has stopped costs nothing; the measurement would be meaningless.
             ensure!(frames > 1.0, "the window draws {frames:.1} frames a second of the {} page", page.name);
             println!("{}", row(page, &resting, &ringing, frames));
         }
@@ -131,7 +131,7 @@ fn beside_window<T>(
     let window = open(instance, page)?;
     let done = work(instance, &window);
     instance.close_editor()?;
-    // The window goes after what is in it.
+    // The window must be destroyed after the editor in it.
     drop(window);
     done
 }
@@ -162,7 +162,7 @@ fn count(
     notes: Option<&Sender<(u8, f32)>>,
 ) -> Result<Shares> {
     if notes.is_some() {
-        // What begins to ring is counted once it does.
+        // Count only after the kit rings.
         groove(instance, notes, Duration::from_secs(2))?;
     }
     let (first, begun) = (times()?, Instant::now());
@@ -217,7 +217,7 @@ fn beside(instance: &mut Instance, meter: &Meter, notes: &Sender<(u8, f32)>) -> 
     let mut ratios = [Vec::new(), Vec::new()];
     for pair in 0..PAIRS {
         let mut took = [[0.0; 2]; 2];
-        // Whoever comes second finds the processor warm: they take turns.
+        // The second measurement finds the processor warm, so both alternate.
         for turn in [pair % 2, 1 - pair % 2] {
             took[turn] = match turn {
                 0 => audio_time(instance, meter, notes)?,

@@ -53,9 +53,9 @@ impl HostWindow {
             &plain,
         )?;
         connection.map_window(window)?;
-        // Into the farthest corner: what is under a pointer looks different.
+        // Into the farthest corner, because widgets under a pointer look different.
         connection.warp_pointer(x11rb::NONE, root, 0, 0, 0, 0, i16::MAX, i16::MAX)?;
-        // A round trip: the window is there when the editor looks for it.
+        // A round trip to the server, so that the window exists when the editor looks for it.
         connection.get_input_focus()?.reply()?;
         Ok(HostWindow { connection, window, size })
     }
