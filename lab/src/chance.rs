@@ -46,7 +46,7 @@ impl Chance {
         low + (high - low) * self.unit()
     }
 
-    /// Whether something happens that does so with this probability, 0 to 1.
+    /// True with this probability, 0 to 1.
     pub fn happens(&mut self, probability: f64) -> bool {
         self.unit() < probability
     }

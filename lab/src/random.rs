@@ -23,7 +23,7 @@ pub const RATE: f64 = 44_100.0;
 /// Farthest that a number is moved from the standard kit's, a factor.
 const FACTOR: f64 = 3.0;
 
-/// How often a number is at an end of its range instead.
+/// Probability that a number is at an end of its range instead.
 const EXTREME: f64 = 0.02;
 
 /// Highest mode of a plate, Hz.

@@ -49,7 +49,7 @@ const MOST_BUILDERS: usize = 4;
 /// Runs if not given.
 pub const RUNS: usize = 7;
 
-/// What to measure.
+/// Request for a measurement.
 #[derive(Debug, Clone)]
 pub struct Request {
     /// A file of the kit; the standard kit if none is named.
@@ -141,7 +141,7 @@ fn scenes(document: &KitDocument, quality: Quality) -> Vec<Scene> {
     scenes
 }
 
-/// What it takes to have a kit.
+/// Costs of building a kit.
 #[derive(Debug, Clone, Copy, Default, Serialize)]
 pub struct Builds {
     /// All that makes sound of an instance, without pieces, s.
@@ -154,9 +154,9 @@ pub struct Builds {
     pub build_warm_s: f64,
     /// CPU seconds of all processors for these three, in their order: what other work on the machine adds least to.
     pub build_cpu_s: [f64; 3],
-    /// What the process holds after the first, in MB.
+    /// Memory of the process after the first, in MB.
     pub memory_mb: f64,
-    /// What the machine can do, and what a ringing kit asks for.
+    /// The machine's limit, and the demand of a ringing kit.
     pub limit: Option<Limit>,
 }
 

@@ -138,7 +138,7 @@ pub fn install() -> Result<Vec<PathBuf>> {
         .collect()
 }
 
-/// Where hosts look for the user's plugins of a format.
+/// The user's plugin folder of a format.
 ///
 /// # Errors
 /// If the system does not say where the user's files are.

@@ -117,7 +117,7 @@ fn busy_share(take: &Take, played: &Played) -> f64 {
     played.busy.as_secs_f64() / seconds(take)
 }
 
-/// What playing a take live takes of one core: processor time of the thread that plays, a share of the take's length.
+/// Share of one core for playing a take live: processor time of the playing thread over the take's length.
 fn live_share(take: &Take, style: &Style) -> Result<f64> {
     let mut player = EnginePlayer::at_pace(&style.setup(), Pace::RealTime)?;
     let mut progress = Progress::new("the groove, live", take.frames);

@@ -25,7 +25,7 @@ pub fn exit_code(error: &anyhow::Error) -> u8 {
     if error.is::<BadInput>() || error.is::<BadFiles>() { 2 } else { 1 }
 }
 
-/// What is printed of an error: a line, or one for each of several bad files.
+/// The printed text of an error: one line, or one for each of several bad files.
 pub fn lines(error: &anyhow::Error) -> Vec<String> {
     match error.downcast_ref() {
         Some(BadFiles(lines)) => lines.clone(),

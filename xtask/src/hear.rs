@@ -25,13 +25,13 @@ use crate::wav::{Bits, WavFile};
 
 pub use measure::Measurement;
 
-/// Speed of a stroke that is not told otherwise, m/s: a firm but ordinary one.
+/// Default speed of a stroke, m/s: firm but ordinary.
 pub const DEFAULT_SPEED: f64 = 4.0;
 
 /// The slot of a piece that is a kit by itself.
 pub const ALONE: Slot = Slot::ALL[0];
 
-/// How long controls are given to arrive before the stroke, s.
+/// Time for controls to settle before the stroke, s.
 const SETTLING: f64 = 0.5;
 
 /// One stroke as asked for.
@@ -91,11 +91,11 @@ pub struct Sound {
     pub energy_peak: f64,
     /// Energy of the piece at the end, J.
     pub energy_end: f64,
-    /// What the contact measured.
+    /// Measurements of the contact.
     pub contact: StrikeSnapshot,
-    /// What the snare wires did.
+    /// Motion of the snare wires.
     pub wires: WireSnapshot,
-    /// What a hi-hat's rims did.
+    /// Motion of a hi-hat's rims.
     pub rims: RimSnapshot,
 }
 

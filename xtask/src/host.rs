@@ -26,7 +26,7 @@ pub use instance::{AudioPort, Instance, NotePort, ParameterInfo};
 pub use processor::{Processor, Touch};
 pub use state::{set_kit, with_fields};
 
-/// What a plugin says of itself.
+/// A plugin's description of itself.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Descriptor {
     /// Unique id.

@@ -27,7 +27,7 @@ pub struct Modes {
 /// One mode.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Mode {
-    /// What vibrates.
+    /// The vibrating body.
     pub body: &'static str,
     /// Nodal diameters.
     pub m: u32,

@@ -34,17 +34,17 @@ pub use ears::Ear;
 pub use report::{Count, PieceReport, Report, Row, Stroke};
 pub use subject::{SUBJECTS, Subject, subjects};
 
-/// Speeds of the strokes unless told otherwise, m/s: soft, medium, hard.
+/// Default speeds of the strokes, m/s: soft, medium, hard.
 pub const SPEEDS: [f64; 3] = [1.5, 3.0, 5.0];
 
 /// Sample rate, Hz.
 pub const RATE: u32 = 48_000;
 
-/// How long drums and cymbals are heard, s: until each octave has fallen by more than 25 dB.
+/// Recorded length of drums and cymbals, s: until each octave has fallen by more than 25 dB.
 const DRUM_SECONDS: f64 = 4.0;
 const CYMBAL_SECONDS: f64 = 8.0;
 
-/// What to measure.
+/// Request for a measurement.
 #[derive(Debug, Clone)]
 pub struct Request {
     /// The pieces, as they were recorded.
@@ -55,7 +55,7 @@ pub struct Request {
     pub kit: KitDocument,
     /// Parameters that are not at their default.
     pub settings: Vec<Setting>,
-    /// Whether the kit is bounced or played, which is what its cymbals' quality goes by.
+    /// Whether the kit is bounced or played live; this selects the quality of its cymbals.
     pub pace: Pace,
     /// A folder to keep the sounds in.
     pub wav: Option<PathBuf>,
@@ -64,7 +64,7 @@ pub struct Request {
 /// One stroke of a subject.
 #[derive(Debug, Clone, Copy)]
 pub struct Job {
-    /// What is struck.
+    /// The struck subjects.
     pub subject: Subject,
     /// Its slot.
     pub slot: Slot,

@@ -57,7 +57,7 @@ pub const PAGES: [(&str, Measure); 14] = [
     ("cost", cost::page),
 ];
 
-/// Where the pages belong.
+/// Default folder of the pages.
 pub fn folder() -> PathBuf {
     workspace::root().join("docs/report")
 }

@@ -76,7 +76,7 @@ pub fn choose(preset: &str, file: Option<&Path>, assignments: &[String]) -> Resu
     Ok(Chosen { kit, settings })
 }
 
-/// What a preset moves of a kit's parameters from where they are by themselves.
+/// Parameters of a kit that a preset changes from their defaults.
 pub fn moved(preset: &Preset, kit: &KitSpec) -> Vec<Setting> {
     let mut values = preset.values_at(kit);
     values.retain(|&(index, value)| value != parameters::default_value(index, kit));

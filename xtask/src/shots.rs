@@ -74,14 +74,14 @@ const SHOTS: &[Shot] = &[
     shot("settings", 5, "snare", &[], 400),
 ];
 
-/// What is done with the editor.
+/// Task for the editor.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Aim {
     /// Every picture is taken and written to a folder.
     Pictures(PathBuf),
     /// The same in the dark palette at 1x only.
     Glance(PathBuf),
-    /// What it costs is counted and printed.
+    /// Measure and print its cost.
     Cost,
 }
 
@@ -211,7 +211,7 @@ fn with_view(state: &[u8], shot: &Shot, (light, zoom): (bool, u32), size: [u32; 
     })
 }
 
-/// Plays in real time what is sent, until nobody sends any more; each buffer as `buffer` has it done.
+/// Plays the events that are sent, in real time, until the channel closes; `buffer` processes each buffer.
 fn play(
     processor: &mut Processor,
     notes: &Receiver<(u8, f32)>,

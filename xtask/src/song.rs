@@ -40,7 +40,7 @@ pub struct Note {
 pub struct Song {
     /// Notes by time; those at one time in the order of the tracks and of the file.
     pub notes: Vec<Note>,
-    /// How many units of [`Note::time`] make a second.
+    /// Units of [`Note::time`] per second.
     pub unit: u128,
 }
 
@@ -59,7 +59,7 @@ impl Song {
     /// Reads the bytes of a MIDI file.
     ///
     /// # Errors
-    /// What is broken, in a few words.
+    /// The defect, in a few words.
     pub fn parse(bytes: &[u8]) -> Result<Song, String> {
         let Chunks { timing, sequential, tracks } = Chunks::parse(bytes)?;
         let base = TimeBase::new(timing)?;
@@ -112,7 +112,7 @@ impl Song {
     }
 }
 
-/// How ticks become time.
+/// Conversion of ticks to time.
 struct TimeBase {
     /// Units in a second.
     unit: u128,

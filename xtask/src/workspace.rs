@@ -71,7 +71,7 @@ pub fn target_dir() -> Result<PathBuf> {
     Ok(PathBuf::from(folder))
 }
 
-/// Where `bundle` leaves a bundle inside a target folder.
+/// Path of a bundle inside a target folder.
 pub fn bundle_in(target_dir: &Path, format: Format) -> PathBuf {
     target_dir.join("bundled").join(format.bundle_file())
 }

@@ -16,7 +16,7 @@ const ATTACK_WITHIN: f64 = 1.0;
 /// The click is what lies above this, Hz.
 const CLICK_HZ: f64 = 2000.0;
 
-/// How long the click lasts, and what it is compared with, s.
+/// Length of the click, and of the sound it is compared with, s.
 const CLICK: [f64; 2] = [0.006, 0.05];
 
 /// The crest is that of so much of the sound, s.

@@ -7,7 +7,7 @@ use super::calibration::{Calibration, SLICES};
 use super::workload::Workload;
 use crate::progress::Progress;
 
-/// What a scene costs, over the runs.
+/// Cost of a scene, over the runs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cost {
     /// CPU seconds per second of sound, median.

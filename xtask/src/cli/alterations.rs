@@ -9,7 +9,7 @@ use overhear_engine::kit_spec::{Defaults, InstrumentSpec, KitSpec, PieceSpec};
 use super::arguments::{angle, number};
 use crate::bad_input;
 
-/// What is changed of a piece's description.
+/// Changes to a piece's description.
 #[derive(Debug, Default, Args)]
 pub struct Alterations {
     /// Turn all damping and radiation off

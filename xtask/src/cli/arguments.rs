@@ -118,7 +118,7 @@ pub enum Task {
     },
 }
 
-/// What to do with kits.
+/// Tasks for kits.
 #[derive(Debug, Subcommand)]
 pub enum KitTask {
     /// Print the complete file of a kit; default: the standard kit
@@ -146,7 +146,7 @@ pub enum KitTask {
     },
 }
 
-/// What to do with presets; without anything they are listed.
+/// Tasks for presets; by default they are listed.
 #[derive(Debug, Subcommand)]
 pub enum PresetTask {
     /// Print a preset's file
@@ -242,7 +242,7 @@ pub struct RenderArguments {
 }
 
 impl RenderArguments {
-    /// What is asked for.
+    /// The request of these arguments.
     ///
     /// # Errors
     /// [`BadInput`](crate::error::BadInput) for a kit or a parameter that is not one.
@@ -339,7 +339,7 @@ pub struct HearArguments {
 }
 
 impl HearArguments {
-    /// What is asked for.
+    /// The request of these arguments.
     ///
     /// # Errors
     /// [`BadInput`](crate::error::BadInput) for a name or a parameter that is not one.
@@ -443,7 +443,7 @@ pub struct RealismArguments {
 }
 
 impl RealismArguments {
-    /// What is asked for.
+    /// The request of these arguments.
     ///
     /// # Errors
     /// [`BadInput`](crate::error::BadInput) for a piece that was not recorded.
@@ -489,7 +489,7 @@ pub struct BenchArguments {
 }
 
 impl BenchArguments {
-    /// What is asked for.
+    /// The request of these arguments.
     pub fn into_request(self) -> bench::Request {
         bench::Request {
             kit: self.kit,

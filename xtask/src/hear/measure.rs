@@ -59,7 +59,7 @@ pub struct Measurement {
     pub rim_last_lift_s: Option<f64>,
     /// Kinetic energy of the arriving striker, J.
     pub striker_energy_in_j: f64,
-    /// What the striker took away: its flight, its bending, the head right under it, J.
+    /// Energy that the striker took away: its motion, its bending, the head right under it, J.
     pub striker_energy_out_j: f64,
     /// Greatest energy of the piece, J.
     pub energy_peak_j: f64,

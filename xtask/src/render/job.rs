@@ -26,7 +26,7 @@ pub struct Job {
     pub stems: Option<PathBuf>,
 }
 
-/// What came of a job, in a line.
+/// Result of a job, in one line.
 #[derive(Debug, Clone)]
 pub struct Report {
     output: PathBuf,

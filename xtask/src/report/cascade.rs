@@ -45,7 +45,7 @@ const COUNTED: f64 = 2000.0;
 /// Modes of the stand come first and are not counted.
 const RIGID: usize = 3;
 
-/// What one stroke does.
+/// Measurements of one stroke.
 struct Course {
     on: &'static str,
     tier: &'static str,
@@ -186,7 +186,7 @@ fn mean_frequency(piece: &mut Piece) -> f64 {
     weighted / sum
 }
 
-/// What a hard stroke has to do, and a soft or a linear one must not.
+/// Requirements for hard strokes, and for soft and linear ones.
 fn claims(sheet: &mut Sheet, courses: &[Course], blooms: &[Bloom]) {
     for on in [PLAYED, CAP] {
         let of_body: Vec<&Course> = courses.iter().filter(|course| course.on == on).collect();

@@ -250,7 +250,7 @@ fn energy(sheet: &mut Sheet) {
     }
 }
 
-/// What is measured of one stroke.
+/// Measurements of one stroke.
 struct Measured {
     strike: StrikeSnapshot,
     spectrum: Spectrum,
@@ -275,7 +275,7 @@ fn third_octaves() -> impl Iterator<Item = Range<f64>> {
     })
 }
 
-/// How far a stroke at a host's rate is from the same at 176.4 kHz.
+/// Errors of a stroke at a host's rate against the same at 176.4 kHz.
 #[derive(Debug, Clone, Copy)]
 pub struct Coarse {
     /// Sample rate, Hz.

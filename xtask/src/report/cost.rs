@@ -120,7 +120,7 @@ fn text<'a>(report: &'a Value, key: &str) -> &'a str {
     report.get(key).and_then(Value::as_str).unwrap_or("")
 }
 
-/// Every piece by itself: a table and a plot, costs in calibrations.
+/// Every piece alone: a table and a plot, costs in calibrations.
 fn pieces(sheet: &mut Sheet, report: &Value) -> Result<()> {
     sheet.heading("The pieces");
     sheet.text("Each piece alone, the second after a stroke of 6 m/s, calibrations.");

@@ -51,7 +51,7 @@ pub fn page() -> Result<Page> {
 /// A cymbal, and what it is called.
 struct Body(PieceSpec, &'static str);
 
-/// Whether nothing is gained or lost without losses.
+/// Energy conservation without losses.
 fn energy(sheet: &mut Sheet, Body(crash, on): &Body) {
     for (speed, tolerance) in [(0.3, 1e-3), (25.0, 5e-3)] {
         let drift = energy_drift(crash, speed);
@@ -66,7 +66,7 @@ fn energy(sheet: &mut Sheet, Body(crash, on): &Body) {
     }
 }
 
-/// What a thousand hard strokes leave.
+/// Drift after a thousand hard strokes.
 fn endurance(sheet: &mut Sheet, Body(splash, on): &Body) {
     let (off, drift) = many_hard_strokes(splash, STROKES);
     sheet.claim(Claim {

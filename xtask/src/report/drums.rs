@@ -69,7 +69,7 @@ fn built(piece: &PieceSpec) -> overhear_engine::piece::Piece {
     build(piece, &BuildOptions::new(RATE))
 }
 
-/// What the contact of one stroke on a piece by itself measures.
+/// Measurements of the contact of one stroke on a single piece.
 pub fn measured(piece: &PieceSpec, strike: &Strike) -> StrikeSnapshot {
     let mut piece = built(piece);
     piece.strike(strike);
@@ -167,7 +167,7 @@ fn leaving(sheet: &mut Sheet) {
     });
 }
 
-/// What a pillow takes from a kick's boom, dB.
+/// Attenuation of a kick's boom by a pillow, dB.
 pub fn pillow_db() -> f64 {
     let boom = |muffling: f64| {
         let mut kick = piece("kick", RATE);

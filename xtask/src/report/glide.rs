@@ -83,7 +83,7 @@ pub fn one_headed() -> PieceSpec {
     altered(reference::fixed_disc_floor_tom(), DrumSpec::opened)
 }
 
-/// How a drum glides.
+/// Pitch glide of a drum.
 struct Glides {
     /// Its own pitch, Hz.
     pitch: f64,
@@ -121,7 +121,7 @@ impl Glides {
         self.by_speed.iter().find(|(other, _)| *other == speed).map_or(f64::NAN, |(_, cents)| *cents)
     }
 
-    /// What holds of every drum.
+    /// Claims for every drum.
     fn claims(&self, sheet: &mut Sheet, on: &'static str, heads: &str) {
         let (pitch, own) = (self.pitch, self.at(4.0));
         sheet.claim(Claim {

@@ -126,7 +126,7 @@ pub fn centre_rejection(name: &str) -> f64 {
     decibels(largest(true), largest(false).max(1e-30))
 }
 
-/// What is heard of a stroke, and the modes in vacuum and in air.
+/// Spectrum of a stroke, and the modes in vacuum and in air.
 fn spectrum() -> Result<Plot<'static>> {
     let mut timpani = round_piece("timpani", RATE);
     timpani.strike(&stroke(Striker::TimpaniMallet, 2.0, 0.75, 0.0));

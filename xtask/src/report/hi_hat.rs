@@ -85,7 +85,7 @@ pub fn struck(hat: &mut Piece, pedal: f64, speed: f64) -> Struck {
     Struck { sound, landings }
 }
 
-/// How a stroke with the pedal held dies away.
+/// Decay of a stroke with the pedal held.
 #[derive(Debug, Clone)]
 pub struct Decay {
     /// Of the octaves from 500 Hz to 8 kHz, s.

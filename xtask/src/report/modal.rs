@@ -23,7 +23,7 @@ use super::{Claim, Page, Sheet};
 
 const RATE: f64 = 44_100.0;
 
-/// How long modes are followed, s.
+/// Time for which modes are followed, s.
 const SECONDS: f64 = 8.0;
 
 /// Zeros `j_mn` (dimensionless), of which a head's lowest modes in vacuum are multiples. Abramowitz & Stegun, table
@@ -135,9 +135,9 @@ const LOOK: usize = 2048;
 /// One mode of a piece left to ring, against what the piece says of it.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Rung {
-    /// How far above its frequency it rang, cents.
+    /// Frequency error, cents.
     pub off: f64,
-    /// How much faster than said it decayed, 1/s.
+    /// Error of the decay rate, 1/s.
     pub sigma: f64,
     /// Turns it was followed for, periods being the unit.
     pub turns: f64,

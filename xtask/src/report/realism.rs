@@ -16,7 +16,7 @@ use crate::picture;
 use crate::realism::reference::SLOPE_WITHIN;
 use crate::realism::{self, Count, Ear, PieceReport, RATE, Report, SPEEDS, SUBJECTS, Subject};
 
-/// Where the figures of recordings come from.
+/// Source of the figures of recordings.
 const RECORDINGS: &str = "3,123 recorded strokes";
 
 /// The page.

@@ -50,7 +50,7 @@ pub fn page() -> Result<Page> {
     Ok(sheet.finish())
 }
 
-/// How a snare's controls are set.
+/// Settings of a snare's controls.
 #[derive(Debug, Clone, Copy)]
 struct Controls {
     /// Pitch, Hz.
@@ -107,7 +107,7 @@ fn preloads(snare: &PieceSpec) -> [f64; 3] {
     [*PRELOAD.start(), Controls::own(snare).preload, *PRELOAD.end()]
 }
 
-/// What wires do beside landing.
+/// Other measurements of the wires.
 fn wires(sheet: &mut Sheet, snare: &PieceSpec, on: &'static str) {
     let mut claim = |what: String, figure: String, reference: &str, met: bool| {
         let reference = reference.to_owned();

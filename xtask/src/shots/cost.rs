@@ -101,7 +101,7 @@ pub fn here(plugin: &Path) -> Result<()> {
 /// Processor time of the audio thread: what the plugin took, and the calibration slices between its buffers, s.
 #[derive(Default)]
 struct Meter {
-    /// Behind a lock, as whoever measures waits for nobody's deadline.
+    /// Behind a lock: the measuring thread has no deadline.
     taken: Mutex<[f64; 2]>,
 }
 
@@ -116,7 +116,7 @@ impl Meter {
         Ok(())
     }
 
-    /// What has been counted so far.
+    /// Counts so far.
     fn taken(&self) -> Result<[f64; 2]> {
         Ok(*self.taken.lock().map_err(|_| anyhow!("the audio thread died"))?)
     }
@@ -249,7 +249,7 @@ fn audio_time(instance: &mut Instance, meter: &Meter, notes: &Sender<(u8, f32)>)
     Ok([after[0] - before[0], after[1] - before[1]])
 }
 
-/// What every thread of this process has taken so far.
+/// Processor time of every thread of this process so far.
 fn times() -> Result<Times> {
     let tasks = std::fs::read_dir("/proc/self/task").context("the system does not list its threads")?;
     let one = |folder: &Path| {

@@ -84,7 +84,7 @@ impl HostWindow {
         Ok(pixels.chunks_exact(3).map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect::<HashSet<_>>().len())
     }
 
-    /// What is seen, as a PNG.
+    /// A screenshot as PNG.
     ///
     /// # Errors
     /// If the display does not tell.
@@ -92,7 +92,7 @@ impl HostWindow {
         picture::encode(&self.pixels()?, (u32::from(self.size.0), u32::from(self.size.1)))
     }
 
-    /// What is seen, row by row: red, green, blue.
+    /// A screenshot, row by row: red, green, blue.
     ///
     /// # Errors
     /// If the display does not tell.

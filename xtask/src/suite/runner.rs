@@ -5,7 +5,7 @@ use std::io::{BufRead, BufReader};
 use std::process::{Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
-/// What came of everything so far.
+/// Results so far.
 #[derive(Debug, Default)]
 pub struct Tally {
     /// Tests and checks that passed.
