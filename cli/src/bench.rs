@@ -48,7 +48,7 @@ const MOST_BUILDERS: usize = 4;
 /// Runs if not given.
 pub const RUNS: usize = 7;
 
-/// What to measure.
+/// Request for a measurement.
 #[derive(Debug, Clone)]
 pub struct Request {
     /// A file of the kit; the standard kit if none is named.
@@ -123,7 +123,7 @@ fn scenes(document: &KitDocument, quality: Quality) -> Vec<Scene> {
     scenes
 }
 
-/// What it takes to have a kit.
+/// Costs of building a kit.
 #[derive(Debug, Clone, Copy, Default, Serialize)]
 pub struct Builds {
     /// All that makes sound of an instance, without pieces, s.
@@ -136,9 +136,9 @@ pub struct Builds {
     pub build_warm_s: f64,
     /// CPU seconds of all processors for these three, in their order: what other work on the machine adds least to.
     pub build_cpu_s: [f64; 3],
-    /// What the process holds after the first, in MB.
+    /// Memory of the process after the first, in MB.
     pub memory_mb: f64,
-    /// What the machine can do, and what a ringing kit asks for.
+    /// The machine's limit, and the demand of a ringing kit.
     pub limit: Option<Limit>,
 }
 
@@ -154,14 +154,14 @@ impl Builds {
         let ([build_warm_s, warm_cpu_s], _) = build(document, rate)?;
         let limit = Some(Limit::measure(&kit, rate));
         drop(kit);
-        // As the plugin keeps it; what an earlier process left has no part in it.
+        // As in the plugin; results of an earlier process are not used.
         let folder = std::env::temp_dir().join(format!("overhear-bench-{}", std::process::id()));
         overhear_engine::cache::provide(Box::new(FolderCache::new(&folder)));
         overhear_engine::cache::forget();
         build(document, rate)?;
         overhear_engine::cache::forget();
         let from_disk = build(document, rate);
-        // What is left in a folder for what is temporary harms nobody.
+        // Files left in a temporary folder do no harm.
         let _ = std::fs::remove_dir_all(&folder);
         let ([build_from_disk_s, disk_cpu_s], _) = from_disk?;
         let memory_mb = memory.physical_mem as f64 / 1e6;

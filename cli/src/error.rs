@@ -1,6 +1,6 @@
-//! What is wrong with what the user gave, as opposed to what went wrong on the way.
+//! Errors in the user's input, as opposed to failures while a command runs.
 //!
-//! Bad input ends a command with exit code 2, anything else that fails with 1.
+//! Bad input ends a command with exit code 2, any other failure with 1.
 
 pub use overhear_measure::error::BadInput;
 
@@ -14,7 +14,7 @@ pub fn exit_code(error: &anyhow::Error) -> u8 {
     if error.is::<BadInput>() || error.is::<BadFiles>() { 2 } else { 1 }
 }
 
-/// What is printed of an error: a line, or one for each of several bad files.
+/// The printed text of an error: one line, or one for each of several bad files.
 pub fn lines(error: &anyhow::Error) -> Vec<String> {
     match error.downcast_ref() {
         Some(BadFiles(lines)) => lines.clone(),

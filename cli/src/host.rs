@@ -26,7 +26,7 @@ pub use instance::{AudioPort, Instance, NotePort, ParameterInfo};
 pub use processor::{Processor, Touch};
 pub use state::{set_kit, with_fields};
 
-/// What a plugin says of itself.
+/// A plugin's description of itself.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Descriptor {
     /// Unique id.
@@ -62,7 +62,7 @@ impl Bundle {
         // names or has just built.
         let entry =
             unsafe { PluginEntry::load(&absolute) }.map_err(|error| not_a_bundle(&error.to_string()))?;
-        let factory = entry.get_plugin_factory().ok_or_else(|| not_a_bundle("it makes no plugins"))?;
+        let factory = entry.get_plugin_factory().ok_or_else(|| not_a_bundle("it contains no plugins"))?;
         let text = |text: Option<&std::ffi::CStr>| {
             text.map(|text| text.to_string_lossy().into_owned()).unwrap_or_default()
         };
@@ -78,7 +78,7 @@ impl Bundle {
             })
             .collect();
         if plugins.is_empty() {
-            return Err(not_a_bundle("it holds no plugin"));
+            return Err(not_a_bundle("it contains no plugin"));
         }
         let info = HostInfo::new("Overhear commands", "", "", env!("CARGO_PKG_VERSION"))
             .context("the host's own name")?;
@@ -104,7 +104,7 @@ impl Bundle {
     /// If there is none or it refuses.
     pub fn instantiate_id(&self, id: &str) -> Result<Instance> {
         let plugin = self.plugins.iter().find(|plugin| plugin.id.to_str() == Ok(id));
-        let plugin = plugin.with_context(|| format!("the bundle holds no {id}"))?;
+        let plugin = plugin.with_context(|| format!("the bundle contains no {id}"))?;
         Instance::new(&self.entry, &plugin.id, &self.info)
     }
 }

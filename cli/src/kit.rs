@@ -1,4 +1,4 @@
-//! `kit`: kits as files, shown, begun and checked; and the constants that were fitted.
+//! `kit`: shows, creates and checks kit files; lists the fitted constants.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -39,7 +39,7 @@ fn is_file(library: &Library, name: &str) -> bool {
 /// [`BadInput`](crate::error::BadInput) if there is such a file, or none can be made.
 pub fn new(file: &Path) -> Result<()> {
     if file.symlink_metadata().is_ok() {
-        return Err(bad_input!("`{}` is there already, accepted: a name for a new file", file.display()));
+        return Err(bad_input!("`{}` exists, accepted: the name of a new file", file.display()));
     }
     let name = file.file_stem().unwrap_or_default().to_string_lossy();
     output::write(file, kit_file::fresh(&name).as_bytes())

@@ -1,4 +1,4 @@
-//! `modes`: everything that vibrates in a piece.
+//! `modes`: every mode of a piece.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -27,7 +27,7 @@ pub struct Modes {
 /// One mode.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Mode {
-    /// What vibrates.
+    /// The vibrating body.
     pub body: &'static str,
     /// Nodal diameters.
     pub m: u32,

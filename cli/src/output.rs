@@ -1,4 +1,4 @@
-//! Files that appear whole or not at all.
+//! Files that are written completely or not at all.
 //!
 //! A [`Draft`] is written beside its target and takes the target's name in one step when it is
 //! finished; dropped before that, it leaves nothing behind.
@@ -25,7 +25,7 @@ impl Draft {
     /// [`BadInput`](crate::error::BadInput) if a file of that name cannot be made.
     pub fn new(target: &Path) -> Result<Draft> {
         let unusable = |reason: &str| bad_input!("cannot write `{}`: {reason}", target.display());
-        // Anything but a plain file is refused, lest a device or a folder be renamed over.
+        // Only plain files are accepted: renaming must not replace a device or a folder.
         let target = match fs::metadata(target) {
             Ok(metadata) if metadata.is_dir() => return Err(unusable("it is a folder")),
             Ok(metadata) if !metadata.is_file() => return Err(unusable("it is not a plain file")),
@@ -67,7 +67,7 @@ impl Draft {
 impl Drop for Draft {
     fn drop(&mut self) {
         if !self.finished {
-            // It may never have been made; there is nobody to tell.
+            // It may not exist; an error here has no receiver.
             let _ = fs::remove_file(&self.temporary);
         }
     }
@@ -97,7 +97,7 @@ impl Folder {
 impl Drop for Folder {
     fn drop(&mut self) {
         for folder in &self.made {
-            // Refused for a folder that holds something, which is what is wanted.
+            // Fails for a folder that is not empty, as intended.
             let _ = fs::remove_dir(folder);
         }
     }

@@ -1,4 +1,4 @@
-//! Who plays: the engine itself, or the built plugin in an embedded host.
+//! Players: the engine itself, or the built plugin in an embedded host.
 //!
 //! Both are given the same notes at the same samples and the same parameters from the start, and
 //! give the same samples, bit by bit.
@@ -45,7 +45,7 @@ pub trait Player {
     fn render(&mut self, hits: &[Hit], left: &mut [f32], right: &mut [f32]) -> Result<()>;
 }
 
-/// What plays.
+/// Source of the sound.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Source {
     /// The engine, through the performer the plugin uses.
@@ -54,7 +54,7 @@ pub enum Source {
     Clap(PathBuf),
 }
 
-/// How it is set up.
+/// Its settings.
 #[derive(Debug, Clone)]
 pub struct Setup {
     /// Sample rate, Hz.
@@ -96,7 +96,7 @@ fn set_up(instance: &mut Instance, setup: &Setup) -> Result<()> {
     let mut values = BTreeMap::new();
     if setup.kit != KitDocument::standard() {
         host::set_kit(instance, &setup.kit).context("does not take the kit")?;
-        // Those it has so far are the standard kit's.
+        // So far the plugin has the parameters of the standard kit.
         values.extend((0..COUNT).map(|index| (index, parameters::default_value(index, kit))));
     }
     values.extend(setup.settings.iter().copied());
@@ -110,9 +110,9 @@ fn set_up(instance: &mut Instance, setup: &Setup) -> Result<()> {
     instance.set_parameters(&values.into_iter().map(value).collect::<Result<Vec<_>>>()?)
 }
 
-/// The engine by itself.
+/// The engine alone.
 pub struct EnginePlayer {
-    /// Who plays it.
+    /// The performer that plays it.
     pub performer: Performer,
 }
 
@@ -202,7 +202,7 @@ impl Player for ClapPlayer<'_> {
     }
 }
 
-/// How a take is cut into buffers.
+/// Buffer sizes of a take.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Blocks {
     /// All of one length.
@@ -247,7 +247,7 @@ pub struct Take {
     pub frames: u64,
 }
 
-/// What came of playing a take.
+/// Result of playing a take.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Played {
     /// Greatest magnitude of a sample, full scale 1.

@@ -1,4 +1,4 @@
-//! `presets`: the presets there are, and what can be done with files of them.
+//! `presets`: lists presets and edits their files.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -77,7 +77,7 @@ pub fn check(library: &Library, files: &[PathBuf]) -> Result<String> {
     let count = results.len();
     let wrong: Vec<_> = results.into_iter().filter_map(|result| Some(result.err()?.to_string())).collect();
     if wrong.is_empty() {
-        Ok(format!("{count} presets are sound\n"))
+        Ok(format!("{count} presets are valid\n"))
     } else {
         Err(bad_input!("{}", wrong.join("; ")))
     }

@@ -1,4 +1,4 @@
-//! Progress on standard error, where somebody watches.
+//! Progress on standard error, if it is a terminal.
 
 use std::io::{IsTerminal, Write};
 use std::time::{Duration, Instant};
@@ -37,7 +37,7 @@ impl Progress {
             self.shown = Some(Instant::now());
             let percent = 100 * self.done.min(self.total) / self.total.max(1);
             eprint!("\r\x1b[K{}: {percent} %", self.label);
-            // Nobody is told if the terminal is gone.
+            // Errors of a closed terminal are ignored.
             let _ = std::io::stderr().flush();
         }
     }

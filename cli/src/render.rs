@@ -18,7 +18,7 @@ use crate::wav::Bits;
 
 pub use job::{Job, Report, decibels, takes};
 
-/// What to render, as asked for.
+/// A request to render.
 #[derive(Debug, Clone)]
 pub struct Request {
     /// MIDI files, and folders of them.
@@ -29,14 +29,14 @@ pub struct Request {
     pub stems: Option<PathBuf>,
     /// Files rendered at once; as many as there are cores by default.
     pub jobs: Option<usize>,
-    /// How each is played.
+    /// Style of playing.
     pub style: Style,
 }
 
-/// How a song is played and stored.
+/// How to play and store a song.
 #[derive(Debug, Clone)]
 pub struct Style {
-    /// What plays.
+    /// Source of the sound.
     pub source: Source,
     /// Sample rate, Hz.
     pub rate: u32,

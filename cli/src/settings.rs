@@ -1,4 +1,4 @@
-//! `--kit`, `--preset` and `--set name=value`: the kit a command plays and the parameters it moves.
+//! `--kit`, `--preset` and `--set name=value`: the kit that a command plays and the parameters that it sets.
 
 use std::path::Path;
 
@@ -74,7 +74,7 @@ pub fn choose(preset: &str, file: Option<&Path>, assignments: &[String]) -> Resu
     Ok(Chosen { kit, settings })
 }
 
-/// What a preset moves of a kit's parameters from where they are by themselves.
+/// Parameters of a kit that a preset changes from their defaults.
 pub fn moved(preset: &Preset, kit: &KitSpec) -> Vec<Setting> {
     let mut values = preset.values_at(kit);
     values.retain(|&(index, value)| value != parameters::default_value(index, kit));

@@ -40,7 +40,7 @@ pub struct Note {
 pub struct Song {
     /// Notes by time; those at one time in the order of the tracks and of the file.
     pub notes: Vec<Note>,
-    /// How many units of [`Note::time`] make a second.
+    /// Units of [`Note::time`] per second.
     pub unit: u128,
 }
 
@@ -59,7 +59,7 @@ impl Song {
     /// Reads the bytes of a MIDI file.
     ///
     /// # Errors
-    /// What is broken, in a few words.
+    /// The defect, in a few words.
     pub fn parse(bytes: &[u8]) -> Result<Song, String> {
         let Chunks { timing, sequential, tracks } = Chunks::parse(bytes)?;
         let base = TimeBase::new(timing)?;
@@ -112,7 +112,7 @@ impl Song {
     }
 }
 
-/// How ticks become time.
+/// Conversion of ticks to time.
 struct TimeBase {
     /// Units in a second.
     unit: u128,
@@ -128,7 +128,7 @@ impl TimeBase {
             Timing::Timecode(fps, subframes) => {
                 let subframes = u128::from(subframes);
                 match fps.as_int() {
-                    // What is called 29 is 30000 / 1001 frames a second.
+                    // The code 29 means 30000 / 1001 frames a second.
                     29 => (30_000 * subframes, Some(1001)),
                     whole => (u128::from(whole) * subframes, Some(1)),
                 }
@@ -165,7 +165,7 @@ fn read_track(number: usize, bytes: &[u8]) -> Result<Vec<TrackEvent>, String> {
         read += source.len();
         tick += u64::from(event.delta.as_int());
         let what = match event.kind {
-            // A velocity of nothing is another way to end a note.
+            // A note-on with velocity 0 ends a note.
             TrackEventKind::Midi { channel, message: MidiMessage::NoteOn { key, vel } } if vel > 0 => {
                 What::Note { channel: channel.as_int(), key: key.as_int(), velocity: vel.as_int() }
             }

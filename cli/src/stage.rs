@@ -1,4 +1,4 @@
-//! `--place NAME=x,y,z`: where pieces and microphones stand.
+//! `--place NAME=x,y,z`: positions of pieces and microphones.
 
 use anyhow::Result;
 use overhear_engine::kit_spec::{KitSpec, PieceSpec};
@@ -16,7 +16,7 @@ const LOWEST: f64 = 1.4;
 /// # Errors
 /// [`BadInput`](crate::error::BadInput) with what was given and what is accepted.
 pub fn place(mut kit: KitSpec, places: &[String]) -> Result<KitSpec> {
-    // A piece may be moved after its microphone was put somewhere.
+    // A piece may be moved after its microphone was placed.
     let mut microphones = Vec::new();
     for text in places {
         put(&mut kit, text, &mut microphones)?;
@@ -38,7 +38,7 @@ fn put(kit: &mut KitSpec, text: &str, microphones: &mut Vec<(usize, Point)>) -> 
     };
     let (name, numbers) = text.split_once('=').ok_or_else(|| wrong("has no ="))?;
     let numbers: Option<Vec<f64>> = numbers.split(',').map(|number| number.trim().parse().ok()).collect();
-    let numbers = numbers.ok_or_else(|| wrong("has a place that is no number"))?;
+    let numbers = numbers.ok_or_else(|| wrong("has a coordinate that is not a number"))?;
     if !numbers.iter().all(|x| x.abs() <= FARTHEST) {
         return Err(wrong(&format!("is farther than {FARTHEST} m")));
     }
@@ -50,7 +50,7 @@ fn put(kit: &mut KitSpec, text: &str, microphones: &mut Vec<(usize, Point)>) -> 
         (&[a, b, c, d, e, f], "room", ..) => kit.microphones.room = [[a, b, c], [d, e, f]],
         (&[x, y, z], _, Some(at), _) => kit.pieces[at].place.centre = [x, y, z],
         (&[x, y, z], _, None, Some(at)) => microphones.push((at, [x, y, z])),
-        _ => return Err(wrong("names nothing, or has not its number of coordinates")),
+        _ => return Err(wrong("names nothing known, or has a wrong number of coordinates")),
     }
     Ok(())
 }

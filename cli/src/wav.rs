@@ -13,7 +13,7 @@ use hound::{SampleFormat, WavSpec};
 use crate::bad_input;
 use crate::output::Draft;
 
-/// How a sample is stored.
+/// Storage format of a sample.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum Bits {
     /// 16-bit integers.

@@ -1,4 +1,4 @@
-//! Numbers that look drawn by chance.
+//! Pseudo-random numbers.
 
 use std::f64::consts::TAU;
 use std::time::{SystemTime, UNIX_EPOCH};
@@ -40,7 +40,7 @@ impl Chance {
         low + (high - low) * self.unit()
     }
 
-    /// Whether something happens that does so with this probability, 0 to 1.
+    /// True with this probability, 0 to 1.
     pub fn happens(&mut self, probability: f64) -> bool {
         self.unit() < probability
     }

@@ -1,7 +1,7 @@
 //! `hear`: one stroke on one piece by itself, measured.
 //!
-//! The piece is a kit of its own and rendered as every kit is: what is heard is the sound pressure at its close
-//! microphone, 20 Pa being full scale. The gain of that microphone and the piece's place in a mix are left out.
+//! The piece is a kit of its own and is rendered like every kit. The output is the sound pressure at its close
+//! microphone; full scale is 20 Pa. The gain of that microphone and the mix are not applied.
 
 mod measure;
 mod table;
@@ -22,13 +22,13 @@ use crate::settings::PieceSetting;
 
 pub use measure::Measurement;
 
-/// Speed of a stroke that is not told otherwise, m/s: a firm but ordinary one.
+/// Default speed of a stroke, m/s: firm but ordinary.
 pub const DEFAULT_SPEED: f64 = 4.0;
 
 /// The slot of a piece that is a kit by itself.
 pub const ALONE: Slot = Slot::ALL[0];
 
-/// How long controls are given to arrive before the stroke, s.
+/// Time for controls to settle before the stroke, s.
 const SETTLING: f64 = 0.5;
 
 /// One stroke as asked for.
@@ -86,11 +86,11 @@ pub struct Sound {
     pub energy_peak: f64,
     /// Energy of the piece at the end, J.
     pub energy_end: f64,
-    /// What the contact measured.
+    /// Measurements of the contact.
     pub contact: StrikeSnapshot,
-    /// What the snare wires did.
+    /// Motion of the snare wires.
     pub wires: WireSnapshot,
-    /// What a hi-hat's rims did.
+    /// Motion of a hi-hat's rims.
     pub rims: RimSnapshot,
 }
 

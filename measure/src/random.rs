@@ -1,8 +1,8 @@
-//! Pieces that nobody has thought of: any within the accepted ranges, though no larger than can be built quickly.
+//! Random pieces within the accepted ranges, no larger than can be built quickly.
 //!
 //! Each begins as a piece of the standard kit, gains or loses parts, and has every number of its description moved: by a
-//! factor of up to [`FACTOR`] either way, sometimes to the very end of its accepted range. What the description refuses,
-//! and what has too many modes, is drawn anew.
+//! factor of up to [`FACTOR`] either way, sometimes to the very end of its accepted range. Pieces that the description refuses,
+//! or that have too many modes, are drawn again.
 
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
@@ -23,7 +23,7 @@ pub const RATE: f64 = 44_100.0;
 /// Farthest that a number is moved from the standard kit's, a factor.
 const FACTOR: f64 = 3.0;
 
-/// How often a number is at an end of its range instead.
+/// Probability that a number is at an end of its range instead.
 const EXTREME: f64 = 0.02;
 
 /// Highest mode of a plate, Hz.
@@ -45,7 +45,7 @@ impl Visitor for Shaker<'_> {
         } else {
             *value * FACTOR.powf(chance.between(-1.0, 1.0))
         };
-        // The range may be none at all, which the check refuses.
+        // The range may be empty, which the check refuses.
         *value = moved.max(low).min(high);
     }
 
@@ -128,7 +128,7 @@ fn rebuilt(drum: DrumSpec, chance: &mut Chance) -> DrumSpec {
     if chance.happens(0.1) {
         drum = drum.opened();
     }
-    // A timpani's pitch is that of the whole drum, which a kettle much too small or too large would rule.
+    // A timpani's pitch is that of the whole drum; a kettle much too small or too large would dominate it.
     let sensible = |chance: &mut Chance| drum.diameter.powi(3) * chance.between(0.3, 0.8);
     match drum.shell {
         Some(ShellSpec::Kettle { air_q, .. }) => {

@@ -1,4 +1,4 @@
-//! Bodies that nobody plays, by name: those with modes in closed form, and those of which figures were published.
+//! Named reference bodies: those with modes in closed form, and those for which figures were published.
 //!
 //! A claim that is measured on one of them says so. All else is measured on the [standard kit](crate::standard()).
 

@@ -1,4 +1,4 @@
-//! Pieces rendered the way their kit renders them, by themselves.
+//! Single pieces, rendered as their kit renders them.
 
 use overhear_engine::kit::BLOCK;
 use overhear_engine::modal::EARS;

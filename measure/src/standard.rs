@@ -1,4 +1,4 @@
-//! The played instrument: the standard kit, and pieces of it by themselves.
+//! The played instrument: the standard kit, and single pieces of it.
 
 use overhear_engine::drum::DrumSpec;
 use overhear_engine::kit::Kit;
@@ -67,7 +67,7 @@ pub fn round_piece(name: &str, sample_rate: f64) -> Piece {
     build(&spec(name).round(), &BuildOptions::new(sample_rate))
 }
 
-/// A piece by itself, alone in its kit, heard by its close microphone; its controls are where its description has them.
+/// A piece alone in its kit, at its close microphone; its controls have the values of its description.
 ///
 /// # Panics
 /// If the engine refuses it.
@@ -90,7 +90,7 @@ pub fn alone(spec: &PieceSpec) -> KitSpec {
     KitSpec { pieces: vec![spec.clone()], ..standard() }
 }
 
-/// What building the only piece of a kit depends on.
+/// Dependencies of building the only piece of a kit.
 fn build_of(spec: &PieceSpec) -> PieceBuild {
     alone(spec).build(Slot::ALL[0]).expect("the only piece")
 }

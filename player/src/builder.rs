@@ -233,7 +233,7 @@ impl Shared {
             let failure = self.build(&job, make).err();
             if let Some(reason) = failure.as_ref().filter(|_| job.former.is_some()) {
                 // Nobody waits for what changes while the kit plays.
-                error!("The kit plays on as it is where it cannot be built: {reason}");
+                error!("A part of the kit cannot be built and stays as it was: {reason}");
             }
             self.end(job.order, failure);
         }

@@ -169,7 +169,11 @@ fn removed(table: &Table, start: Option<&KitSpec>, origins: &Origins) -> Result<
         None => return Ok(BTreeSet::new()),
         Some(Value::Array(names)) => names,
         Some(_) => {
-            return Err(Fault::of("remove", origins, "is no array, accepted: an array of names of pieces"));
+            return Err(Fault::of(
+                "remove",
+                origins,
+                "is not an array, accepted: an array of names of pieces",
+            ));
         }
     };
     let known: Vec<&str> = start.into_iter().flat_map(|kit| &kit.pieces).map(|piece| &*piece.name).collect();
@@ -191,7 +195,7 @@ fn part<'a>(table: &'a Table, key: &str, origins: &Origins) -> Result<Option<&'a
     match table.get(key) {
         None => Ok(None),
         Some(Value::Table(part)) => Ok(Some(part)),
-        Some(_) => Err(Fault::of(key, origins, "is no table, accepted: a table")),
+        Some(_) => Err(Fault::of(key, origins, "is not a table, accepted: a table")),
     }
 }
 

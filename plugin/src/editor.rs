@@ -137,7 +137,7 @@ impl Editor for OverhearEditor {
         editor
             .spawn(parent, wait_for_parent, fallback_scale_factor, gui_context, host)
             .map(|spawned| window::closing_whole(spawned, ended))
-            .inspect_err(|error| nice_error!("The window cannot open, the kit plays on: {error}"))
+            .inspect_err(|error| nice_error!("The window cannot open, but the kit still plays: {error}"))
     }
 
     fn size(&self) -> NativeSize<u32> {

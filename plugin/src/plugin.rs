@@ -214,7 +214,7 @@ impl<O: Outputs> Instrument<O> {
         }
         match self.builder.wait(BUILD_TIMEOUT) {
             Outcome::Finished => {}
-            Outcome::Late => nice_warn!("The kit is not built yet: strikes are dropped until then"),
+            Outcome::Late => nice_warn!("The kit is not built yet: strokes are dropped until it is"),
             Outcome::Failed(reason) => {
                 nice_error!("The kit cannot be built and stays silent: {reason}");
                 self.stage = None;

@@ -1,4 +1,4 @@
-//! The physics as it is heard: frequencies, decays, deflections and tuning of built pieces.
+//! Audible physics: frequencies, decays, deflections and tuning of built pieces.
 
 use std::f64::consts::TAU;
 

@@ -1,4 +1,4 @@
-//! The commands as somebody types them: what they refuse, what they promise, what is documented.
+//! The commands as typed: refusals, results, documentation.
 
 #[path = "commands/kits.rs"]
 mod kits;

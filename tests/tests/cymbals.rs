@@ -1,4 +1,4 @@
-//! What cymbals do when they are struck: energy, cascade, offset, drift.
+//! Struck cymbals: energy, cascade, offset, drift.
 
 use overhear_engine::kit_spec::PieceSpec;
 use overhear_engine::piece::{BuildOptions, Piece, Quality};

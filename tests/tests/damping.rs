@@ -1,4 +1,4 @@
-//! What takes the energy out of drums, and how they are heard wherever they are tuned.
+//! Losses of drums, and their sound at every tuning.
 
 use std::f64::consts::{SQRT_2, TAU};
 

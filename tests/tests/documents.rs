@@ -1,4 +1,4 @@
-//! What the documents name exists.
+//! Paths named in documents exist, and generated pages are up to date.
 
 use std::path::Path;
 

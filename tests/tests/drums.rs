@@ -1,4 +1,4 @@
-//! Drums as they are heard: what a reviewer would measure on them.
+//! Drums: measurements of their sound.
 
 use std::f64::consts::TAU;
 

@@ -1,4 +1,4 @@
-//! The same strikes and controls give the same samples, bit for bit, however time is cut; rest is rest.
+//! The same strikes and controls give the same samples, bit for bit, for any buffer sizes; a body at rest stays at rest.
 
 use no_denormals::no_denormals;
 use overhear_engine::kit::{Control, Kit};

@@ -1,8 +1,8 @@
-//! Anything at all: events, presets and songs that nobody would write.
+//! Random events, presets and songs.
 //!
 //! The sequences come from fixed seeds, so that what fails once fails again. Short runs are part of every test run; the
-//! long ones are ignored: `cargo test --package overhear-tests --features traps --test fuzz -- --ignored`. What plays is
-//! watched by an allocator that counts.
+//! long ones are ignored: `cargo test --package overhear-tests --features traps --test fuzz -- --ignored`. An allocator
+//! counts allocations during playback.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};

@@ -1,4 +1,4 @@
-//! The hi-hat: two cymbals that nothing is gained by, a pedal whose work is accounted, and the sounds it makes.
+//! The hi-hat: energy balance of the two cymbals and the pedal, and its sounds.
 
 use std::cell::RefCell;
 

@@ -1,4 +1,4 @@
-//! The kernels' forms for different instruction sets make the same sound.
+//! The kernels for different instruction sets produce the same sound.
 //!
 //! One test only: the limit it sets is the whole process's.
 

@@ -1,5 +1,4 @@
-//! What is worked out for a piece is kept and shared: nobody can hear where it came from, and nothing is taken for something
-//! else.
+//! The cache of built pieces: results are the same from every source, and no entry is mistaken for another.
 
 use std::collections::HashMap;
 use std::f64::consts::TAU;

@@ -1,4 +1,4 @@
-//! The kit as a whole: its outputs, and what it does under more than can be played.
+//! The kit as a whole: its outputs, and its behaviour under overload.
 
 use overhear::kit_document::KitDocument;
 use overhear_cli::player::{EnginePlayer, Hit, Player, Setup};

@@ -1,4 +1,4 @@
-//! Microphones hear what their place gives them.
+//! The sound at a microphone depends on its position as physics requires.
 
 use overhear_measure::report::radiation::microphones::{
     CLOSE, Farther, OVERHEADS, ROOM, farther, near_field, rack_toms,

@@ -1,5 +1,5 @@
-//! Nothing is gained: energy falls or stays, strikers leave no faster than they came, and numbers stay
-//! finite whatever is asked.
+//! Passivity: energy falls or stays, strikers leave no faster than they arrived, and numbers stay
+//! finite for any input.
 
 use std::cell::RefCell;
 

@@ -1,5 +1,5 @@
-//! What the plugin does in `process`, between the host's buffers and the engine: the same traps as for
-//! the engine by itself.
+//! The plugin's `process`, between the host's buffers and the engine, under the same traps as
+//! the engine alone.
 //!
 //! `cargo test --package overhear-tests --features traps --test process`
 

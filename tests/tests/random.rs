@@ -1,7 +1,7 @@
-//! Properties of pieces that nobody has thought of, within the accepted ranges: nothing is gained, numbers stay finite, and a
-//! drum tuned while it plays is the drum built at that pitch.
+//! Properties of random pieces within the accepted ranges: no energy is gained, numbers stay finite, and a drum that is
+//! tuned while it plays equals a drum built at that pitch.
 //!
-//! Fixed seeds and one that is new in every run and printed; `OVERHEAR_SEED` repeats it.
+//! Seeds are fixed, except for one that is new in every run and printed; `OVERHEAR_SEED` repeats it.
 
 use std::cell::Cell;
 

@@ -2,7 +2,7 @@
 //!
 //! Allocations are counted by the allocator of this test. System calls are caught by the kernel
 //! (Linux): a child process forbids itself all of them and renders. A free lock makes no
-//! call, so that the engine names none is read from its source.
+//! call, so the test also checks that the engine's source names no lock.
 
 use std::path::Path;
 

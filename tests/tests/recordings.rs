@@ -1,4 +1,4 @@
-//! The kit beside recordings: how its pieces change with the stroke. Shares of figures are claims of the report.
+//! The kit compared with recordings: how its pieces change with the stroke. The report claims the shares of figures.
 
 use overhear::building::Pace;
 use overhear::kit_document::KitDocument;

@@ -1,4 +1,4 @@
-//! What is silent falls asleep, soon; what is still under way arrives all the same.
+//! Silent pieces fall asleep soon; sound that is still travelling arrives.
 
 use overhear_engine::kit::{BLOCK, Control, Kit, Microphone};
 use overhear_engine::piece::Piece;

@@ -1,4 +1,4 @@
-//! Sticks on heads and rims, and the snare wires: what a stroke measures and does.
+//! Sticks on heads and rims, and the snare wires: measurements and effects of a stroke.
 
 use overhear_engine::piece::{BuildOptions, Piece};
 use overhear_engine::strike::Striker;

@@ -1,4 +1,4 @@
-//! Pieces hear each other through the air: when, how much, and what it does.
+//! Sympathetic resonance: its delay, its level, and its effects.
 
 use overhear_engine::air::SPEED_OF_SOUND;
 use overhear_engine::kit::{BLOCK, Control, Kit};
@@ -73,7 +73,7 @@ fn between_the_drums_the_shortest_delay_is_from_rack_tom_to_snare_54_samples_at_
         pairs.filter(|(from, to)| from < to).filter_map(|pair| Some((layout.way(pair.0, pair.1)?, pair)));
     let (way, pair) = ways.min_by(|a, b| a.0.total_cmp(&b.0)).expect("drums");
     assert_eq!(pair, (slot("snare"), slot("rack-tom")));
-    // Reading between samples needs one that is newer.
+    // Interpolation needs one newer sample.
     assert_eq!((way / SPEED_OF_SOUND * RATE).floor() as usize - 1, 54);
 }
 

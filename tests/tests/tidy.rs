@@ -60,7 +60,7 @@ fn sources() -> Vec<(String, String)> {
 
 /// Every document.
 fn documents() -> Vec<(String, String)> {
-    let at_root = ["README.md", "ARCHITECTURE.md", "CHANGELOG.md"].map(str::to_owned);
+    let at_root = ["README.md", "ARCHITECTURE.md", "CHANGELOG.md", "EXPERIMENTS.md"].map(str::to_owned);
     at_root.into_iter().chain(files("docs", &["md"])).map(read).collect()
 }
 

@@ -1,4 +1,4 @@
-//! Workers change no sample, and nothing that happens to them stops the audio thread.
+//! Workers change no sample, and no failure of a worker stops the audio thread.
 
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::thread;

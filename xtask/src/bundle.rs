@@ -51,7 +51,7 @@ pub fn run_for(processors: Processors) -> Result<Vec<(Format, PathBuf)>> {
     let targets = processors.targets()?;
     system::ensure(&[LINKER])?;
     let target = workspace::target_dir()?;
-    // What an earlier build left must not pass for the result of this one.
+    // Files of an earlier build must not be taken for the result of this one.
     for format in Format::ALL {
         remove(&workspace::bundle_in(&target, format))?;
     }

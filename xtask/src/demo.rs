@@ -1,8 +1,8 @@
-//! `demo`: from a fresh clone to a groove you can hear.
+//! `demo`: from a fresh clone to an audible groove.
 //!
 //! Sets up, builds, bundles, loads the built CLAP into the embedded host, plays
-//! `assets/groove.mid` through it at 48 kHz, writes `demo.wav` and `demo.png`, says how loud each
-//! piece is at each microphone and what it cost, and takes pictures of the editor where there is what that needs.
+//! `assets/groove.mid` through it at 48 kHz, writes `demo.wav` and `demo.png`, prints the level of each
+//! piece at each microphone and the cost, and takes pictures of the editor if the requirements are met.
 
 mod levels;
 pub mod presets;
@@ -51,7 +51,7 @@ pub fn run(folder: &Path) -> Result<()> {
     let style = style(Source::Clap(clap.clone()));
     let (take, _) = takes(&song, &style)?;
     let (played, left, right) = play(&take, &style, "groove")?;
-    ensure!(played.finite, "the plugin gave values that are not numbers");
+    ensure!(played.finite, "the plugin produced values that are not numbers");
     ensure!(played.peak > 0.0, "the plugin stayed silent");
     step(3, "playing it as a host plays it live, and striking every piece by itself");
     let live = live_share(&take, &style)?;
@@ -63,7 +63,7 @@ pub fn run(folder: &Path) -> Result<()> {
     output::write(&png, &picture::png("Overhear: assets/groove.mid", &left, &right, RATE)?)?;
     step(5, "taking pictures of the editor");
     let shots = folder.join("demo-shots");
-    // A machine that only renders has no use for a display, and its groove is none the worse.
+    // A machine that only renders needs no display; the groove does not depend on it.
     let looked = system::ensure(&[XVFB, WINDOW_LIBRARIES])
         .and_then(|()| shots::run(&shots::Aim::Glance(shots.clone()), Some(clap.clone())));
     report(&take, [live, busy_share(&take, &played)], &played, &levels, [&wav, &png, &clap]);
@@ -122,7 +122,7 @@ fn busy_share(take: &Take, played: &Played) -> f64 {
     played.busy.as_secs_f64() / seconds(take)
 }
 
-/// What playing a take live takes of one core: processor time of the thread that plays, a share of the take's length.
+/// Share of one core for playing a take live: processor time of the playing thread over the take's length.
 fn live_share(take: &Take, style: &Style) -> Result<f64> {
     let mut player = EnginePlayer::at_pace(&style.setup(), Pace::RealTime)?;
     let mut progress = Progress::new("the groove, live", take.frames);

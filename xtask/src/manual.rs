@@ -1,4 +1,4 @@
-//! `docs`: the manual's pages that are written from the code.
+//! `docs`: the pages of the manual that are generated from the code.
 
 use std::path::PathBuf;
 

@@ -22,7 +22,7 @@ pub fn pages() -> impl Iterator<Item = (&'static str, Measure)> {
     report::PAGES.into_iter().chain([("cost", cost)])
 }
 
-/// Where the pages belong.
+/// Default folder of the pages.
 pub fn folder() -> PathBuf {
     workspace::root().join("docs/report")
 }
@@ -70,8 +70,8 @@ fn write_all(pages: &[(&str, Measure)], folder: &Path) -> Result<()> {
 fn index(pages: &[(&str, String)]) -> String {
     let mut out = String::from(
         "# The report\n\n\
-         Every claim of this project with its figure. `cargo xtask report` measures and writes these pages anew, all but the\n\
-         one on costs the same on every run of the same sources; `cargo xtask report NAME` writes one.\n\n\
+         Every claim of this project with its figure. `cargo xtask report` measures all claims and writes these pages; the same\n\
+         sources give the same pages, except for the one on costs. `cargo xtask report NAME` writes one page.\n\n\
          | page | | claims met |\n|---|---|---|\n",
     );
     let rows = |text: &str, met: &str| text.lines().filter(|line| line.ends_with(met)).count();
@@ -80,9 +80,7 @@ fn index(pages: &[(&str, String)]) -> String {
         let title = text.lines().next().unwrap_or_default().trim_start_matches("# ");
         let _ = writeln!(out, "| [{name}]({name}.md) | {title} | {met} of {} |", met + missed);
     }
-    out.push_str(
-        "\n## Not met\n\n| page | claim | measured on | figure | should be |\n|---|---|---|---|---|\n",
-    );
+    out.push_str("\n## Not met\n\n| page | claim | measured on | figure | target |\n|---|---|---|---|---|\n");
     for (name, text) in pages {
         for row in text.lines().filter(|line| line.ends_with(page::MISSED)) {
             let cells: Vec<&str> = row.trim_start_matches("| ").split(" | ").take(4).collect();

@@ -1,7 +1,7 @@
 //! `shots`: pictures of the built plugin's editor.
 //!
-//! Opens the editor of the built CLAP in the embedded host, in a window of a display that nobody looks at, plays,
-//! and writes what is seen. What is shown is set as a project would: by the view in the plugin's state.
+//! Opens the editor of the built CLAP in the embedded host, in a window on a virtual display, plays, and writes
+//! screenshots. The page is selected as a project selects it: by the view in the plugin's state.
 
 mod cost;
 mod window;
@@ -76,14 +76,14 @@ const SHOTS: &[Shot] = &[
     shot("settings", 5, "snare", &[], 400),
 ];
 
-/// What is done with the editor.
+/// Task for the editor.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Aim {
     /// Every picture is taken and written to a folder.
     Pictures(PathBuf),
     /// The same in the dark palette at 1x only.
     Glance(PathBuf),
-    /// What it costs is counted and printed.
+    /// Measure and print its cost.
     Cost,
 }
 
@@ -182,7 +182,7 @@ fn take(
     pass(instance, shot.wait * zoom);
     let png = window.png()?;
     instance.close_editor()?;
-    // The window goes after what is in it.
+    // The window must be destroyed after the editor in it.
     drop(window);
     Ok(png)
 }
@@ -201,7 +201,7 @@ fn with_view(state: &[u8], shot: &Shot, (light, zoom): (bool, u32), size: [u32; 
     host::with_fields(state, |fields| {
         let known = fields.get("view").and_then(Value::as_str).context("the state has no view")?;
         let mut view: Value = serde_json::from_str(known)?;
-        let usual = view.as_array_mut().context("the view is no list")?;
+        let usual = view.as_array_mut().context("the view is not a list")?;
         ensure!(usual.len() == 5, "the view has other fields than this command knows");
         let kit = KitSpec::standard();
         let (slot, _) = kit.find(shot.piece).with_context(|| format!("no {} in the kit", shot.piece))?;
@@ -213,7 +213,7 @@ fn with_view(state: &[u8], shot: &Shot, (light, zoom): (bool, u32), size: [u32; 
     })
 }
 
-/// Plays in real time what is sent, until nobody sends any more; each buffer as `buffer` has it done.
+/// Plays the events that are sent, in real time, until the channel closes; `buffer` processes each buffer.
 fn play(
     processor: &mut Processor,
     notes: &Receiver<(u8, f32)>,
@@ -236,7 +236,7 @@ fn play(
         }
         buffer(&mut || processor.process(&events, &mut left, &mut right))?;
         due += length;
-        // What is late is not caught up with: a picture needs no steady sound.
+        // Late buffers are not made up: a picture needs no continuous sound.
         let now = Instant::now();
         due = due.max(now);
         thread::sleep(due - now);

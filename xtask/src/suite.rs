@@ -1,4 +1,4 @@
-//! `test`: everything the project promises, on a machine that has nothing but Rust.
+//! `test`: every check of the project, on a machine that has only Rust.
 //!
 //! In order: what must be installed, formatting, lints, documentation, the release bundles, every
 //! test of the workspace (those that load the bundles into hosts included, under a display of

@@ -1,7 +1,7 @@
-//! What a machine must have beside Rust, and how it comes there.
+//! Requirements of a machine beside Rust, and their installation.
 //!
 //! Debian's packages are installed by apt-get when the command runs as root; otherwise, and on
-//! other systems, what is missing is named and the command stops.
+//! other systems, the command lists what is missing and stops.
 
 use std::env;
 use std::path::PathBuf;
@@ -9,12 +9,12 @@ use std::process::{Command, Stdio};
 
 use anyhow::{Context, Result, bail};
 
-/// Something a command needs.
+/// A requirement of a command.
 #[derive(Debug, Clone, Copy)]
 pub struct Need {
-    /// What it is for, in a few words.
+    /// Its purpose, in a few words.
     pub what: &'static str,
-    /// Whether it is there.
+    /// Whether it is present.
     pub present: fn() -> bool,
     /// Debian packages that bring it.
     pub packages: &'static [&'static str],
@@ -31,7 +31,7 @@ pub const LINKER: Need = Need {
 pub const XVFB: Need =
     Need { what: "a virtual display (Xvfb)", present: || program("Xvfb").is_some(), packages: &["xvfb"] };
 
-/// What the editor opens when it is shown.
+/// Libraries that the editor loads when it is shown.
 pub const WINDOW_LIBRARIES: Need = Need {
     what: "the X11 and OpenGL libraries of the editor",
     present: || {
@@ -42,7 +42,7 @@ pub const WINDOW_LIBRARIES: Need = Need {
     packages: &["libx11-6", "libx11-xcb1", "libxcb1", "libgl1", "libgl1-mesa-dri", "libxcursor1"],
 };
 
-/// What the program without a host is compiled against.
+/// Headers for the standalone program.
 pub const SOUND_HEADERS: Need = Need {
     what: "the headers of ALSA and JACK",
     present: || {
@@ -62,7 +62,7 @@ pub const PYTHON: Need = Need {
     packages: &["python3", "python3-venv"],
 };
 
-/// What the VST3 host of the tests is linked with, beyond the editor's libraries.
+/// Libraries of the VST3 host of the tests, beyond the editor's.
 pub const HOST_LIBRARIES: Need = Need {
     what: "the libraries of the VST3 test host (DawDreamer)",
     present: || ["libglib-2.0.so.0", "libstdc++.so.6"].iter().all(|name| library(name)),
@@ -110,7 +110,7 @@ fn apt_get(arguments: &[&str]) -> Result<()> {
     Ok(())
 }
 
-/// Where a program lies, if it is in the search path.
+/// Path of a program, if it is in the search path.
 pub fn program(name: &str) -> Option<PathBuf> {
     let folders = env::var_os("PATH")?;
     env::split_paths(&folders).map(|folder| folder.join(name)).find(|path| path.is_file())
@@ -132,7 +132,7 @@ fn is_root() -> bool {
     Command::new("id").arg("-u").output().is_ok_and(|output| output.stdout.trim_ascii() == b"0")
 }
 
-/// Whether a command succeeds, whatever it says.
+/// Whether a command succeeds; its output is ignored.
 fn quiet(command: &mut Command) -> bool {
     command
         .stdin(Stdio::null())

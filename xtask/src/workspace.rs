@@ -1,4 +1,4 @@
-//! Where things lie: the workspace, its target folder and the bundles in it.
+//! Paths of the workspace, its target folder and the bundles in it.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -43,7 +43,7 @@ pub fn target_dir() -> Result<PathBuf> {
     Ok(PathBuf::from(folder))
 }
 
-/// Where `bundle` leaves a bundle inside a target folder.
+/// Path of a bundle inside a target folder.
 pub fn bundle_in(target_dir: &Path, format: Format) -> PathBuf {
     target_dir.join("bundled").join(format.bundle_file())
 }

@@ -12,7 +12,7 @@ use crate::bad_input;
 /// Costs of an older report, calibrations, by name.
 pub type Before = BTreeMap<String, f64>;
 
-/// What of a report is compared.
+/// Compared fields of a report.
 #[derive(Deserialize)]
 struct Older {
     /// Of the standard kit only.
@@ -39,7 +39,7 @@ pub fn read(path: &Path) -> Result<Before> {
 /// Takes the costs out of a report.
 ///
 /// # Errors
-/// What of it is missing or not a number.
+/// Its fields that are missing or not numbers.
 pub fn parse(text: &str) -> serde_json::Result<Before> {
     let Older { groove, all_at_once, idle, pieces } = serde_json::from_str(text)?;
     let mut before = Before::from([

@@ -7,7 +7,7 @@ use super::calibration::{Calibration, SLICES};
 use super::workload::Workload;
 use crate::progress::Progress;
 
-/// What a scene costs, over the runs.
+/// Cost of a scene, over the runs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cost {
     /// CPU seconds per second of sound, median.
@@ -117,7 +117,7 @@ mod tests {
         let rate = BLOCK as f64;
         let blocks = Buffers::of(&scenes, 1, rate);
         assert_eq!([0.0, 0.5, 1.0].map(|q| blocks.within(q)), [1.0, 2.0, 3.0]);
-        // Two blocks last twice as long; what is too short for a buffer is none.
+        // Two blocks last twice as long; a rest that is too short for a buffer is dropped.
         assert_eq!(Buffers::of(&scenes, 2, rate).within(1.0), 2.0);
     }
 }

@@ -63,7 +63,7 @@ pub struct Figure {
     calibrations_max: f64,
 }
 
-/// What a kit at rest costs.
+/// Cost of a kit at rest.
 pub type Idle = Figure;
 
 /// A piece at the standard tier, and a cymbal at the others.
@@ -82,7 +82,7 @@ impl From<Cost> for Figure {
     }
 }
 
-/// All that was measured.
+/// All measurements.
 pub struct Measured<'a> {
     pub request: &'a Request,
     pub kit: &'a KitSpec,

@@ -81,7 +81,7 @@ impl Scene {
                 struck.map(|slot| beat(slot, hard(document, slot))).collect()
             }
             Scene::Idle => Vec::new(),
-            // It is alone in a kit of its own.
+            // The piece is alone in its kit.
             Scene::Piece(slot, _) => vec![beat(ALONE, hard(document, slot))],
         })
     }

@@ -9,31 +9,31 @@ use overhear_engine::kit_spec::{Defaults, InstrumentSpec, KitSpec, PieceSpec};
 use super::arguments::{angle, number};
 use crate::bad_input;
 
-/// What is changed of a piece's description.
+/// Changes to a piece's description.
 #[derive(Debug, Default, Args)]
 pub struct Alterations {
-    /// Switch all damping and radiation off
+    /// Turn all damping and radiation off
     #[arg(long)]
     pub lossless: bool,
-    /// Switch tension modulation and the coupling of the modes off
+    /// Turn tension modulation and mode coupling off
     #[arg(long)]
     pub linear: bool,
     /// Build perfectly round bodies, whose pairs of modes share one frequency
     #[arg(long)]
     pub unsplit: bool,
-    /// Take off what closes a drum: the resonant head, or the timpani's kettle
+    /// Remove the resonant head of a drum, or the kettle of a timpani
     #[arg(long)]
     pub open: bool,
-    /// Tune a drum's other head to the struck one's pitch times a ratio
+    /// Pitch of a drum's resonant head relative to the struck head
     #[arg(long, value_name = "RATIO", value_parser = ratio)]
     pub resonant_ratio: Option<f64>,
-    /// Make a drum's tension so uneven: mean relative difference of the two members of a pair, up to .05
+    /// Mean relative frequency difference of the two modes of each pair of a drum, up to .05
     #[arg(long, value_name = "SHARE", value_parser = unevenness)]
     pub uneven: Option<f64>,
-    /// What muffles a drum: pillow, gel, ring, or gel@R,DEG at a place
+    /// Muffler of a drum: pillow, gel, ring, or gel@R,DEG at a position
     #[arg(long, value_name = "MUFFLER", value_parser = muffler)]
     pub muffler: Option<Muffler>,
-    /// Leave out what drum heads do above their complete sets of modes
+    /// Leave out the sound of drum heads above their complete sets of modes
     #[arg(long)]
     pub no_high_band: bool,
 }
@@ -51,7 +51,7 @@ impl Alterations {
             piece.instrument = InstrumentSpec::Drum(drum);
             piece.defaults = Defaults { preload, ..piece.defaults };
         } else if let Some(option) = self.of_drums() {
-            return Err(bad_input!("{option} is of drums, the {} is a cymbal", piece.name));
+            return Err(bad_input!("{option} applies to drums; the {} is a cymbal", piece.name));
         }
         if self.lossless {
             piece = piece.lossless();
@@ -155,7 +155,7 @@ mod tests {
     fn what_a_piece_has_not_is_refused_by_its_name() {
         let open = Alterations { open: true, ..Alterations::default() };
         let error = altered("ride", &open).unwrap_err().to_string();
-        assert_eq!(error, "--open is of drums, the ride is a cymbal");
+        assert_eq!(error, "--open applies to drums; the ride is a cymbal");
         let ratio = Alterations { resonant_ratio: Some(1.2), ..Alterations::default() };
         assert!(altered("timpani", &ratio).unwrap_err().to_string().contains("no resonant head"));
         assert!(altered("kick", &Alterations { open: true, ..ratio }).is_err());

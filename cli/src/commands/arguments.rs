@@ -66,16 +66,16 @@ pub enum Command {
     },
 }
 
-/// What to do with kits.
+/// Tasks for kits.
 #[derive(Debug, Subcommand)]
 pub enum KitTask {
-    /// Print the complete file of a kit: the standard one if nothing is named
+    /// Print the complete file of a kit; default: the standard kit
     Show {
-        /// A preset, whose kit is meant, or a kit file
+        /// A preset with a kit, or a kit file
         #[arg(value_name = "NAME|FILE")]
         what: Option<String>,
     },
-    /// Begin a kit file: the standard kit, with remarks on how to change it
+    /// Create a kit file: the standard kit, with comments on how to change it
     New {
         /// The file to write
         file: PathBuf,
@@ -86,7 +86,7 @@ pub enum KitTask {
         #[arg(required = true, value_name = "FILE")]
         files: Vec<PathBuf>,
     },
-    /// List every constant that was fitted, to what, and what else it moves
+    /// List every fitted constant, what it was fitted to, and what else it affects
     Fitted {
         /// Print one JSON list (see docs/commands.md)
         #[arg(long)]
@@ -94,7 +94,7 @@ pub enum KitTask {
     },
 }
 
-/// What to do with presets; without anything they are listed.
+/// Tasks for presets; by default they are listed.
 #[derive(Debug, Subcommand)]
 pub enum PresetTask {
     /// Print a preset's file
@@ -109,18 +109,18 @@ pub enum PresetTask {
         /// The preset to start from
         #[arg(long, value_name = "NAME", default_value = "default")]
         from: String,
-        /// Move a parameter, as in kick_tune=60; repeatable
+        /// Set a parameter, as in kick_tune=60; repeatable
         #[arg(long, value_name = "NAME=VALUE")]
         set: Vec<String>,
-        /// What it is for, in a line
+        /// A description in one line
         #[arg(long, default_value = "")]
         about: String,
     },
-    /// Give one of your presets another name
+    /// Rename one of your presets
     Rename {
-        /// The name it has
+        /// Its present name
         from: String,
-        /// The name it gets
+        /// Its new name
         to: String,
     },
     /// Delete one of your presets
@@ -128,7 +128,7 @@ pub enum PresetTask {
         /// A name
         name: String,
     },
-    /// Check files, or all presets if none is given
+    /// Check preset files; default: all presets
     Check {
         /// Files
         files: Vec<PathBuf>,
@@ -147,10 +147,10 @@ pub struct RenderArguments {
     /// Start from a preset: a name that `presets` lists, or a file
     #[arg(long, value_name = "NAME|FILE.toml", default_value = "default")]
     preset: String,
-    /// Play the kit of a file, in place of the preset's
+    /// Play the kit of a file instead of a kit in the preset
     #[arg(long, value_name = "FILE")]
     kit: Option<PathBuf>,
-    /// Move a parameter before the start, as in kick_tune=60 or ride_level=-6; repeatable
+    /// Set a parameter before the start, as in kick_tune=60 or ride_level=-6; repeatable
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
     /// Sample rate, Hz
@@ -159,27 +159,27 @@ pub struct RenderArguments {
     /// Samples rendered at a time, 1 to 8192 or `random`; does not change the sound
     #[arg(long, value_name = "N|random", default_value = "512")]
     block: Blocks,
-    /// Write one more WAV file per microphone into this folder
+    /// Also write one WAV file per microphone into this folder
     #[arg(long, value_name = "DIR")]
     stems: Option<PathBuf>,
     /// Bits per sample
     #[arg(long, default_value = "32f")]
     bits: Bits,
-    /// Play the engine itself (the default)
+    /// Play through the engine directly (the default)
     #[arg(long, conflicts_with = "clap")]
     engine: bool,
     /// Play the plugin in an embedded host: a CLAP bundle, or `installed` for the one in a standard plugin folder; the
     /// samples are the same
     #[arg(long, value_name = "PATH|installed")]
     clap: Option<PathBuf>,
-    /// Put a piece, a pair of microphones or a close microphone somewhere, metres: kick=0,.3,-.2,
+    /// Position of a piece, a pair of microphones or a close microphone, metres: kick=0,.3,-.2,
     /// overheads=-1,2,0,1,2,0, snare-mic=-.4,.8,-.3; repeatable
     #[arg(long, value_name = "NAME=X,Y,Z", allow_hyphen_values = true)]
     place: Vec<String>,
-    /// Threads that render pieces beside the first, 0 to 3; does not change the sound
+    /// Additional threads that render pieces, 0 to 3; does not change the sound
     #[arg(long, alias = "workers", value_name = "N", value_parser = clap::value_parser!(u8).range(0..=3))]
     render_threads: Option<u8>,
-    /// Songs rendered at once; as many as there are cores if not given
+    /// Songs rendered at the same time; default: the number of cores
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
     /// Sound after the last note, s
@@ -191,7 +191,7 @@ pub struct RenderArguments {
 }
 
 impl RenderArguments {
-    /// What is asked for.
+    /// The request of these arguments.
     ///
     /// # Errors
     /// [`BadInput`](crate::error::BadInput) for a kit or a parameter that is not one.
@@ -225,12 +225,12 @@ impl RenderArguments {
     }
 }
 
-/// How far up a cymbal's modes are coupled.
+/// Highest coupled cymbal mode.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 pub enum Quality {
     /// To 1 kHz.
     Eco,
-    /// To 2 kHz, as played by default.
+    /// To 2 kHz, the default during playback.
     Standard,
     /// To 4 kHz.
     High,
@@ -261,14 +261,14 @@ pub struct HearArguments {
     /// Speed of the stroke, m/s, up to 25
     #[arg(long, value_name = "M/S", default_value_t = hear::DEFAULT_SPEED, value_parser = speed)]
     speed: f64,
-    /// Distance of the place from the centre, share of the radius; where it is played if not given
+    /// Distance from the centre, relative to the radius; default: that of the piece's ordinary note
     #[arg(long, value_name = "R", value_parser = share)]
     at: Option<f64>,
-    /// Direction of the place, degrees from the player's side
+    /// Direction of the strike position, degrees from the player's side
     #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = angle)]
     angle: Option<f64>,
     /// stick, shoulder, nylon, felt-beater, plastic-beater, timpani-mallet, hard-mallet, yarn-mallet, rimshot or
-    /// cross-stick; what the piece is played with if not given
+    /// cross-stick; default: that of the piece's ordinary note
     #[arg(long, value_name = "NAME")]
     striker: Option<String>,
     /// Tune or muffle the piece, as in snare_tune=240 or ride_muffle=.3; repeatable
@@ -283,18 +283,18 @@ pub struct HearArguments {
     /// Print one JSON object (see docs/commands.md)
     #[arg(long)]
     pub json: bool,
-    /// Write the sound as 32-bit float, 20 Pa being full scale
+    /// Write the sound as 32-bit float; full scale is 20 Pa
     #[arg(long, value_name = "OUT.wav")]
     pub wav: Option<PathBuf>,
     #[command(flatten)]
     alterations: Alterations,
-    /// How far up a cymbal's modes are coupled
+    /// Highest coupled cymbal mode
     #[arg(long, default_value = "offline")]
     quality: Quality,
 }
 
 impl HearArguments {
-    /// What is asked for.
+    /// The request of these arguments.
     ///
     /// # Errors
     /// [`BadInput`](crate::error::BadInput) for a name or a parameter that is not one.
@@ -349,7 +349,7 @@ pub struct ModesArguments {
     /// Sample rate, Hz
     #[arg(long, value_name = "HZ", default_value = "48000", value_parser = rate)]
     rate: u32,
-    /// Take off what closes a drum: the resonant head, or the timpani's kettle
+    /// Remove the resonant head of a drum, or the kettle of a timpani
     #[arg(long)]
     open: bool,
     /// Perfectly round bodies, whose pairs of modes share one frequency
@@ -379,28 +379,28 @@ pub struct BenchArguments {
     /// Measure the kit of a file
     #[arg(long, value_name = "FILE")]
     kit: Option<PathBuf>,
-    /// Times that everything is measured
+    /// Number of runs
     #[arg(long, value_name = "N", default_value_t = bench::RUNS as u16, value_parser = clap::value_parser!(u16).range(1..))]
     runs: u16,
-    /// How far up the modes of the kit's cymbals are coupled
+    /// Highest coupled mode of the kit's cymbals
     #[arg(long, default_value = "standard")]
     quality: Quality,
     /// Sample rate, Hz
     #[arg(long, value_name = "HZ", default_value_t = bench::RATE as u32, value_parser = clap::value_parser!(u32).range(RATES))]
     rate: u32,
-    /// Use no wider instruction set
+    /// Widest instruction set to use
     #[arg(long)]
     simd: Option<Simd>,
-    /// Set the costs beside those of an older report, written with --json
+    /// Print the costs of an older report, written with --json, beside the new ones
     #[arg(long, value_name = "OLD.json")]
     compare: Option<PathBuf>,
-    /// Count instructions, too (needs valgrind)
+    /// Also count instructions (needs valgrind)
     #[arg(long)]
     callgrind: bool,
 }
 
 impl BenchArguments {
-    /// What is asked for.
+    /// The request of these arguments.
     pub fn into_request(self) -> bench::Request {
         bench::Request {
             kit: self.kit,

@@ -12,11 +12,11 @@ use clack_host::utils::ClapId;
 pub struct Event {
     /// Sample in the buffer.
     pub offset: u32,
-    /// What happens.
+    /// The event.
     pub what: What,
 }
 
-/// What an event is.
+/// Kind of an event.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum What {
     /// A note begins.

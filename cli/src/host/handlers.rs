@@ -45,7 +45,7 @@ impl HostHandlers for Host {
     }
 }
 
-/// What plugins may call from any thread.
+/// Host functions that plugins may call from any thread.
 pub struct Shared {
     main_thread: ThreadId,
     callback: AtomicBool,
@@ -69,12 +69,12 @@ impl Shared {
         self.callback.swap(false, Ordering::AcqRel)
     }
 
-    /// How often the plugin asked to be activated anew.
+    /// Number of the plugin's requests to be activated again.
     pub fn restarts(&self) -> u32 {
         self.restarts.load(Ordering::Acquire)
     }
 
-    /// What the plugin logged, a line each: `[severity] message`.
+    /// The plugin's log, one line each: `[severity] message`.
     pub fn log(&self) -> Vec<String> {
         self.log.lock().map(|log| log.clone()).unwrap_or_default()
     }
@@ -133,13 +133,13 @@ impl HostGuiImpl for Shared {
     fn closed(&self, _was_destroyed: bool) {}
 }
 
-/// What plugins may call from their main thread: how often they asked for what.
+/// Host functions that plugins may call from their main thread, with counts of requests.
 #[derive(Default)]
 pub struct MainThread {
     requests: Cell<Requests>,
 }
 
-/// How often a plugin asked for something.
+/// Counts of a plugin's requests.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Requests {
     /// To have its parameters read again.
@@ -151,7 +151,7 @@ pub struct Requests {
 }
 
 impl MainThread {
-    /// How often the plugin asked for what.
+    /// Counts of the plugin's requests.
     pub fn requests(&self) -> Requests {
         self.requests.get()
     }

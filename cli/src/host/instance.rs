@@ -267,17 +267,17 @@ impl Instance {
         Ok(())
     }
 
-    /// What the plugin asked for so far.
+    /// The plugin's requests so far.
     pub fn requests(&self) -> Requests {
         self.plugin.access_handler(MainThread::requests)
     }
 
-    /// How often the plugin asked to be activated anew.
+    /// Number of the plugin's requests to be activated again.
     pub fn restarts(&self) -> u32 {
         self.plugin.access_shared_handler(Shared::restarts)
     }
 
-    /// What the plugin logged through the host.
+    /// The plugin's log.
     pub fn log(&self) -> Vec<String> {
         self.plugin.access_shared_handler(Shared::log)
     }

@@ -38,7 +38,7 @@ fn written(state: &Value) -> Result<Vec<u8>> {
 
 fn read(state: &[u8]) -> Result<Value> {
     let text = state.get(LENGTH..).context("the plugin's state is too short")?;
-    serde_json::from_slice(text).context("the plugin's state is no JSON")
+    serde_json::from_slice(text).context("the plugin's state is not JSON")
 }
 
 /// Gives an instance a kit other than the standard one, as a project would in which no parameter has been moved: all are at

@@ -26,7 +26,7 @@ pub struct Job {
     pub stems: Option<PathBuf>,
 }
 
-/// What came of a job, in a line.
+/// Result of a job, in one line.
 #[derive(Debug, Clone)]
 pub struct Report {
     output: PathBuf,
@@ -86,7 +86,7 @@ impl Job {
             files.extend(stems.render(&take, style, progress(format!("{name}, stems")))?);
         }
         let stems = files.len() - 1;
-        // All are whole before any gets its name.
+        // All files are complete before any of them is renamed.
         let clipped = files.into_iter().map(WavFile::finish).sum::<Result<u64>>()?;
         Ok(Report {
             output: self.output.clone(),
@@ -107,7 +107,7 @@ fn play(take: &Take, style: &Style, file: &mut WavFile, mut progress: Progress) 
             file.write(&[left, right])
         })
     })?;
-    ensure!(played.finite, "the render holds values that are not numbers");
+    ensure!(played.finite, "the render contains values that are not numbers");
     Ok(played)
 }
 
@@ -116,7 +116,7 @@ impl fmt::Display for Report {
         let Report { output, seconds, played, clipped, hits, silent, stems } = self;
         write!(f, "{}: {seconds:.2} s, {hits} notes", output.display())?;
         if *silent > 0 {
-            write!(f, " ({silent} of them strike nothing in the kit)")?;
+            write!(f, " ({silent} of them play no piece of the kit)")?;
         }
         let share = 100.0 * busy_share(played.busy, *seconds);
         write!(f, ", peak {}, {share:.1} % of real time", decibels(played.peak))?;

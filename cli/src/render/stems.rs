@@ -1,4 +1,4 @@
-//! The microphones of a song, each to a file of its own.
+//! Stems: each microphone of a song in a file of its own.
 //!
 //! One pass of the engine, whatever plays the song: both give the same samples. Every piece's close microphone, the
 //! overheads and the room, at the level of the mix, so that they add up to the song.
@@ -39,7 +39,7 @@ impl Stems {
             let path = folder.join(format!("{name}.wav"));
             if path == song {
                 return Err(bad_input!(
-                    "`{}` would be the song and a stem, accepted: different names",
+                    "`{}` would be both the song and a stem, accepted: different names",
                     path.display(),
                 ));
             }

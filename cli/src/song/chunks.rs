@@ -1,4 +1,4 @@
-//! The chunks of a MIDI file, none of them cut off.
+//! The chunks of a MIDI file, checked for truncation.
 //!
 //! The parser behind [`super`] reads what it can of a damaged file; half a song that looks like a
 //! whole one is worse than none, so the frame of the file is checked here.
@@ -8,7 +8,7 @@ use midly::Timing;
 /// First byte of a SMPTE time base: 24, 25, 29 (for 29.97) and 30 frames a second, negated.
 const FRAME_RATES: [u8; 4] = [0xE8, 0xE7, 0xE3, 0xE2];
 
-/// What a file's chunks say.
+/// Contents of a file's chunks.
 pub struct Chunks<'a> {
     /// The time base.
     pub timing: Timing,

@@ -80,7 +80,7 @@ fn decay_time(energy: &[f64], rate: f64, levels: Range<f64>) -> Option<f64> {
         sum += *value;
         *value = sum;
     }
-    // The level over the last twentieth says how loud the sound breaks off.
+    // The level of the last twentieth is the level at which the sound is cut off.
     let last = energy.len() / 20;
     let end_power = energy[energy.len() - last.max(1)..].iter().sum::<f64>() / last.max(1) as f64;
     let mut lost = 0.0;
@@ -91,7 +91,7 @@ fn decay_time(energy: &[f64], rate: f64, levels: Range<f64>) -> Option<f64> {
         // An exponential of that power goes on for 1 / (2 sigma).
         lost = end_power * rate / (2.0 * sigma);
     }
-    // What is missing must lie below what was fitted.
+    // The missing part must lie below the fitted part.
     let floor = 10f64.powf(levels.start / 10.0);
     (lost < floor * (remaining[0] + lost)).then_some(t60?)
 }

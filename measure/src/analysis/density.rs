@@ -1,4 +1,4 @@
-//! How densely a spectrum is set with peaks.
+//! Density of the peaks of a spectrum.
 //!
 //! Frames of 85 ms under a raised cosine, half overlapped, from 20 ms after the stroke to half a
 //! second or to where less than a ten-thousandth of the loudest frame's energy is left. In each,

@@ -1,4 +1,4 @@
-//! How a struck sound rises and falls: attack, click, crest, temporal centroid, bloom.
+//! Time features of a struck sound: attack, click, crest, temporal centroid, bloom.
 //!
 //! The envelope is the root of the power averaged over a raised cosine of 2 ms, which follows a
 //! stroke's rise and leaves the swing of low notes in: what a bass drum's attack is, is then the
@@ -16,7 +16,7 @@ const ATTACK_WITHIN: f64 = 1.0;
 /// The click is what lies above this, Hz.
 const CLICK_HZ: f64 = 2000.0;
 
-/// How long the click lasts, and what it is compared with, s.
+/// Length of the click, and of the sound it is compared with, s.
 const CLICK: [f64; 2] = [0.006, 0.05];
 
 /// The crest is that of so much of the sound, s.
@@ -44,7 +44,7 @@ pub fn attack_ms(shot: &OneShot) -> Option<f64> {
         let level = (share * greatest).powi(2);
         let after = envelope.iter().position(|&power| power >= level)?;
         let before = after.checked_sub(1).map_or(0.0, |n| envelope[n]);
-        // Between samples, as the power goes.
+        // Interpolated between samples, by the power.
         Some(after as f64 - (envelope[after] - level) / (envelope[after] - before).max(f64::MIN_POSITIVE))
     };
     Some((reaches(0.9)? - reaches(0.1)?) / shot.rate * 1000.0)

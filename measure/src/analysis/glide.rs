@@ -45,7 +45,7 @@ pub fn glide_cents(motion: &Motion, strongest: f64, free_from: f64) -> Option<f6
     };
     let early = |mode| window(mode, motion.rate, EARLY.max(free_from));
     let moving = |mode| early(mode).and_then(super::rms).unwrap_or(0.0);
-    // Of a pair, the member that moves.
+    // The mode of the pair that moves.
     let mode = motion
         .modes
         .iter()

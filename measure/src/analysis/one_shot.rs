@@ -9,7 +9,7 @@ const ONSET_SHARE: f32 = 0.01;
 /// Silence before the beginning, s: more than the filters of these modules spread.
 const LEAD: f64 = 0.02;
 
-/// How fast one stretch of time gives way to the next, s: slow enough to add next to nothing to
+/// Length of the fade between two intervals, s: slow enough to add next to nothing to
 /// the spectrum above 100 Hz, a tenth of what is resolved.
 const CROSSING: f64 = 0.01;
 
@@ -33,7 +33,7 @@ impl OneShot {
         }
         let first = samples.iter().position(|sample| sample.abs() >= ONSET_SHARE * peak)?;
         let onset = (LEAD * rate) as usize;
-        // What is before the beginning is part of the sound, and kept as far as there is room.
+        // The part before the beginning belongs to the sound and is kept as far as there is room.
         let kept = first.min(onset);
         let mut padded = vec![0.0; onset - kept];
         padded.extend_from_slice(&samples[first - kept..]);

@@ -7,16 +7,16 @@
 
 use crate::spectra::OnsetSpectrum;
 
-/// How much of the sound is transformed, s.
+/// Length of the transformed sound, s.
 const WITHIN: f64 = 0.5;
 
-/// Where the fundamental is sought, Hz.
+/// Search range of the fundamental, Hz.
 const FUNDAMENTAL_HZ: [f64; 2] = [30.0, 500.0];
 
 /// Where the second partial is sought, over the fundamental.
 const SECOND: [f64; 2] = [1.2, 3.2];
 
-/// How far a partial stands out, dB.
+/// Prominence of a partial, dB.
 const PROMINENCE_DB: f64 = 3.0;
 
 /// Two partials.

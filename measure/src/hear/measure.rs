@@ -60,7 +60,7 @@ pub struct Measurement {
     pub rim_last_lift_s: Option<f64>,
     /// Kinetic energy of the arriving striker, J.
     pub striker_energy_in_j: f64,
-    /// What the striker took away: its flight, its bending, the head right under it, J.
+    /// Energy that the striker took away: its motion, its bending, the head right under it, J.
     pub striker_energy_out_j: f64,
     /// Greatest energy of the piece, J.
     pub energy_peak_j: f64,
@@ -75,7 +75,7 @@ impl Measurement {
         let samples = &sound.samples;
         let spectrum = OnsetSpectrum::of_onset(samples, rate, ONSET);
         let strongest = spectrum.strongest();
-        // A stroke that never touched measured nothing.
+        // A stroke without a contact has no measurement.
         let touched = (sound.contact.touches > 0).then_some(sound.contact);
         let measured = |figure: fn(&StrikeSnapshot) -> f32| {
             touched.map(|contact| exact(figure(&contact))).filter(|figure| figure.is_finite())

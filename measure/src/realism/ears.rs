@@ -1,4 +1,4 @@
-//! The kit as the plugin plays it, and the two ways in which a stroke on it is heard.
+//! The kit as the plugin plays it, and the two recording chains of a stroke.
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ use serde::Serialize;
 use crate::bad_input;
 use crate::settings::Setting;
 
-/// How a piece is heard.
+/// Recording chain of a piece.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Ear {
@@ -52,7 +52,7 @@ pub struct Stand {
     rate: f64,
 }
 
-/// How long controls and the pedal are given to arrive before a stroke, s.
+/// Time for controls and the pedal to settle before a stroke, s.
 const SETTLING: f64 = 0.5;
 
 impl Stand {

@@ -1,4 +1,4 @@
-//! What is measured on a stroke, and under which name.
+//! The features measured on a stroke, and their names.
 //!
 //! Times count from the first sample within 40 dB of the peak. Everything about energy is
 //! weighted by energy (the square of the pressure), not by magnitude.

@@ -1,4 +1,4 @@
-//! What real kits measure.
+//! Measured features of real kits.
 //!
 //! *Measured* on recordings: 3,123 one-shots of 36 acoustic kits, median and 10-90 % range, each of 19
 //! sets of recordings weighing alike; close, overhead and mixed microphones all count, and so do
@@ -10,7 +10,7 @@ use super::features::Feature;
 /// A figure of real kits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Figure {
-    /// What was measured.
+    /// The measured feature.
     pub feature: Feature,
     /// Half of the recordings have less, in the feature's unit.
     pub median: f64,
@@ -21,13 +21,13 @@ pub struct Figure {
 /// A growth of a figure with the loudness of the stroke.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Slope {
-    /// What grows.
+    /// The feature that grows.
     pub feature: Feature,
     /// Octaves per +20 dB.
     pub octaves: f64,
 }
 
-/// How far from a bare median a figure may be to be called near it.
+/// Largest distance at which a figure counts as near a median.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Nearness {
     /// By this factor up or down: times, frequencies, densities.

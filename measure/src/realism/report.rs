@@ -27,7 +27,7 @@ pub struct Report {
 pub struct PieceReport {
     /// Name of the piece.
     pub piece: &'static str,
-    /// How it is heard.
+    /// Its recording chain.
     pub heard: Ear,
     /// Name of the striker.
     pub striker: &'static str,
@@ -35,7 +35,7 @@ pub struct PieceReport {
     pub at: [f64; 3],
     /// `[feature]`.
     pub features: Vec<Row>,
-    /// How the piece brightens, if that is known of real ones.
+    /// Brightening of the piece, if it is known for real ones.
     pub slope: Option<SlopeRow>,
     /// Figures whose real range is known, over all speeds.
     pub ranges: Count,
@@ -45,7 +45,7 @@ pub struct PieceReport {
     pub firm: Count,
 }
 
-/// How many figures lie inside.
+/// Number of figures inside.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 pub struct Count {
     /// Figures inside the real range, or near the real median.
@@ -55,7 +55,7 @@ pub struct Count {
 }
 
 impl Count {
-    /// What share lies inside; of nothing, all.
+    /// Share of figures inside; 1 if there are none.
     pub fn share(self) -> f64 {
         if self.of == 0 { 1.0 } else { self.inside as f64 / self.of as f64 }
     }
@@ -102,7 +102,7 @@ pub struct SlopeRow {
 pub struct Stroke {
     /// Its figures.
     pub features: Features,
-    /// How loud it is, dB.
+    /// Its level, dB.
     pub level_db: Option<f64>,
 }
 

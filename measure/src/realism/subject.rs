@@ -1,4 +1,4 @@
-//! What recordings tell apart: pieces, and of the hi-hat what its pedal does.
+//! The subjects of the recordings: pieces, and the hi-hat closed and open.
 
 use anyhow::Result;
 use overhear::kit_document::KitDocument;
@@ -44,7 +44,7 @@ impl Subject {
         Ok(settings::piece(&document.kit, self.piece)?.0)
     }
 
-    /// How the piece of a slot is struck.
+    /// The stroke on the piece of a slot.
     pub fn strike(&self, document: &KitDocument, slot: Slot) -> Strike {
         let ordinary = hear::default_strike(document, slot);
         let mapped = self.note.and_then(|note| document.notes.stroke(note));
@@ -56,7 +56,7 @@ impl Subject {
         })
     }
 
-    /// Where the pedal of a slot is, from 0 (up) to 1 (down).
+    /// Position of the pedal of a slot, from 0 (up) to 1 (down).
     pub fn pedal(&self, document: &KitDocument, slot: Slot) -> Option<f64> {
         match document.notes.foot(self.note?)? {
             (moved, Foot::Brought(pedal)) if moved == slot => Some(pedal),

@@ -1,4 +1,4 @@
-//! The report as tables for people.
+//! The report as text tables.
 
 use std::fmt;
 
@@ -13,9 +13,9 @@ impl fmt::Display for Report {
         }
         writeln!(
             f,
-            "[a .. b]  10-90 % of real kits        (a .. b)  near the real median, whose range is unknown"
+            "[a .. b]  10-90 % of real kits        (a .. b)  near the median of real kits; their range is unknown"
         )?;
-        writeln!(f, "< > outside        - cannot be measured: outside")?;
+        writeln!(f, "< > outside        - cannot be measured; counts as outside")?;
         for heard in Ear::ALL {
             self.write_shares(f, heard)?;
         }

@@ -1,4 +1,4 @@
-//! The cascade: how a crash's energy climbs from the modes a stroke excites to those above.
+//! The cascade: energy of a crash moves from the modes that a stroke excites to higher ones.
 //!
 //! The crash of the standard kit and a cap are struck softly, at medium speed and hard, at each tier; along the way the mean
 //! frequency of the modes to 2 kHz is taken, weighted by their energy, for that is the set every tier from `standard`
@@ -44,7 +44,7 @@ const COUNTED: f64 = 2000.0;
 /// Modes of the stand come first and are not counted.
 const RIGID: usize = 3;
 
-/// What one stroke does.
+/// Measurements of one stroke.
 struct Course {
     on: &'static str,
     tier: &'static str,
@@ -83,10 +83,10 @@ pub fn page() -> Result<Page> {
     Ok(sheet.finish())
 }
 
-const ABOUT: &str = "The 16 in crash of the standard kit, and the same as a cap as thick everywhere, of which mean frequencies were published; struck\n\
-     as its ordinary note strikes it, with a stick's shoulder near its edge: mean frequency of its modes to 2 kHz, weighted by their\n\
-     energy, and when the sound above 3 kHz is strongest. A linear plate only fades; coupled by its stretching, a hard stroke\n\
-     climbs. `tests/tests/cymbals.rs` holds it.";
+const ABOUT: &str = "The 16 in crash of the standard kit, and the same crash as a cap of uniform thickness, for which mean frequencies were published.\n\
+     Both are struck with a stick's shoulder near the edge, as by the ordinary note. The page shows the mean frequency of the modes to 2 kHz,\n\
+     weighted by energy, and the time of the strongest sound above 3 kHz. The mean frequency of a linear plate only falls. When stretching\n\
+     couples the modes, that of a hard stroke rises. `tests/tests/cymbals.rs` holds it.";
 
 /// The stroke of the crash's ordinary note.
 fn ordinary() -> Strike {
@@ -180,7 +180,7 @@ fn mean_frequency(piece: &mut Piece) -> f64 {
     weighted / sum
 }
 
-/// What a hard stroke has to do, and a soft or a linear one must not.
+/// Requirements for hard strokes, and for soft and linear ones.
 fn claims(sheet: &mut Sheet, courses: &[Course], blooms: &[Bloom]) {
     for on in [PLAYED, CAP] {
         let of_body: Vec<&Course> = courses.iter().filter(|course| course.on == on).collect();
@@ -194,7 +194,8 @@ fn claims(sheet: &mut Sheet, courses: &[Course], blooms: &[Bloom]) {
             what: format!("{}, at {radius}: sound above 3 kHz strongest, at 1.5, 5, 6 m/s", quality.name()),
             on,
             figure: format!("{soft:.0}, {hard:.0}, {harder:.0} ms"),
-            reference: "at once when soft, after more than 30 ms when hard (recordings 83 ms)".to_owned(),
+            reference: "immediately for soft strokes, after more than 30 ms for hard ones (recordings 83 ms)"
+                .to_owned(),
             source: MEASURED,
             met: Some(*soft < 15.0 && *hard > 30.0 && *harder > 30.0),
         });
@@ -262,15 +263,15 @@ fn tables(sheet: &mut Sheet, courses: &[Course], blooms: &[Bloom]) {
         }),
     );
     sheet.text(
-        "The stretching hands energy upward from mode to mode. Where the coupled set ends it cannot go on and gathers:\n\
-         `standard`, whose set ends where the modes counted here do, stays highest for that reason. From `high` on it leaves\n\
-         them for those above.",
+        "The stretching passes energy upward from mode to mode. At the end of the coupled set the energy accumulates. The set of\n\
+         `standard` ends where the modes counted here end, so its mean frequency stays highest. At `high` and `offline` the energy\n\
+         moves on to modes above.",
     );
-    sheet.heading("When the sound above 3 kHz is strongest, ms");
+    sheet.heading("Time of the strongest sound above 3 kHz, ms");
     sheet.text(
-        "Sound there is pumped only by modes that are coupled: `eco` and `standard` end below, and what is heard of them above\n\
-         3 kHz is the stroke itself, at once. Where the stroke and what is pumped are equally strong the later one may come\n\
-         second: that depends on the place.",
+        "Only coupled modes receive energy from others. The sets of `eco` and `standard` end below 3 kHz, so their sound above\n\
+         3 kHz is that of the stroke itself, without delay. Where the stroke and the cascade are equally strong, the strike position\n\
+         decides which of them is the maximum.",
     );
     let speeds = HARD.map(|speed| format!("{speed} m/s"));
     let head = ["measured on", "tier", "at"]

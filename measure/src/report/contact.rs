@@ -1,4 +1,4 @@
-//! Contacts: Hertz's law, energy, restitution, and whether a contact is the same at every sample rate.
+//! Contacts: Hertz's law, energy, restitution, and independence of the sample rate.
 
 use std::ops::Range;
 
@@ -31,7 +31,7 @@ pub fn page() -> Result<Page> {
         "contact",
         "Contacts",
         bodies::PLAYED,
-        "The one force law against a rigid wall, where it has closed forms, and on whole pieces at the rates hosts use.\n\
+        "The force law of all contacts, against a rigid wall, where it has closed forms, and on whole pieces at common sample rates.\n\
          `engine/src/contact/tests.rs` and `tests/tests/contacts.rs` hold them.",
     );
     let times = hertz(&mut sheet);
@@ -121,7 +121,7 @@ fn hertz(sheet: &mut Sheet) -> Vec<(f64, f64, f64)> {
     }
     let exponent = (times[3].1 / times[0].1).ln() / (times[3].0 / times[0].0).ln();
     sheet.claim(Claim {
-        what: "its exponent over the speed".to_owned(),
+        what: "exponent of the contact time over the speed".to_owned(),
         on: bodies::EQUATION,
         figure: format!("{exponent:.4}"),
         reference: "-0.2, 0.001".to_owned(),
@@ -157,7 +157,7 @@ fn wall(sheet: &mut Sheet) {
         }
     }
     sheet.claim(Claim {
-        what: "lossless, any tip on a wall, 44.1 to 192 kHz, 0.1 to 25 m/s: energy after over before"
+        what: "lossless, any tip on a wall, 44.1 to 192 kHz, 0.1 to 25 m/s: energy after over energy before"
             .to_owned(),
         on: bodies::EQUATION,
         figure: format!("{kept:.0e} off at most"),
@@ -166,7 +166,7 @@ fn wall(sheet: &mut Sheet) {
         met: Some(kept < 1e-4),
     });
     sheet.claim(Claim {
-        what: "restitution got for .1 to .95 asked, any tip, fine step".to_owned(),
+        what: "measured restitution against specified, .1 to .95, any tip, fine step".to_owned(),
         on: bodies::EQUATION,
         figure: format!("{fine:.0e} off at most"),
         reference: "0.002".to_owned(),
@@ -174,7 +174,7 @@ fn wall(sheet: &mut Sheet) {
         met: Some(fine < 2e-3),
     });
     sheet.claim(Claim {
-        what: "the same of felt at 44.1 kHz".to_owned(),
+        what: "restitution of felt at 44.1 kHz".to_owned(),
         on: bodies::EQUATION,
         figure: format!("{felt:.4} off at most"),
         reference: "0.01".to_owned(),
@@ -238,7 +238,7 @@ fn energy(sheet: &mut Sheet) {
         }
         sheet.claim(Claim {
             what: format!(
-                "lossless, every striker on every piece, 100 ms at {rate} Hz: energy about over brought"
+                "lossless, every striker on every piece, 100 ms at {rate} Hz: energy in piece and striker over energy brought"
             ),
             on: bodies::PLAYED,
             figure: format!("{worst:.0e} off at most"),
@@ -249,7 +249,7 @@ fn energy(sheet: &mut Sheet) {
     }
 }
 
-/// What is measured of one stroke.
+/// Measurements of one stroke.
 struct Measured {
     strike: StrikeSnapshot,
     spectrum: PowerSpectrum,
@@ -274,7 +274,7 @@ fn third_octaves() -> impl Iterator<Item = Range<f64>> {
     })
 }
 
-/// How far a stroke at a host's rate is from the same at 176.4 kHz.
+/// Errors of a stroke at a host's rate against the same at 176.4 kHz.
 #[derive(Debug, Clone, Copy)]
 pub struct Coarse {
     /// Sample rate, Hz.
@@ -340,7 +340,7 @@ fn fine_step(sheet: &mut Sheet, name: &str, (spec, on): (&PieceSpec, &'static st
 fn pulse(spec: &PieceSpec, strike: &Strike, rate: f64) -> Vec<(f64, f64)> {
     let mut piece = at_rate(spec, rate);
     piece.strike(strike);
-    // What a trace holds without putting samples together: less than its steps.
+    // Longest sound that a trace holds without merging samples: fewer samples than its steps.
     render(&mut piece, 90.0 / rate, rate);
     let trace = piece.last_strike().force;
     let points = trace.steps.iter().enumerate().take(90);

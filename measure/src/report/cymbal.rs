@@ -1,4 +1,4 @@
-//! Cymbals: energy, the stretching's own bookkeeping, offset, and what may be left out.
+//! Cymbals: energy, drift of the scalar auxiliary variable, offset, and permissible simplifications.
 
 use std::f64::consts::TAU;
 
@@ -30,10 +30,10 @@ pub fn page() -> Result<Page> {
         "cymbal",
         "Cymbals",
         PLAYED,
-        "The crash (and the splash, where it says so) of the standard kit by itself, and the same as caps as thick everywhere, of\n\
-         which figures were published: at their close microphones, 44.1 kHz, coupled to 2 kHz. How a hard stroke brightens is on\n\
-         [the page on the cascade](cascade.md). `tests/tests/cymbals.rs` holds these figures, the gradient against finite\n\
-         differences (1e-6) `engine/src/von_karman/tests.rs`.",
+        "The crash (and the splash, where stated) of the standard kit alone, and both as caps of uniform thickness, for which\n\
+         figures were published: at their close microphones, 44.1 kHz, coupled to 2 kHz. [The page on the cascade](cascade.md)\n\
+         shows how a hard stroke brightens. `tests/tests/cymbals.rs` checks these figures; the gradient is checked against\n\
+         finite differences (1e-6) by `engine/src/von_karman/tests.rs`.",
     );
     let crashes = [Body(spec("crash"), PLAYED), Body(reference::cap_crash(), CAP)];
     let splashes = [Body(spec("splash"), PLAYED), Body(reference::cap_splash(), CAP)];
@@ -48,7 +48,7 @@ pub fn page() -> Result<Page> {
 /// A cymbal, and what it is called.
 struct Body(PieceSpec, &'static str);
 
-/// Whether nothing is gained or lost without losses.
+/// Energy conservation without losses.
 fn energy(sheet: &mut Sheet, Body(crash, on): &Body) {
     for (speed, tolerance) in [(0.3, 1e-3), (25.0, 5e-3)] {
         let drift = energy_drift(crash, speed);
@@ -63,7 +63,7 @@ fn energy(sheet: &mut Sheet, Body(crash, on): &Body) {
     }
 }
 
-/// What a thousand hard strokes leave.
+/// Drift after a thousand hard strokes.
 fn endurance(sheet: &mut Sheet, Body(splash, on): &Body) {
     let (off, drift) = many_hard_strokes(splash, STROKES);
     sheet.claim(Claim {
@@ -292,7 +292,7 @@ fn shortcuts(sheet: &mut Sheet, Body(crash, on): &Body) {
     }
     let beside = mean_difference(&every, &strided(1, 0.925));
     sheet.claim(Claim::told(
-        "the same stroke a millimetre beside",
+        "the same stroke moved by a millimetre",
         on,
         format!("{beside:.2} dB in the mean"),
         "more than either",

@@ -1,4 +1,4 @@
-//! Drums: contacts, what a stroke's speed and striker change, the pillow, the band above the modes.
+//! Drums: contacts, effects of speed and striker, the pillow, the band above the modes.
 
 use crate::spectra::PowerSpectrum;
 use crate::{Chance, alone, altered, build, decibels, drum, names, piece, reference, render, spec, stroke};
@@ -30,16 +30,16 @@ pub fn page() -> Result<Page> {
         "drums",
         "Drums",
         PLAYED,
-        "Each drum by itself at its close microphone, 44.1 kHz. Published contacts and changes with the stroke's speed are of drums on\n\
-         which every stroke presses the same disc: they are told of such a reference, and beside it of the standard kit, whose heads wrap\n\
-         themselves around the tip. `hear` gives the same figures of the kit; `tests/tests/strokes.rs`, `tests/tests/drums.rs` and\n\
+        "Each drum alone at its close microphone, 44.1 kHz. Published contacts and changes with the stroke's speed assume that every\n\
+         stroke presses on a disc of fixed size. They are compared with a reference that has such a disc. The standard kit, whose heads wrap\n\
+         around the tip, is listed beside it. `hear` gives the same figures of the kit; `tests/tests/strokes.rs`, `tests/tests/drums.rs` and\n\
          `tests/tests/passivity.rs` hold them.",
     );
     contacts(&mut sheet);
     leaving(&mut sheet);
     let pillow = pillow_db();
     sheet.claim(Claim {
-        what: "a pillow takes from a kick's boom, 30 to 120 Hz".to_owned(),
+        what: "attenuation of a kick's boom by a pillow, 30 to 120 Hz".to_owned(),
         on: PLAYED,
         figure: format!("{pillow:.1} dB"),
         reference: "6 dB or more".to_owned(),
@@ -49,7 +49,7 @@ pub fn page() -> Result<Page> {
     for (kick, on) in [(reference::fixed_disc_kick(), FIXED_DISC), (spec("kick"), PLAYED)] {
         let plastic = plastic_db(&kick);
         sheet.claim(Claim {
-            what: "a plastic beater over felt, above 4 kHz".to_owned(),
+            what: "plastic beater compared with felt, above 4 kHz".to_owned(),
             on,
             figure: format!("{plastic:+.1} dB"),
             reference: "+6 dB or more (10)".to_owned(),
@@ -68,7 +68,7 @@ fn built(piece: &PieceSpec) -> overhear_engine::piece::Piece {
     build(piece, &BuildOptions::new(RATE))
 }
 
-/// What the contact of one stroke on a piece by itself measures.
+/// Measurements of the contact of one stroke on a single piece.
 pub fn measured(piece: &PieceSpec, strike: &Strike) -> StrikeSnapshot {
     let mut piece = built(piece);
     piece.strike(strike);
@@ -126,7 +126,7 @@ fn contacts(sheet: &mut Sheet) {
             what: format!("{name}: a stick touches, at .5 and 10 m/s"),
             on: PLAYED,
             figure: format!("{soft:.2} and {hard:.2} ms"),
-            reference: "3 to 9 ms (real sticks 3 to 6), no longer when harder".to_owned(),
+            reference: "3 to 9 ms (real sticks 3 to 6), not longer for harder strokes".to_owned(),
             source: MEASURED,
             met: Some((3.0..9.0).contains(&soft) && hard <= 1.001 * soft),
         });
@@ -166,7 +166,7 @@ fn leaving(sheet: &mut Sheet) {
     });
 }
 
-/// What a pillow takes from a kick's boom, dB.
+/// Attenuation of a kick's boom by a pillow, dB.
 pub fn pillow_db() -> f64 {
     let boom = |muffling: f64| {
         let mut kick = piece("kick", RATE);
@@ -233,7 +233,7 @@ fn speeds(sheet: &mut Sheet) -> Result<()> {
         what: "timpani, felt against hard mallet: centroid".to_owned(),
         on: PLAYED,
         figure: format!("{felt:.0} against {hard:.0} Hz"),
-        reference: "436 against 1122 Hz: half as high again or more".to_owned(),
+        reference: "436 against 1122 Hz: at least half as high again".to_owned(),
         source: EARLIER,
         met: Some(hard > 1.5 * felt),
     });
@@ -272,7 +272,7 @@ fn high_band(sheet: &mut Sheet) -> Result<()> {
     let above = |spectrum: &PowerSpectrum| spectrum.band(4000.0, 20_000.0).sqrt();
     let gain = decibels(above(&with.0), above(&without.0));
     sheet.claim(Claim {
-        what: "rack tom, 4 m/s: what the high band adds above 4 kHz".to_owned(),
+        what: "rack tom, 4 m/s: level that the high band adds above 4 kHz".to_owned(),
         on: PLAYED,
         figure: format!("{gain:+.1} dB"),
         reference: "+10 dB or more".to_owned(),
@@ -281,7 +281,7 @@ fn high_band(sheet: &mut Sheet) -> Result<()> {
     });
     let moved = with.1.iter().zip(without.1).map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max);
     sheet.claim(Claim {
-        what: "what it changes of the contact".to_owned(),
+        what: "effect of the high band on the contact".to_owned(),
         on: PLAYED,
         figure: format!("{:.2} %", 100.0 * moved),
         reference: "3 %".to_owned(),
@@ -290,7 +290,7 @@ fn high_band(sheet: &mut Sheet) -> Result<()> {
     });
     let top = decibels(with.0.band(14_000.0, 16_000.0).sqrt(), without.0.band(14_000.0, 16_000.0).sqrt());
     sheet.claim(Claim {
-        what: "what it adds from 14 to 16 kHz".to_owned(),
+        what: "level that the high band adds from 14 to 16 kHz".to_owned(),
         on: PLAYED,
         figure: format!("{top:+.1} dB"),
         reference: "more than 0 (the earlier engine is silent above 10.8 kHz)".to_owned(),

@@ -35,8 +35,8 @@ pub fn page() -> Result<Page> {
         "Pitch glide",
         PLAYED,
         "Floor toms struck at half their radius: how much higher the strongest partial is from 5 to 85 ms than from 400 to 480 ms,\n\
-         from that mode's own motion. The one of the standard kit has two heads. Published glides are of one of 82 Hz without its\n\
-         lower head, which every stroke presses on with the stick's own disc. `hear floor-tom --at 0.5` gives the figures of the\n\
+         measured on the motion of that mode. The floor tom of the standard kit has two heads. Published glides are those of a drum of 82 Hz\n\
+         without its lower head and with a contact disc of fixed size. `hear floor-tom --at 0.5` gives the figures of the\n\
          first; `tests/tests/drums.rs` holds them.",
     );
     let (published, played) = (Glides::of(&one_headed())?, Glides::of(&spec("floor-tom"))?);
@@ -60,7 +60,7 @@ pub fn page() -> Result<Page> {
         what: "two heads, at 0.5, 3 and 6 m/s".to_owned(),
         on: PLAYED,
         figure: format!("{soft:.2}, {firm:.1}, {hard:.1} cents"),
-        reference: "next to none of a soft stroke (1.1 at most), more of each harder one".to_owned(),
+        reference: "almost none for a soft stroke (1.1 at most), more for each harder one".to_owned(),
         source: EARLIER,
         met: Some(soft < 1.1 && soft < firm && firm < hard),
     });
@@ -83,7 +83,7 @@ pub fn one_headed() -> PieceSpec {
     altered(reference::fixed_disc_floor_tom(), DrumSpec::opened)
 }
 
-/// How a drum glides.
+/// Pitch glide of a drum.
 struct Glides {
     /// Its own pitch, Hz.
     pitch: f64,
@@ -121,7 +121,7 @@ impl Glides {
         self.by_speed.iter().find(|(other, _)| *other == speed).map_or(f64::NAN, |(_, cents)| *cents)
     }
 
-    /// What holds of every drum.
+    /// Claims for every drum.
     fn claims(&self, sheet: &mut Sheet, on: &'static str, heads: &str) {
         let (pitch, own) = (self.pitch, self.at(4.0));
         sheet.claim(Claim {

@@ -1,4 +1,4 @@
-//! Heads: what the air around a timpani's and the air in its kettle do to its modes.
+//! Heads: effects of the outer air and of the air in the kettle on a timpani's modes.
 
 use std::f64::consts::TAU;
 
@@ -28,7 +28,7 @@ pub fn page() -> Result<Page> {
         "heads",
         "Heads",
         bodies::ROUND,
-        "A timpani of 26 inches, its head alone in air and over its kettle; and strokes in the centre of every round drum. Ratios of\n\
+        "A timpani of 26 inches: its head alone in air, and over its kettle. Strokes in the centre of every round drum. Ratios of\n\
          real heads: T. D. Rossing, Science of Percussion Instruments. `tests/tests/acoustics.rs` and `tests/tests/drums.rs` hold them.",
     );
     let timpani = build(&timpani_head(), &BuildOptions::new(RATE));
@@ -126,7 +126,7 @@ pub fn centre_rejection(name: &str) -> f64 {
     decibels(largest(true), largest(false).max(1e-30))
 }
 
-/// What is heard of a stroke, and the modes in vacuum and in air.
+/// Spectrum of a stroke, and the modes in vacuum and in air.
 fn spectrum() -> Result<Plot<'static>> {
     let mut timpani = round_piece("timpani", RATE);
     timpani.strike(&stroke(Striker::TimpaniMallet, 2.0, 0.75, 0.0));

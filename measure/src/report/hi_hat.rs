@@ -1,4 +1,4 @@
-//! The hi-hat: energy, what the pedal does to its decay, sizzle, and the foot by itself.
+//! The hi-hat: energy, decay against the pedal, sizzle, and the foot alone.
 
 use crate::spectra::PowerSpectrum;
 use crate::{decibels, lossless_piece, piece, render, stroke, total_energy};
@@ -27,7 +27,7 @@ pub fn page() -> Result<Page> {
         "hi-hat",
         "Hi-hat",
         PLAYED,
-        "The hi-hat of the standard kit by itself: two 14 in cymbals, sixteen contacts around their rims, struck near the edge; the\n\
+        "The hi-hat of the standard kit alone: two 14 in cymbals, sixteen contacts around their rims, struck near the edge; the\n\
          pedal from 0 (open) to 1 (clamped). `tests/tests/hi_hat.rs` holds these figures.",
     );
     energy(&mut sheet);
@@ -86,7 +86,7 @@ pub fn struck(hat: &mut Piece, pedal: f64, speed: f64) -> Struck {
     Struck { sound, landings }
 }
 
-/// How a stroke with the pedal held dies away.
+/// Decay of a stroke with the pedal held.
 #[derive(Debug, Clone)]
 pub struct Decay {
     /// Of the octaves from 500 Hz to 8 kHz, s.
@@ -114,8 +114,7 @@ fn decays(sheet: &mut Sheet) -> Result<()> {
     let decays = PLACES.map(|pedal| (pedal, decay(&mut hat, pedal)));
     let means: Vec<String> = decays.iter().map(|(_, decay)| format!("{:.2}", decay.mean)).collect();
     sheet.claim(Claim {
-        what: "the farther down the pedal the shorter: T60, mean of the octaves from 500 Hz to 8 kHz"
-            .to_owned(),
+        what: "T60 against the position of the pedal, mean of the octaves from 500 Hz to 8 kHz".to_owned(),
         on: PLAYED,
         figure: format!("{} s", means.join(", ")),
         reference: "falls; open 2 to 5 s".to_owned(),
@@ -130,7 +129,7 @@ fn decays(sheet: &mut Sheet) -> Result<()> {
         what: "clamped: T60 and mean time".to_owned(),
         on: PLAYED,
         figure: format!("{:.2} s, {:.0} ms", closed.mean, closed.centroid_ms),
-        reference: ".25 to .5 s, less than 51 ms (half again of recordings' 34)".to_owned(),
+        reference: ".25 to .5 s, less than 51 ms (half as much again as the 34 of recordings)".to_owned(),
         source: GOAL,
         met: Some((0.25..0.5).contains(&closed.mean) && closed.centroid_ms < 51.0),
     });

@@ -1,4 +1,4 @@
-//! The kit: delays, what pieces hear of each other, outputs that nothing changes, and sleep.
+//! The kit: delays, sympathetic resonance, determinism of the output, and sleep.
 
 use crate::{Chance, kit, slot, standard, stroke};
 use anyhow::{Context, Result};
@@ -31,7 +31,7 @@ pub fn page() -> Result<Page> {
         "kit",
         "The kit",
         PLAYED,
-        "All pieces of the standard kit where they stand, 44.1 kHz. `tests/tests/sympathy.rs`, `tests/tests/equivalence.rs`,\n\
+        "All pieces of the standard kit at their positions, 44.1 kHz. `tests/tests/sympathy.rs`, `tests/tests/equivalence.rs`,\n\
          `tests/tests/workers.rs`, `tests/tests/kit.rs` and `tests/tests/sleep.rs` hold these figures.",
     );
     let mut kit = kit(RATE);
@@ -152,7 +152,7 @@ fn falls_asleep(kit: &mut Kit, slot: Slot) -> f64 {
 fn sleep(sheet: &mut Sheet, kit: &mut Kit) {
     let longest = standard().slots().map(|(slot, _)| falls_asleep(kit, slot)).fold(0.0, f64::max);
     sheet.claim(Claim {
-        what: "every piece in turn: from the last sound above -100 dBFS to sleep".to_owned(),
+        what: "every piece in turn: time from the last sound above -100 dBFS to sleep".to_owned(),
         on: PLAYED,
         figure: format!("{longest:.2} s at most"),
         reference: "1 s".to_owned(),
@@ -204,7 +204,7 @@ fn delays(sheet: &mut Sheet) -> Result<()> {
     let ways = pairs.filter_map(|(from, to)| Some((way(from, to)?, [from, to])));
     let (shortest, ends) = ways.min_by(|a, b| a.0.total_cmp(&b.0)).context("the kit has not two drums")?;
     let [from, to] = ends.map(|slot| name(&spec, slot));
-    // Reading between samples needs one that is newer.
+    // Interpolation needs one newer sample.
     let samples = (shortest / SPEED_OF_SOUND * RATE).floor() as usize - 1;
     sheet.claim(Claim {
         what: "shortest delay between drums".to_owned(),
@@ -215,7 +215,7 @@ fn delays(sheet: &mut Sheet) -> Result<()> {
         met: Some(samples == 54),
     });
     sheet.heading("Delays");
-    sheet.text("From each piece (row) to each drum that hears it (column), ms.");
+    sheet.text("Delay from each piece (row) to each drum (column), ms.");
     let mut head = vec![""];
     head.extend(drums.iter().map(|&to| name(&spec, to)));
     let delay = |way: f64| format!("{:.2}", 1e3 * way / SPEED_OF_SOUND);
@@ -259,10 +259,10 @@ fn ways_from(spec: &KitSpec, title: &str, from_drums: bool) -> (String, Vec<Line
 const PEN_UP: (f64, f64) = (f64::NAN, f64::NAN);
 
 fn sympathy(sheet: &mut Sheet, kit: &mut Kit) {
-    sheet.heading("Sympathy");
+    sheet.heading("Sympathetic resonance");
     sheet.text(
-        "Each piece struck as its ordinary note strikes it, at 5 m/s: the greatest energy of each drum in the second after it, dB of\n\
-         the stroke's.",
+        "Each piece is struck as by its ordinary note, at 5 m/s. The table shows the greatest energy of each drum in the next second, in dB\n\
+         relative to the stroke.",
     );
     let spec = standard();
     let drums: Vec<Slot> = spec.drums().map(|(slot, _)| slot).collect();
@@ -282,7 +282,7 @@ fn sympathy(sheet: &mut Sheet, kit: &mut Kit) {
     }
     sheet.table(&head, rows);
     sheet.claim(Claim {
-        what: "the most any drum takes of a stroke on another piece".to_owned(),
+        what: "largest energy of a drum after a stroke on another piece".to_owned(),
         on: PLAYED,
         figure: format!("{largest:.0} dB"),
         reference: "less than -10 dB: energy is only lost on the way".to_owned(),

@@ -1,7 +1,7 @@
-//! Modes: whether they ring where they should, decay as they should, and bend as they should.
+//! Modes: errors of frequency, decay and static deflection.
 //!
-//! The two-pole recurrence `y[n+1] = 2 cos(omega dt) y[n] - y[n-1]` stands beside as what is usually written: in single
-//! precision its coefficient cannot say a low frequency.
+//! The usual two-pole recurrence `y[n+1] = 2 cos(omega dt) y[n] - y[n-1]` is shown for comparison: in single
+//! precision its coefficient cannot represent a low frequency.
 
 use std::f64::consts::TAU;
 
@@ -24,7 +24,7 @@ use super::{Claim, Page, Sheet};
 
 const RATE: f64 = 44_100.0;
 
-/// How long modes are followed, s.
+/// Time for which modes are followed, s.
 const SECONDS: f64 = 8.0;
 
 /// Zeros `j_mn` (dimensionless), of which a head's lowest modes in vacuum are multiples. Abramowitz & Stegun, table
@@ -49,8 +49,8 @@ pub fn page() -> Result<Page> {
         "modal",
         "Modes",
         bodies::PLAYED,
-        "Every mode of every piece, 44.1 kHz, single precision: frequency and decay over 8 s from the phase and the size of its own\n\
-         motion; deflection under a force that is laid on slowly and held. `tests/tests/acoustics.rs` holds them.",
+        "Every mode of every piece, 44.1 kHz, single precision: frequency and decay over 8 s, from the phase and amplitude of the mode's\n\
+         motion, and deflection under a force that is applied slowly and held. `tests/tests/acoustics.rs` holds them.",
     );
     let (off, decay) = worst_ringing();
     sheet.claim(Claim {
@@ -110,7 +110,7 @@ pub fn page() -> Result<Page> {
 fn two_pole_error(hz: f64) -> f64 {
     let coefficient = (2.0 * (TAU * hz / RATE).cos()) as f32;
     let heard = (0.5 * f64::from(coefficient)).clamp(-1.0, 1.0).acos() * RATE / TAU;
-    // What cannot be told from standing still is as far off as the plot goes.
+    // A mode that does not measurably move has the largest error of the plot.
     if heard > 0.0 { cents(heard, hz) } else { 100.0 }
 }
 
@@ -136,9 +136,9 @@ const LOOK: usize = 2048;
 /// One mode of a piece left to ring, against what the piece says of it.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Rung {
-    /// How far above its frequency it rang, cents.
+    /// Frequency error, cents.
     pub off: f64,
-    /// How much faster than said it decayed, 1/s.
+    /// Error of the decay rate, 1/s.
     pub sigma: f64,
     /// Turns it was followed for, periods being the unit.
     pub turns: f64,
@@ -242,7 +242,7 @@ pub fn worst_deflection(name: &str) -> f64 {
     surface.shapes().fill(0.37, 0.8, port.shape_mut());
     let body = surface.body_mut();
     body.connect(&mut port);
-    // Laid on slowly, so that little is left to ring.
+    // Applied slowly, so that little ringing remains.
     let (ramp, hold) = (4 * RATE as usize, 2 * RATE as usize);
     for sample in 0..ramp + hold {
         let share = (sample as f64 / ramp as f64).min(1.0);
@@ -255,7 +255,7 @@ pub fn worst_deflection(name: &str) -> f64 {
         let shape = f64::from(port.shape()[k]);
         let own = shape * FORCE / (mode.mass * mode.omega.powi(2));
         exact += shape * own;
-        // A mode whose node lies there has nothing to measure.
+        // A mode with a node there cannot be measured.
         if shape.abs() > 0.01 {
             worst = worst.max((f64::from(body.displacement(k)) / own - 1.0).abs());
         }

@@ -13,26 +13,26 @@ pub struct Page {
     pub name: &'static str,
     /// The page itself.
     pub markdown: String,
-    /// What it claims.
+    /// Its claims.
     pub claims: Vec<Claim>,
     /// Its pictures: file name and PNG bytes.
     pub pictures: Vec<(String, Vec<u8>)>,
 }
 
-/// Something this project says of itself, and what was measured.
+/// A claim of this project, and the measured figure.
 #[derive(Debug, Clone)]
 pub struct Claim {
-    /// What is claimed.
+    /// The claim.
     pub what: String,
     /// Of which instrument or body it was measured; see [`bodies`].
     pub on: &'static str,
-    /// What was measured, with its unit.
+    /// The measured figure, with its unit.
     pub figure: String,
-    /// What it should be, and within what.
+    /// The target, and its tolerance.
     pub reference: String,
-    /// Where that comes from.
+    /// Source of the target.
     pub source: &'static str,
-    /// Whether the figure is what it should be; nothing for figures that are only told.
+    /// Whether the figure meets the target; none for figures given as information.
     pub met: Option<bool>,
 }
 
@@ -56,7 +56,7 @@ impl Claim {
         }
     }
 
-    /// A figure that is only told.
+    /// A figure given as information.
     pub fn told(
         what: &str,
         on: &'static str,
@@ -76,7 +76,7 @@ pub fn figure(value: f64) -> String {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
-/// Where references come from.
+/// Sources of targets.
 pub mod sources {
     /// Published figures of an earlier engine of this kind.
     pub const EARLIER: &str = "an earlier engine";
@@ -84,11 +84,11 @@ pub mod sources {
     pub const MEASURED: &str = "measured instruments";
     /// Follows from the equations.
     pub const EXACT: &str = "mathematics";
-    /// What this project set itself.
+    /// A goal of this project.
     pub const GOAL: &str = "our goal";
 }
 
-/// What figures are measured on: the played instrument, or a named reference beside it.
+/// Bodies on which figures are measured: the played instrument, or a named reference.
 pub mod bodies {
     /// The played instrument: the standard kit, or a piece of it by itself.
     pub const PLAYED: &str = "standard kit";
@@ -179,14 +179,14 @@ impl Sheet {
         );
         if !claims.is_empty() {
             markdown.push_str(
-                "\n| claim | measured on | figure | should be | by | met |\n|---|---|---|---|---|---|\n",
+                "\n| claim | measured on | figure | target | source | met |\n|---|---|---|---|---|---|\n",
             );
         }
         for Claim { what, on, figure, reference, source, met } in &claims {
             let met = match met {
                 Some(true) => MET,
                 Some(false) => MISSED,
-                None => "| told |",
+                None => "| info |",
             };
             let _ = writeln!(markdown, "| {what} | {on} | {figure} | {reference} | {source} {met}");
         }
@@ -195,12 +195,12 @@ impl Sheet {
     }
 }
 
-/// How the row of a claim ends that is met, and of one that is not.
+/// Ends of the rows of claims that are met, and that are not met.
 pub const MET: &str = "| yes |";
 /// See [`MET`].
 pub const MISSED: &str = "| **no** |";
 
-/// How many claims are met, and of how many that can be.
+/// Number of claims that are met, and number of claims with a target.
 pub fn tally(claims: &[Claim]) -> [usize; 2] {
     let bound = claims.iter().filter_map(|claim| claim.met);
     [bound.clone().filter(|met| *met).count(), bound.count()]

@@ -1,4 +1,4 @@
-//! Plates: wave numbers of the free disc, and what doming does to its frequencies.
+//! Plates: wave numbers of the free disc, and the effect of doming on its frequencies.
 
 use std::f64::consts::TAU;
 

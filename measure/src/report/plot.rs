@@ -29,7 +29,7 @@ const LINES: [RGBColor; 9] = [
 /// A line: its name and its points; one that is not a number lifts the pen.
 pub type Line = (String, Vec<(f64, f64)>);
 
-/// How values become places.
+/// Scale of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scale {
     /// In proportion.
@@ -70,10 +70,10 @@ pub struct Plot<'a> {
     pub panels: Vec<(String, Vec<Line>)>,
 }
 
-/// What drawing can fail with.
+/// Error of drawing.
 type Drawn = Result<(), Box<dyn std::error::Error>>;
 
-/// Where a panel is drawn.
+/// Area of a panel.
 type Area<'a> = DrawingArea<BitMapBackend<'a>, plotters::coord::Shift>;
 
 impl Plot<'_> {

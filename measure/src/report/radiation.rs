@@ -1,4 +1,4 @@
-//! Radiation: what vibrating discs do to the air, and what is heard of them near and far.
+//! Radiation: air load of vibrating discs, and their sound near and far.
 
 use std::f64::consts::PI;
 
@@ -33,8 +33,8 @@ pub fn page() -> Result<Page> {
         "radiation",
         "Radiation and microphones",
         ROUND,
-        "Closed forms of a rigid disc in free air; what drums lose to the air; what microphones hear from where they stand. Drums are\n\
-         those of the standard kit; where single modes are told apart, without what makes them uneven.\n\
+        "Closed forms of a rigid disc in free air; radiation losses of drums; sound at the microphones. The drums are those of the\n\
+         standard kit; where single modes are distinguished, without mode splitting.\n\
          `engine/src/plate/free_disc.rs`, `engine/src/listening/tests.rs`, `tests/tests/damping.rs` and `tests/tests/microphones.rs`\n\
          hold these figures.",
     );
@@ -69,7 +69,7 @@ fn rigid_disc(sheet: &mut Sheet) {
     let (slow, fast) = (rigid(0.05), rigid(30.0));
     let moment = 8.0 / 3.0 * DENSITY * RADIUS.powi(3);
     sheet.claim(Claim::near(
-        "rigid disc, slow: air moved along over (8/3) rho a³",
+        "rigid disc, slow: added mass of air over (8/3) rho a³",
         EQUATION,
         (slow.air_mass / moment, ""),
         (1.0, 0.01),
@@ -101,7 +101,7 @@ fn toms(sheet: &mut Sheet) {
         let modes = piece.modes().into_iter().filter(|mode| mode.body == "resonant" && mode.m == 0);
         let Some(apart) = modes.min_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz)) else { continue };
         sheet.claim(Claim {
-            what: format!("{name}: heads together, and apart ({:.0} Hz), T60", apart.frequency_hz),
+            what: format!("{name}: heads in phase, and in antiphase ({:.0} Hz), T60", apart.frequency_hz),
             on: ROUND,
             figure: format!("{:.2} s, {:.2} s", together.t60, apart.t60),
             reference: "more than 1 s, less than a quarter of it".to_owned(),
@@ -120,7 +120,7 @@ fn distances(sheet: &mut Sheet) {
             };
             sheet.claim(Claim {
                 what: format!(
-                    "rack tom, {name}, from {} m: 34.3 cm farther, a millisecond later; twice as far, half",
+                    "rack tom, {name}, from {} m: error when moved 34.3 cm away (1 ms later), and to twice the distance (half)",
                     at.0
                 ),
                 on,
@@ -132,8 +132,8 @@ fn distances(sheet: &mut Sheet) {
         }
     }
     sheet.text(
-        "What a microphone that is moved away loses beside is a stroke's first highs, on ways of a broken number of samples, the most at\n\
-         44.1 kHz; and a drum is no point. The standard kit's heads wrap around the tip, which makes the stroke brighter.",
+        "A microphone that is moved away also loses high frequencies of the attack when the path is a fractional number of samples, most at\n\
+         44.1 kHz. Besides, a drum is not a point source. The standard kit's heads wrap around the tip, which makes the stroke brighter.",
     );
 }
 

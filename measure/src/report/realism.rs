@@ -16,7 +16,7 @@ use crate::picture;
 use crate::realism::reference::SLOPE_WITHIN;
 use crate::realism::{self, Count, Ear, PieceReport, RATE, Report, SPEEDS, SUBJECTS, Subject};
 
-/// Where the figures of recordings come from.
+/// Source of the figures of recordings.
 const RECORDINGS: &str = "3,123 recorded strokes";
 
 /// The page.
@@ -26,13 +26,13 @@ const RECORDINGS: &str = "3,123 recorded strokes";
 pub fn page() -> Result<Page> {
     let mut sheet = Sheet::new(
         "realism",
-        "Beside recordings",
+        "Compared with recordings",
         PLAYED,
-        "Every piece in the kit as the plugin has it, struck softly to hard in three places, at its close microphone and in the full\n\
-         mix, beside 3,123 one-shots of 36 acoustic kits: `cargo xtask realism`. Bounced, which tables and pictures are, cymbals are coupled to 8 kHz;\n\
-         played live, to 2 kHz (`--live`; drums are the same but for the cymbals that answer them). A range is that of 10 to 90 % of the recordings; where\n\
-         only the median is known, what is near it is our choice. What lies outside, and why, is in [realism.md](../realism.md); how each\n\
-         figure is defined in [commands.md](../commands.md#realism).",
+        "Every piece in the kit with the plugin's defaults, struck from soft to hard at three positions, at its close microphone and in the full\n\
+         mix, compared with 3,123 one-shots of 36 acoustic kits: `cargo xtask realism`. Tables and pictures show the bounce, with cymbals coupled to 8 kHz;\n\
+         played live, they are coupled to 2 kHz (`--live`; drums differ only by the sound of the cymbals). A range is that of 10 to 90 % of the\n\
+         recordings; where only the median is known, the range near it is our choice. [realism.md](../realism.md) discusses what lies outside;\n\
+         [commands.md](../commands.md#realism) defines each figure.",
     );
     let request = |subjects: Vec<Subject>, pace| realism::Request {
         subjects,
@@ -41,7 +41,7 @@ pub fn page() -> Result<Page> {
         settings: Vec::new(),
         pace,
     };
-    // What the mix hears of the middle place, by piece and speed.
+    // Sound of the mix at the middle position, by piece and speed.
     let heard: Mutex<BTreeMap<(&str, u64), Vec<f32>>> = Mutex::default();
     let report =
         realism::run_and_show(&request(realism::subjects(&[])?, Pace::Offline), &|job, [_, mix]| {
@@ -65,7 +65,7 @@ pub fn page() -> Result<Page> {
             [report.all(heard, |piece| piece.ranges), report.all(heard, |piece| piece.medians)];
         for (what, count) in [("in the range of recordings", ranges), ("near their median", medians)] {
             let what = format!("all pieces, {}: figures {what}", heard.name());
-            sheet.claim(Claim::told(&what, PLAYED, counted(count), "as many as can be", RECORDINGS));
+            sheet.claim(Claim::told(&what, PLAYED, counted(count), "as many as possible", RECORDINGS));
         }
     }
     sheet.plot(
@@ -91,7 +91,7 @@ fn shares(sheet: &mut Sheet, report: &Report, how: &str) {
             let (share, goal) = (piece.firm.share(), heard.goal());
             sheet.claim(Claim {
                 what: format!(
-                    "{}, {how}, {}: figures of strokes from 3 m/s on as recorded",
+                    "{}, {how}, {}: figures of strokes of 3 m/s and more within the recordings",
                     piece.piece,
                     heard.name()
                 ),

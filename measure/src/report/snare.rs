@@ -29,8 +29,8 @@ pub fn page() -> Result<Page> {
         "snare",
         "Snare",
         PLAYED,
-        "A snare by itself, struck at .3 of its radius, 44.1 kHz: that of the standard kit, and one of 220 Hz with a fixed disc under\n\
-         the stick and .15 N on its wires, of which the landings were published. Landings count every group of wires. `hear snare`\n\
+        "A snare alone, struck at .3 of its radius, 44.1 kHz: that of the standard kit, and one of 220 Hz with a fixed disc under\n\
+         the stick and .15 N on its wires, for which landings were published. Landings count every group of wires. `hear snare`\n\
          gives the same figures of the first; `tests/tests/strokes.rs` and `tests/tests/drums.rs` hold them.",
     );
     let (published, played) = (reference::fixed_disc_snare(), spec("snare"));
@@ -51,7 +51,7 @@ pub fn page() -> Result<Page> {
     Ok(sheet.finish())
 }
 
-/// How a snare's controls are set.
+/// Settings of a snare's controls.
 #[derive(Debug, Clone, Copy)]
 struct Controls {
     /// Pitch, Hz.
@@ -108,7 +108,7 @@ fn preloads(snare: &PieceSpec) -> [f64; 3] {
     [*PRELOAD.start(), Controls::own(snare).preload, *PRELOAD.end()]
 }
 
-/// What wires do beside landing.
+/// Other measurements of the wires.
 fn wires(sheet: &mut Sheet, snare: &PieceSpec, on: &'static str) {
     let mut claim = |what: String, figure: String, reference: &str, met: bool| {
         let reference = reference.to_owned();
@@ -144,7 +144,7 @@ fn wires(sheet: &mut Sheet, snare: &PieceSpec, on: &'static str) {
     });
     let gain = decibels(with, without);
     claim(
-        "what the wires add above 3 kHz in the first 50 ms".to_owned(),
+        "level that the wires add above 3 kHz in the first 50 ms".to_owned(),
         format!("{gain:+.1} dB"),
         "+4 dB or more",
         gain >= 4.0,
@@ -198,7 +198,8 @@ fn air(sheet: &mut Sheet, snares: [(&PieceSpec, &'static str); 2]) -> Result<()>
     for (snare, on) in snares {
         let share = 100.0 * transverse_share(snare)?;
         sheet.claim(Claim {
-            what: "of the snare side's energy in modes of one nodal diameter, 50 ms after 4 m/s".to_owned(),
+            what: "share of the snare side's energy in modes of one nodal diameter, 50 ms after 4 m/s"
+                .to_owned(),
             on,
             figure: format!("{share:.1} %"),
             reference: "3 % or more".to_owned(),

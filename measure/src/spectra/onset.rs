@@ -15,10 +15,10 @@ pub struct OnsetSpectrum {
     spacing: f64,
 }
 
-/// Below this nothing is heard, Hz.
+/// Lower limit of hearing, Hz.
 const LOWEST_HZ: f64 = 20.0;
 
-/// Above this nothing is heard, Hz.
+/// Upper limit of hearing, Hz.
 const HIGHEST_HZ: f64 = 20_000.0;
 
 impl OnsetSpectrum {

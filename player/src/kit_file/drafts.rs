@@ -83,11 +83,11 @@ impl Layers<'_> {
         let changes = match self.pieces.get(name) {
             None => None,
             Some(Value::Table(table)) => Some(table),
-            Some(_) => return Err(Fault::of(&path, self.origins, "is no table, accepted: a table")),
+            Some(_) => return Err(Fault::of(&path, self.origins, "is not a table, accepted: a table")),
         };
         let mut fields = match (self.kept(name), changes.and_then(|changes| changes.get("like"))) {
             (Some(_), Some(_)) => {
-                let reason = "is given, accepted: only for a piece that the start does not have";
+                let reason = "is given, accepted: only for a new piece";
                 return Err(Fault::of(&format!("{path}.like"), self.origins, reason));
             }
             (Some(piece), None) => write::fields(piece),
@@ -105,13 +105,13 @@ impl Layers<'_> {
         let path = format!("pieces.{name}.like");
         let refuse = |reason: String| Err(Fault::of(&path, self.origins, &reason));
         let Value::String(other) = like else {
-            return refuse("is no text, accepted: the name of a piece".to_owned());
+            return refuse("is not a string, accepted: the name of a piece".to_owned());
         };
         // Its own name means what the start has, which the file leaves out.
         let is_here = other != name && (self.pieces.contains_key(other) || self.kept(other).is_some());
         let mut fields = match self.start_of(other) {
             _ if is_here && way.contains(&&**other) => {
-                return refuse(format!("is {}, which is like `{name}` itself", quoted(other)));
+                return refuse(format!("is {}, which is itself a copy of `{name}`", quoted(other)));
             }
             _ if is_here => {
                 way.push(other);

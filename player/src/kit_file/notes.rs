@@ -41,8 +41,7 @@ impl Claims {
         let Some(place) = self.0.get_mut(usize::from(note)) else { return Ok(()) };
         if let Some(other) = place {
             let other = origins.locate(other).path;
-            let reason =
-                format!("is note {note}, which {other} is, too, accepted: a note for one piece, once");
+            let reason = format!("is note {note}, which {other} has too, accepted: each note once");
             return Err(Fault::of(path, origins, &reason));
         }
         *place = Some(path.to_owned());
@@ -135,7 +134,7 @@ impl Reader<'_> {
     ) -> Result<(), Fault> {
         let path = format!("pieces.{}.notes", piece.name);
         let Value::Array(notes) = notes else {
-            return Err(Fault::of(&path, self.origins, "is no array, accepted: an array of notes"));
+            return Err(Fault::of(&path, self.origins, "is not an array, accepted: an array of notes"));
         };
         let usual = self.usual(piece, draft);
         let (mut marked, mut first) = (None, None);
@@ -146,7 +145,7 @@ impl Reader<'_> {
             if matches!(row.meaning, Meaning::Strikes(_)) {
                 match ordinary {
                     Some(true) if marked.is_some() => {
-                        let reason = "is the piece's second, accepted: one ordinary note";
+                        let reason = "is the piece's second ordinary note, accepted: one";
                         return Err(Fault::of(&format!("{path}.ordinary"), self.origins, reason));
                     }
                     Some(true) => marked = Some(note),
@@ -204,7 +203,7 @@ impl Reader<'_> {
         }
         let as_known = known.filter(|row| matches!(row.meaning, Meaning::Strikes(_))).unwrap_or(usual);
         let Meaning::Strikes(stroke) = as_known.meaning else {
-            return Err(Fault::of(path, self.origins, "is no stroke, accepted: at, angle_rad, stick"));
+            return Err(Fault::of(path, self.origins, "is not a stroke, accepted: at, angle_rad, stick"));
         };
         let striker = entry.striker(path, self.origins)?.unwrap_or(stroke.striker);
         let radius = entry.at.unwrap_or(stroke.radius);
@@ -265,14 +264,14 @@ impl Reader<'_> {
                 return Err(Fault::of(
                     "silent",
                     self.origins,
-                    "is no table, accepted: notes with their names",
+                    "is not a table, accepted: notes with their names",
                 ));
             }
         };
         for (key, name) in rows {
             let path = format!("silent.{key}");
             let Some(note) = key.parse().ok().filter(|note: &u8| usize::from(*note) < NOTES) else {
-                let reason = format!("is no note, accepted: 0 to {}", NOTES - 1);
+                let reason = format!("is not a note, accepted: 0 to {}", NOTES - 1);
                 return Err(Fault::of(&path, self.origins, &reason));
             };
             claims.take(note, &path, self.origins)?;

@@ -48,7 +48,7 @@ fn instrument(mut own: Table, path: &str, origins: &Origins) -> Result<Instrumen
     match own.get("kind").and_then(Value::as_str) {
         None if !own.contains_key("kind") => {
             let reason =
-                "kind is missing, accepted: a kind, with all that it has, or `like` with the name of a piece";
+                "kind is missing, accepted: a kind with all its fields, or `like` with the name of a piece";
             Err(Fault::new(origins.locate(path).at, format!("{path}.{reason}")))
         }
         // One by one, as Serde forgets where it is in a value whose kind it has to look for.

@@ -136,8 +136,10 @@ impl Reader<'_> {
                 return Err(Fault::new(key.span().start, format!("{} is nested too deep", inner.written)));
             }
             if read.contains_key(&si) {
-                let reason =
-                    format!("is there beside {}, accepted: one of them", self.origins.locate(&inner.si).path);
+                let reason = format!(
+                    "is given together with {}, accepted: one of them",
+                    self.origins.locate(&inner.si).path
+                );
                 return Err(Fault::new(key.span().start, format!("{} {reason}", inner.written)));
             }
             // A table is where its name stands; `value.span()` of one would be that of a header.

@@ -15,9 +15,9 @@ use super::{FORMAT, notes};
 const LONGEST_LINE: usize = 100;
 
 const HEADER: &str = "\
-# A kit file of Overhear: pieces, notes, microphones, room. The manual's page on kit files has every field.
+# A kit file of Overhear: pieces, notes, microphones, room. The manual's page on kit files describes every field.
 #
-# Units stand at the ends of names: _m, _cm, _mm or _in for lengths, _kg or _g for masses, and so on.
+# Names end with their unit: _m, _cm, _mm or _in for lengths, _kg or _g for masses, and so on.
 # Directions: x to the drummer's right, y up, z toward the audience; the origin is on the floor under the kit.
 ";
 

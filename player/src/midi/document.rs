@@ -13,12 +13,12 @@ pub fn document() -> String {
     let document = KitDocument::standard();
     let mut page = String::from(
         "# MIDI\n\n\
-         Written from the tables in `player/src/midi_map.rs` and `player/src/midi/` by `cargo xtask docs`; do \
-         not edit.\n\n## Notes\n\n\
-         A kit says what its notes play. Those of the standard kit are the General MIDI drum map and a few beyond it. Maps of \
-         other instruments and your own assignments (`[notes]` in presets, the panel in the editor) name notes of \
-         the kit.\n\n\
-         | note | name | struck | place | with |\n|---|---|---|---|---|\n",
+         `cargo xtask docs` writes this page from the tables in `player/src/midi_map.rs` and `player/src/midi/`; do \
+         not edit it.\n\n## Notes\n\n\
+         A kit defines what its notes play. The standard kit plays the General MIDI drum map and a few additional notes. \
+         Maps of other instruments and your own assignments (`[notes]` in presets, the MIDI page of the editor) refer to \
+         notes of the kit.\n\n\
+         | note | name | piece | position | stick |\n|---|---|---|---|---|\n",
     );
     for (note, row) in document.notes.rows() {
         page.push_str(&reference_row(&document, note, row));
@@ -47,7 +47,7 @@ fn reference_row(document: &KitDocument, note: u8, row: &Row) -> String {
             format!("| {note} | {name} | {piece} | {:.2} of the radius | {with} |\n", stroke.radius)
         }
         Meaning::Steps(slot, _) => format!("| {note} | {name} | {} | the pedal | a foot |\n", piece(*slot)),
-        Meaning::Silent => format!("| {note} | {name} | silent: nothing in the kit sounds like it | | |\n"),
+        Meaning::Silent => format!("| {note} | {name} | silent: the kit has no such instrument | | |\n"),
     }
 }
 
@@ -59,11 +59,11 @@ fn programs() -> String {
     let _ = writeln!(
         text,
         "| from {} | your own presets by name, as `cargo xtask presets list` shows them |\n\n\
-         Numbers count from 0. A program change moves every parameter that the preset sets at its sample, unless \
-         `program_changes` is off or the channel is not heard; the host is told. A kit in the preset is left out: it \
-         would have to be built. Your own presets are numbered when \
-         an instance is first activated. CLAP hosts only: VST3 has no program changes among its events, and the program \
-         without a host ignores them.",
+         Numbers count from 0. A program change sets every parameter of the preset at its sample, unless \
+         `program_changes` is off or the channel is not played; the host is notified. A kit in the preset is ignored, \
+         because it would have to be built. Your own presets are numbered when \
+         an instance is first activated. Only CLAP hosts send program changes: VST3 has none among its events, and the \
+         standalone program ignores them.",
         FACTORY.len()
     );
     text
@@ -73,7 +73,7 @@ fn controllers(document: &KitDocument) -> String {
     let mut text = String::from("\n## Controllers and pressure\n\n| message | what it does |\n|---|---|\n");
     let _ = writeln!(
         text,
-        "| CC {PEDAL_CONTROLLER} | the pedal of every hi-hat: 0 up, 127 down; from the first one on notes leave it where it is |"
+        "| CC {PEDAL_CONTROLLER} | the pedal of every hi-hat: 0 up, 127 down; after the first message notes no longer move the pedal |"
     );
     for controller in POSITION_CONTROLLERS {
         let moved = |slot| document.notes.position_controller(slot) == Some(controller);
@@ -81,8 +81,8 @@ fn controllers(document: &KitDocument) -> String {
         let pieces: Vec<&str> = pieces.map(|(_, piece)| &*piece.name).collect();
         let _ = writeln!(
             text,
-            "| CC {controller} | place of the next strokes on {}: 0 the centre (a cymbal's bow by the bell), 127 the \
-             rim |",
+            "| CC {controller} | position of the next strokes on {}: 0 is the centre (on a cymbal the bow next to the \
+             bell), 127 the rim |",
             pieces.join(", "),
         );
     }
@@ -91,14 +91,14 @@ fn controllers(document: &KitDocument) -> String {
         "| CC {FINE_VELOCITY_CONTROLLER} | lower seven bits of the next note's velocity on its channel |"
     );
     text.push_str(
-        "| poly pressure | a hand on the cymbal of that note, as firmly as the pressure, if `chokes` says so |\n\
-         | note off | a hand on the cymbal until its next stroke, if `chokes` says so |\n\
-         | choke (CLAP) | the same, always |\n\
-         | brightness of a note | place of its stroke, as with the controllers above, when it comes with the note |\n\
-         | tuning of a note | bends what the note strikes by so many semitones, within the piece's range and until its \
+        "| poly pressure | chokes the cymbal of that note, in proportion to the pressure, if `chokes` allows it |\n\
+         | note off | chokes the cymbal until its next stroke, if `chokes` allows it |\n\
+         | choke (CLAP) | chokes the cymbal until its next stroke, always |\n\
+         | brightness of a note | position of its stroke, as with the controllers above, when it comes with the note |\n\
+         | tuning of a note | bends the struck piece by so many semitones, within the piece's range and until its \
          next stroke |\n\n\
-         Controllers move strokes with a tip on a head or a bow; cross-sticks, rimshots, bells and edges stay \
-         where they are. They hold until the next value or until the host resets the plugin.\n",
+         Controllers move strokes with a tip on a head or a bow; cross-sticks, rimshots, bells and edges keep \
+         their positions. A value holds until the next one or until the host resets the plugin.\n",
     );
     text
 }

@@ -16,14 +16,14 @@ pub fn document() -> String {
     let kit = KitSpec::standard();
     let mut page = String::from(
         "# Parameters\n\n\
-         Written from the tables in `player/src/parameters/` by `cargo xtask docs`; do not edit.\n\n\
-         `--set name=value` and presets use the names, states and hosts the ids. Every value is a multiple of the step. \
-         Parameters marked *built* act once the pieces they concern have been built anew, within seconds, and \
-         are not automated; all others act from the next sample on, also while a piece rings.\n\n\
-         A kit has up to 16 pieces, each in a slot of its own, and every slot has the same parameters. Below they have the \
+         `cargo xtask docs` writes this page from the tables in `player/src/parameters/`; do not edit it.\n\n\
+         `--set name=value` and presets use the names; states and hosts use the ids. Every value is a multiple of the \
+         step. Parameters marked *built* act after the affected pieces have been rebuilt, within seconds, and \
+         cannot be automated. All others act from the next sample on, also while a piece rings.\n\n\
+         A kit has up to 16 pieces, each in its own slot, and every slot has the same parameters. This page shows the \
          names, ranges and defaults of the standard kit; in another kit the names follow its pieces. A drum's tuning is \
          stored and automated in semitones from the drum's own pitch, -12 to 12 in steps of 1/1024, and shown and typed in \
-         Hz. What a slot's piece does not have reads `-` and does nothing.\n",
+         Hz. Parameters that do not apply to a slot's piece read `-` and do nothing.\n",
     );
     for (slot, piece) in kit.slots() {
         page.push_str(&heading(&piece.title));
@@ -62,8 +62,8 @@ fn empty_slots(kit: &KitSpec) -> String {
     let mut text = format!("\n## Slots {} to {}\n\n", number(first), number(last));
     let _ = writeln!(
         text,
-        "Empty in the standard kit. Their parameters are named `{}` and so on until a kit has a piece there, and have the ids \
-         {} and so on.",
+        "These slots are empty in the standard kit. Their parameters are named `{}` and so on until a kit has a piece \
+         there. Their ids are {} and so on.",
         name(slot_index(first, SlotParameter::Tune), kit),
         ids.join(", ")
     );
@@ -97,25 +97,29 @@ pub fn about(parameter: &Parameter) -> &'static str {
     match parameter.drives {
         Drives::Slot(_, what) => of_slot(what),
         Drives::Control(MicrophoneLevel(_)) => "Level of the pair of microphones in the mix.",
-        Drives::Control(CloseLevel) => "Level of the close microphones, at the pieces' own outputs too.",
-        Drives::Control(Balance(_)) => "Balance of the pair of microphones.",
-        Drives::Control(Mute(_)) => "The microphone is silent.",
-        Drives::Control(Solo(_)) => "Only microphones with this are heard, if any has it.",
-        Drives::Control(Hearing) => "Whether the drums hear the other pieces through the air.",
-        Drives::Control(Sympathy) => "How much of the other pieces' sound reaches the drums.",
-        Drives::Control(SafetyClip) => "Whether the mix bends softly instead of passing full scale; counted.",
+        Drives::Control(CloseLevel) => {
+            "Level of the close microphones in the mix and at the pieces' outputs."
+        }
+        Drives::Control(Balance(_)) => "Balance of the pair of microphones, left to right.",
+        Drives::Control(Mute(_)) => "Mutes the microphone.",
+        Drives::Control(Solo(_)) => "If any microphone has solo, only those with solo are in the mix.",
+        Drives::Control(Hearing) => "Whether the drums respond to the sound of the other pieces.",
+        Drives::Control(Sympathy) => "Share of the other pieces' sound that reaches the drums.",
+        Drives::Control(SafetyClip) => "Clips softly what exceeds full scale; the samples are counted.",
         Drives::Control(Master) => "Level of the mix.",
         // No parameter of the whole kit: slots have their own.
         Drives::Control(Tuning(_) | Muffling(_) | Level(_) | Pan(_) | Preload(_) | Wires(_) | Pedal(_)) => "",
-        Drives::Stand(_, Height) => "How much higher than usual the pair of microphones stands.",
-        Drives::Stand(_, Depth) => "How much farther from the drummer than usual it stands.",
-        Drives::Stand(_, Width) => "How far the two are apart, of what is usual.",
+        Drives::Stand(_, Height) => "Height of the pair of microphones above its default position.",
+        Drives::Stand(_, Depth) => "Distance of the pair from its default position, away from the drummer.",
+        Drives::Stand(_, Width) => "Distance between the two microphones, relative to the default.",
         Drives::Playing(manner) => playing(manner),
         Drives::Building(Quality) => "*Built.* Highest coupled cymbal mode during playback.",
-        Drives::Building(OfflineQuality) => "*Built.* The same while the host renders to a file.",
+        Drives::Building(OfflineQuality) => {
+            "*Built.* Highest coupled cymbal mode while the host renders offline."
+        }
         Drives::Building(Workers) => {
-            "*Built.* Threads that render pieces beside the host's own. They change no sample, and look for work all \
-             the while the kit sounds."
+            "*Built.* Additional threads that render pieces. They change no sample, and poll for work while the kit \
+             sounds."
         }
     }
 }
@@ -123,33 +127,33 @@ pub fn about(parameter: &Parameter) -> &'static str {
 fn of_slot(what: SlotParameter) -> &'static str {
     match what {
         SlotParameter::Tune => "Pitch of the piece; glides over a few milliseconds.",
-        SlotParameter::Muffle => "How much of what can muffle the piece lies on it.",
+        SlotParameter::Muffle => "Amount of muffling: 0 is none, 1 is all of the piece's muffler.",
         SlotParameter::Level => "Level of the piece in every microphone and at its own output.",
-        SlotParameter::Pan => "Place in the stereo, left to right; by default where the piece stands.",
+        SlotParameter::Pan => "Stereo position, left to right; the default is the piece's position.",
         SlotParameter::Position => {
-            "Moves strokes outward (above 0) or to the centre, by a share of the radius."
+            "Moves strokes outward (above 0) or toward the centre, relative to the radius."
         }
-        SlotParameter::Stick => "What is swung at the piece, if not what the note says.",
-        SlotParameter::Preload => "Force that presses the snare wires on.",
-        SlotParameter::Wires => "The strainer's lever.",
+        SlotParameter::Stick => "Stick that strikes the piece; `as mapped` uses the stick of the note.",
+        SlotParameter::Preload => "Force that presses the snare wires against the head.",
+        SlotParameter::Wires => "Strainer of the snare wires: on, or thrown off.",
         SlotParameter::Pedal => {
-            "The hi-hat's pedal, 0 up and open, 1 down and clamped; a foot takes it there."
+            "Hi-hat pedal: 0 is up and open, 1 is down and clamped. It moves as a foot would move it."
         }
     }
 }
 
 fn playing(manner: Manner) -> &'static str {
     match manner {
-        Manner::Dynamics => "Stick speed of a note at full velocity.",
-        Manner::Curve => "Exponent of the velocity curve: above 1 soft notes become softer.",
+        Manner::Dynamics => "Speed of the stick for a note at full velocity.",
+        Manner::Curve => "Exponent of the velocity curve; above 1 soft notes become softer.",
         Manner::PositionSpread => {
-            "How far strokes land from where they are aimed, on average, of the radius."
+            "Average distance of strokes from their intended position, relative to the radius."
         }
-        Manner::SpeedSpread => "How far strokes are from the speed asked for, on average.",
-        Manner::Map => "The instrument that sends the notes; see `docs/midi.md`.",
-        Manner::Channel => "The only MIDI channel heard.",
-        Manner::Chokes => "What lets a hand grip a cymbal: pressure on a note, its end, or both.",
-        Manner::FollowsPosition => "Whether controllers 16 to 19 say where strokes land.",
+        Manner::SpeedSpread => "Average deviation of strokes from their intended speed.",
+        Manner::Map => "Instrument that sends the notes; see `docs/midi.md`.",
+        Manner::Channel => "MIDI channel that is played.",
+        Manner::Chokes => "What chokes a cymbal: pressure on its note, the end of the note, or both.",
+        Manner::FollowsPosition => "Whether controllers 16 to 19 set the strike position.",
         Manner::FollowsPrograms => "Whether program changes load presets; see `docs/midi.md`.",
     }
 }

@@ -115,7 +115,7 @@ impl Library {
     pub fn rename(&self, from: &str, to: &str) -> Result<(), PresetError> {
         let (old, new) = (self.existing(from)?, self.path(to)?);
         if new.exists() {
-            return Err(PresetError::Name { name: to.to_owned(), reason: "there is one already" });
+            return Err(PresetError::Name { name: to.to_owned(), reason: "a preset of this name exists" });
         }
         fs::rename(&old, &new).map_err(file_error("rename", &old))
     }

@@ -163,7 +163,9 @@ fn presets_are_saved_renamed_and_deleted() {
     assert_eq!(library.load("My kit").unwrap(), preset);
     assert_eq!(library.list().last().unwrap(), &Entry { name: "My kit".into(), origin: Origin::User });
     library.save("Other", &preset).unwrap();
-    assert!(library.rename("My kit", "Other").unwrap_err().to_string().contains("there is one already"));
+    assert!(
+        library.rename("My kit", "Other").unwrap_err().to_string().contains("a preset of this name exists")
+    );
     library.rename("My kit", "Ünser").unwrap();
     assert!(library.load("My kit").unwrap_err().to_string().contains("accepted: default, studio"));
     library.delete("Ünser").unwrap();

@@ -105,12 +105,12 @@ fn tip(item: &Item<'_>) -> String {
     let range = if choices.is_empty() {
         let (low, high) = item.limits();
         let [low, high, usual] = [low, high, item.usual()].map(|plain| item.text(plain));
-        format!("{low} to {high}, usually {usual}")
+        format!("{low} to {high}, default {usual}")
     } else {
         choices.join(", ")
     };
     format!(
-        "{group}: {label}\n{range}\nDrag, with Shift finely; double click to reset; click the value to type one"
+        "{group}: {label}\n{range}\nDrag to change, Shift for fine steps; double click to reset; click the value to type one"
     )
 }
 

@@ -337,14 +337,14 @@ impl Panels {
 
     fn tools(&mut self, ui: &mut Ui, inputs: &Inputs<'_>, set: &mut dyn FnMut(usize, Gesture)) {
         let name = if self.light { "Dark" } else { "Light" };
-        if ui.button(name).on_hover_text("The other palette").clicked() {
+        if ui.button(name).on_hover_text("Switch the palette").clicked() {
             self.light = !self.light;
             theme::choose(ui.ctx(), self.light);
         }
         let (shown, tip) = if self.history.is_second() {
-            ("B", "The second of two settings; click for the first")
+            ("B", "Setting B; click to switch to setting A")
         } else {
-            ("A", "The first of two settings; click for the second")
+            ("A", "Setting A; click to switch to setting B")
         };
         if ui.button(shown).on_hover_text(tip).clicked() {
             self.history.swap(inputs.parameters.values(), set);

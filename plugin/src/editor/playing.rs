@@ -64,14 +64,14 @@ impl PlayingPanel {
             Some(note) => {
                 ui.colored_label(
                     theme::of(ui).accent,
-                    format!("Strike the pad that is to play {}", name_of(note)),
+                    format!("Strike the pad that should play {}", name_of(note)),
                 );
                 if ui.button("Cancel").clicked() {
                     notes.assignments.learn(None);
                 }
             }
             None => {
-                let tip = "The next note that arrives will play this";
+                let tip = "The next incoming note will play this";
                 if ui.button("Learn").on_hover_text(tip).clicked() {
                     notes.assignments.learn(Some(self.reference));
                 }
@@ -111,9 +111,9 @@ impl PlayingPanel {
         painter.text(number, Align2::RIGHT_CENTER, note, theme::caption(), palette.faint);
         painter.text(pos2(rect.min.x + 46.0, y), Align2::LEFT_CENTER, name, theme::body(), palette.text);
         let (mark, tip) = if own {
-            ("learned", "Assigned by hand; click to let it follow the map again")
+            ("learned", "Assigned by hand; click to return it to the map")
         } else {
-            ("", "Click to choose it for learning")
+            ("", "Click to select it for Learn")
         };
         painter.text(pos2(rect.max.x - 8.0, y), Align2::RIGHT_CENTER, mark, theme::caption(), palette.accent);
         if response.on_hover_text(tip).clicked() {

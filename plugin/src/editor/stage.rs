@@ -108,8 +108,8 @@ impl Stage {
         text(pos2(rect.center().x, rect.min.y + 10.0), format!("{speed:.1}"));
         text(pos2(rect.center().x, rect.max.y - 10.0), "m/s".to_owned());
         response.on_hover_text(
-            "How fast a click strikes, in metres a second.\nShift: as fast as can be; Alt: softly. \
-             Keys 1 to 9 and 0 strike the pieces in their order.",
+            "Speed of a stroke by mouse, in metres per second.\nShift: highest speed; Alt: soft. \
+             Keys 1 to 9 and 0 strike the pieces in the order of the list.",
         );
     }
 }
@@ -120,9 +120,9 @@ fn tint_switch(ui: &mut Ui, rect: Rect, kit: &mut KitView) {
     ui.scope_builder(egui::UiBuilder::new().max_rect(place), |ui| {
         ui.horizontal(|ui| {
             ui.selectable_value(&mut kit.tint, Tint::Displacement, "Displacement")
-                .on_hover_text("Up is warm, down is cold");
+                .on_hover_text("Warm colours: up; cold colours: down");
             ui.selectable_value(&mut kit.tint, Tint::Energy, "Energy")
-                .on_hover_text("The more a place moves the more it has of its piece's colour");
+                .on_hover_text("The colour of the piece becomes stronger where the surface moves more");
         });
     });
 }

@@ -25,9 +25,9 @@ pub fn trouble(
     let pieces = kit.pieces.len();
     let ready = snapshot.pieces.iter().take(pieces).filter(|piece| piece.ready).count();
     let found = if quarantines > 0 {
-        (format!("A piece went out of bounds {quarantines} times and was reset"), palette.over)
+        (format!("A piece became unstable {quarantines} times and was reset"), palette.over)
     } else if snapshot.clock == 0 {
-        ("Waiting for the host to run".to_owned(), palette.faint)
+        ("Waiting for the host to start processing".to_owned(), palette.faint)
     } else if ready < pieces {
         (format!("Building the kit: {ready} of {pieces} pieces"), palette.accent)
     } else if late.is_news(now) {
@@ -98,7 +98,7 @@ impl Latest {
     pub fn sentence(&self, snapshot: &KitSnapshot, kit: &KitSpec, cents: f32) -> String {
         let struck = self.slot.and_then(|slot| Some((&snapshot.pieces[slot.index()], kit.piece(slot)?)));
         let Some((piece, spec)) = struck.filter(|(piece, _)| piece.strike.count > 0) else {
-            return "Nothing was struck yet. Click a head or a cymbal".to_owned();
+            return "No stroke yet. Click a head or a cymbal".to_owned();
         };
         let stroke = &piece.strike;
         let mut text = format!(
@@ -127,14 +127,14 @@ impl Latest {
     fn consequences(&self, piece: &PieceSnapshot, snapshot: &KitSnapshot, wires: bool) -> Vec<String> {
         let mut said = Vec::new();
         if piece.rims.landings > 0 {
-            said.push(format!("rims met {} times", piece.rims.landings));
+            said.push(format!("rims touched {} times", piece.rims.landings));
         }
         if wires {
             if piece.wires.landings > 0 {
                 said.push(format!("wires landed {} times", piece.wires.landings));
             }
         } else if landings(snapshot).saturating_sub(self.landings) > ANSWERING {
-            said.push("snare wires answering".to_owned());
+            said.push("snare wires buzzing".to_owned());
         }
         said
     }
@@ -165,17 +165,17 @@ mod tests {
         };
         let kit = KitSpec::standard();
         let mut latest = Latest::default();
-        assert!(latest.sentence(&now, &kit, 0.0).starts_with("Nothing was struck yet"));
+        assert!(latest.sentence(&now, &kit, 0.0).starts_with("No stroke yet"));
         latest.follow(&before, &now);
         assert_eq!(latest.sentence(&now, &kit, 0.0), "Rack tom 4.0 m/s at 0.35: 5.8 ms, 31 N");
         now.pieces[1].wires.landings = 40;
         latest.follow(&now, &now);
         assert_eq!(
             latest.sentence(&now, &kit, 0.0),
-            "Rack tom 4.0 m/s at 0.35: 5.8 ms, 31 N; snare wires answering"
+            "Rack tom 4.0 m/s at 0.35: 5.8 ms, 31 N; snare wires buzzing"
         );
         let stretched =
-            "Rack tom 4.0 m/s at 0.35: 5.8 ms, 31 N; head stretched, +10 cents; snare wires answering";
+            "Rack tom 4.0 m/s at 0.35: 5.8 ms, 31 N; head stretched, +10 cents; snare wires buzzing";
         assert_eq!(latest.sentence(&now, &kit, 10.2), stretched);
         // A stroke after that, which the wires do not answer.
         let before = now;

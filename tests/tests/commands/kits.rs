@@ -1,4 +1,4 @@
-//! Kit files from the command line: shown, begun, checked, played and measured.
+//! Kit files from the command line: shown, created, checked, played and measured.
 
 use std::fs;
 

@@ -1,4 +1,4 @@
-//! What the plugin says of itself.
+//! The plugin's description of itself.
 
 use overhear::parameters::{
     BYPASS_ID, COUNT, SlotParameter, default_value, host_id, is_live, parameters, slot_parameter, text,

@@ -1,4 +1,4 @@
-//! The same samples from the engine and the plugin, however the host cuts the time.
+//! The same samples from the engine and the plugin, for any buffer sizes of the host.
 
 use overhear_cli::player::Blocks;
 

@@ -1,4 +1,4 @@
-//! What hosts do around playing: activating, resetting, making and removing instances.
+//! The host's calls around playback: activating, resetting, making and removing instances.
 
 use std::thread;
 

@@ -1,4 +1,4 @@
-//! What an instance costs a host: time to look at it, memory, threads; and that all of it comes back.
+//! Resources of an instance in a host: scan time, memory, threads, and their release.
 
 use std::time::{Duration, Instant};
 

@@ -1,4 +1,4 @@
-//! What a project stores and gets back.
+//! State that a project stores and restores.
 
 use overhear::parameters::{COUNT, SlotParameter, parameters, slot_parameter};
 use overhear_cli::host::Instance;

@@ -39,7 +39,7 @@ impl Parent {
             .create_window(depth, window, root, 0, 0, w, h, 0, class, COPY_FROM_PARENT, &plain)
             .unwrap();
         connection.map_window(window).unwrap();
-        // A round trip: the window is there when the editor looks for it.
+        // A round trip to the server, so that the window exists when the editor looks for it.
         connection.get_input_focus().unwrap().reply().unwrap();
         Parent { connection, window, size: (width, height) }
     }

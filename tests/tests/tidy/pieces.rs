@@ -1,4 +1,4 @@
-//! Below the standard kit's own files nobody knows its pieces: they are found by slot and kind.
+//! Only the files of the standard kit name its pieces; other code finds them by slot and kind.
 
 use super::{none, sources};
 use overhear_engine::kit_spec::KitSpec;

@@ -1,7 +1,7 @@
-//! Whoever gives or takes a number says what it is in.
+//! Every public number states its unit.
 //!
-//! A public item whose signature has an `f32` or `f64` names a unit in its docs, or says that there is none. What a machine
-//! sees of that is a word of a list; that it is the right one is for readers.
+//! A public item whose signature has an `f32` or `f64` names a unit in its docs, or says that there is none. The test
+//! only finds a word of a list; readers judge whether it is the right one.
 
 use super::{none, sources};
 

@@ -1,4 +1,4 @@
-//! How loud each piece is at each microphone, of one stroke at full velocity.
+//! Level of each piece at each microphone for one stroke at full velocity.
 
 use anyhow::Result;
 use overhear::kit_document::KitDocument;

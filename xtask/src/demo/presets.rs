@@ -41,7 +41,7 @@ pub fn run(folder: &Path) -> Result<()> {
         take.hits.retain(|hit| hit.sample <= samples(LAST_NOTE));
         take.frames = samples(SECONDS);
         let (played, left, right) = play(&take, &style, &entry.name)?;
-        ensure!(played.finite, "with `{}` the plugin gave values that are not numbers", entry.name);
+        ensure!(played.finite, "with `{}` the plugin produced values that are not numbers", entry.name);
         ensure!(played.peak > 0.0, "with `{}` the plugin stayed silent", entry.name);
         let path = folder.join(format!("{}.wav", entry.name));
         let mut file = WavFile::create(&path, Bits::Float32, RATE, 2, take.frames)?;

@@ -149,7 +149,7 @@ const FORM: [(Bar, bool); 21] = [
     (END, false),
 ];
 
-/// What the feet and the hands play, by tick.
+/// Notes of the feet and the hands, by tick.
 pub struct Score {
     /// The kick and the hi-hat's pedal.
     pub feet: Vec<Stroke>,
@@ -180,7 +180,7 @@ impl Score {
     }
 }
 
-/// Somebody whose strokes differ a little from one to the next.
+/// A player whose strokes vary a little.
 struct Person {
     state: u32,
 }

@@ -24,9 +24,9 @@ pub fn page() -> Result<Page> {
         "Costs",
         PLAYED,
         &format!(
-            "What the instrument costs on the machine that wrote this page, one thread, {}, {} Hz: `cargo xtask bench --runs {RUNS}`. A\n\
-             calibration is the time of a fixed loop ({:.4} s here), measured in turns with the instrument. Machines differ and so does\n\
-             what else they do; [performance.md](../performance.md) says more.",
+            "CPU cost of the instrument on the machine that wrote this page, one thread, {}, {} Hz: `cargo xtask bench --runs {RUNS}`. A\n\
+             calibration is the time of a fixed loop ({:.4} s here), measured in alternation with the instrument. Machines and their\n\
+             other load differ; [performance.md](../performance.md) says more.",
             text(&report, "simd"),
             number(&report, &["sample_rate_hz"]),
             number(&report, &["calibration_s"]),
@@ -92,7 +92,7 @@ pub fn page() -> Result<Page> {
         .map(|all| all.iter().filter_map(Value::as_f64).map(|s| format!("{s:.2}")).collect())
         .unwrap_or_default();
     sheet.claim(Claim::told(
-        "these three builds, all processors together: what other work on the machine adds least to",
+        "CPU time of these three builds, all processors together",
         PLAYED,
         format!("{} CPU s", cpu.join(", ")),
         "6.5 cold, .2 warm",
@@ -121,10 +121,10 @@ fn text<'a>(report: &'a Value, key: &str) -> &'a str {
     report.get(key).and_then(Value::as_str).unwrap_or("")
 }
 
-/// Every piece by itself: a table and a plot, costs in calibrations.
+/// Every piece alone: a table and a plot, costs in calibrations.
 fn pieces(sheet: &mut Sheet, report: &Value) -> Result<()> {
     sheet.heading("The pieces");
-    sheet.text("Each by itself, the second after a stroke of 6 m/s, calibrations.");
+    sheet.text("Each piece alone, the second after a stroke of 6 m/s, calibrations.");
     let tiers = ["eco", "standard", "high", "offline"];
     let names = overhear_measure::names();
     let cost = |piece: &str, tier: &str| {

@@ -1,4 +1,4 @@
-//! What an open editor costs: the window's threads, and the audio thread beside it.
+//! CPU cost of an open editor: the window's threads, and the audio thread.
 //!
 //! Counted is the processor time that the kernel gave to each thread (`/proc/self/task/*/schedstat`), which says the same
 //! on a machine that others use as well. A window's threads are those that were not there before the first one was opened:
@@ -88,7 +88,7 @@ pub fn here(plugin: &Path) -> Result<()> {
             let (ringing, frames) = beside_window(instance, page, |instance, window| {
                 Ok((count(instance, &before, Some(&notes))?, frames(instance, window, &notes)?))
             })?;
-            // A window that has stopped costs nothing, and that is not what is asked.
+            // A window that has stopped costs nothing; the measurement would be meaningless.
             ensure!(frames > 1.0, "the window draws {frames:.1} frames a second of the {} page", page.name);
             println!("{}", row(page, &resting, &ringing, frames));
         }
@@ -101,7 +101,7 @@ pub fn here(plugin: &Path) -> Result<()> {
 /// Processor time of the audio thread: what the plugin took, and the calibration slices between its buffers, s.
 #[derive(Default)]
 struct Meter {
-    /// Behind a lock, as whoever measures waits for nobody's deadline.
+    /// Behind a lock: the measuring thread has no deadline.
     taken: Mutex<[f64; 2]>,
 }
 
@@ -116,7 +116,7 @@ impl Meter {
         Ok(())
     }
 
-    /// What has been counted so far.
+    /// Counts so far.
     fn taken(&self) -> Result<[f64; 2]> {
         Ok(*self.taken.lock().map_err(|_| anyhow!("the audio thread died"))?)
     }
@@ -131,7 +131,7 @@ fn beside_window<T>(
     let window = open(instance, page)?;
     let done = work(instance, &window);
     instance.close_editor()?;
-    // The window goes after what is in it.
+    // The window must be destroyed after the editor in it.
     drop(window);
     done
 }
@@ -162,7 +162,7 @@ fn count(
     notes: Option<&Sender<(u8, f32)>>,
 ) -> Result<Shares> {
     if notes.is_some() {
-        // What begins to ring is counted once it does.
+        // Count only after the kit rings.
         groove(instance, notes, Duration::from_secs(2))?;
     }
     let (first, begun) = (times()?, Instant::now());
@@ -217,7 +217,7 @@ fn beside(instance: &mut Instance, meter: &Meter, notes: &Sender<(u8, f32)>) -> 
     let mut ratios = [Vec::new(), Vec::new()];
     for pair in 0..PAIRS {
         let mut took = [[0.0; 2]; 2];
-        // Whoever comes second finds the processor warm: they take turns.
+        // The second measurement finds the processor warm, so both alternate.
         for turn in [pair % 2, 1 - pair % 2] {
             took[turn] = match turn {
                 0 => audio_time(instance, meter, notes)?,
@@ -249,9 +249,9 @@ fn audio_time(instance: &mut Instance, meter: &Meter, notes: &Sender<(u8, f32)>)
     Ok([after[0] - before[0], after[1] - before[1]])
 }
 
-/// What every thread of this process has taken so far.
+/// Processor time of every thread of this process so far.
 fn times() -> Result<Times> {
-    let tasks = std::fs::read_dir("/proc/self/task").context("the system does not tell its threads")?;
+    let tasks = std::fs::read_dir("/proc/self/task").context("the system does not list its threads")?;
     let one = |folder: &Path| {
         let id = folder.file_name()?.to_str()?.parse().ok()?;
         let name = std::fs::read_to_string(folder.join("comm")).ok()?;

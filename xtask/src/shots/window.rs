@@ -1,4 +1,4 @@
-//! A host's window under X11, and what is seen in it.
+//! A host's window under X11, and screenshots of it.
 
 use std::collections::HashSet;
 use std::thread;
@@ -53,9 +53,9 @@ impl HostWindow {
             &plain,
         )?;
         connection.map_window(window)?;
-        // Into the farthest corner: what is under a pointer looks different.
+        // Into the farthest corner, because widgets under a pointer look different.
         connection.warp_pointer(x11rb::NONE, root, 0, 0, 0, 0, i16::MAX, i16::MAX)?;
-        // A round trip: the window is there when the editor looks for it.
+        // A round trip to the server, so that the window exists when the editor looks for it.
         connection.get_input_focus()?.reply()?;
         Ok(HostWindow { connection, window, size })
     }
@@ -84,7 +84,7 @@ impl HostWindow {
         Ok(pixels.chunks_exact(3).map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect::<HashSet<_>>().len())
     }
 
-    /// What is seen, as a PNG.
+    /// A screenshot as PNG.
     ///
     /// # Errors
     /// If the display does not tell.
@@ -92,7 +92,7 @@ impl HostWindow {
         picture::encode(&self.pixels()?, (u32::from(self.size.0), u32::from(self.size.1)))
     }
 
-    /// What is seen, row by row: red, green, blue.
+    /// A screenshot, row by row: red, green, blue.
     ///
     /// # Errors
     /// If the display does not tell.

@@ -1,4 +1,4 @@
-//! A display for windows nobody looks at.
+//! A virtual display.
 
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};
@@ -20,7 +20,7 @@ impl Display {
         let mut server = Command::new("Xvfb")
             .args(["-displayfd", "1", "-screen", "0", "2400x1600x24"])
             .args(["+extension", "GLX", "-nolisten", "tcp"])
-            // Left by its last client it would begin anew, and refuse whoever comes meanwhile.
+            // Without clients the server would restart and refuse connections meanwhile.
             .arg("-noreset")
             .stdin(Stdio::null())
             .stdout(Stdio::piped())

@@ -1,11 +1,11 @@
-//! Running checks and tests, and counting what came of them.
+//! Runs checks and tests and counts the results.
 
 use std::fmt;
 use std::io::{BufRead, BufReader};
 use std::process::{Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
-/// What came of everything so far.
+/// Results so far.
 #[derive(Debug, Default)]
 pub struct Tally {
     /// Tests and checks that passed.

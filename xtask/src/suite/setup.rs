@@ -1,4 +1,4 @@
-//! What the tests need beside the workspace.
+//! Requirements of the tests outside the workspace.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use super::runner::heading;
 use crate::system::{self, HOST_LIBRARIES, LINKER, PYTHON, SOUND_HEADERS, WINDOW_LIBRARIES, XVFB};
 use crate::workspace;
 
-/// What is installed into the tests' own Python; one place, so that it is renewed when it changes.
+/// Packages of the tests' own Python; the environment is rebuilt when this changes.
 const PYTHON_PACKAGES: [&str; 3] = ["dawdreamer>=0.8.3", "numpy", "pedalboard>=0.9.16"];
 
 /// Sets everything up and tells where the tests' own Python is.

@@ -49,7 +49,7 @@ impl Entry {
                 return Err(Fault::of(
                     path,
                     origins,
-                    "is no note, accepted: 0 to 127, or a table with a note",
+                    "is not a note, accepted: 0 to 127, or a table with a note",
                 ));
             }
         };

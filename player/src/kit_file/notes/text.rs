@@ -49,6 +49,6 @@ pub(in crate::kit_file) fn write_silent(text: &mut String, table: &NoteTable) {
     let silent = table.rows().filter(|(_, row)| row.meaning == Meaning::Silent);
     let lines: String = silent.map(|(note, row)| format!("{note} = {}\n", string(&row.name))).collect();
     if !lines.is_empty() {
-        let _ = write!(text, "\n# Notes that nothing in the kit sounds like.\n[silent]\n{lines}");
+        let _ = write!(text, "\n# Notes without an instrument in the kit.\n[silent]\n{lines}");
     }
 }

@@ -56,11 +56,11 @@ fn every_error_names_the_line_the_field_and_what_is_accepted() {
         ("format = 1\npieces.snare.batter = 1", "2: pieces.snare.batter is 1, accepted: a table"),
         (
             "format = 1\npieces.snare.batter.plies = 1.5",
-            "2: pieces.snare.batter.plies is 1.5, accepted: a whole number",
+            "2: pieces.snare.batter.plies is 1.5, accepted: an integer",
         ),
         (
             "format = 1\npieces.snare.evenness.seed = -1",
-            "2: pieces.snare.evenness.seed is -1, accepted: a whole number",
+            "2: pieces.snare.evenness.seed is -1, accepted: an integer",
         ),
         ("format = 1\npieces.snare.high_band = 1", "2: pieces.snare.high_band is 1, accepted: true or false"),
         (
@@ -80,9 +80,9 @@ fn every_error_names_the_line_the_field_and_what_is_accepted() {
             "format = 1\npieces.snare.pitch_hz = 1979-05-27",
             "2: pieces.snare.pitch_hz is `1979-05-27`, a date",
         ),
-        ("format = 1\npieces = 3", "2: pieces is no table"),
-        ("format = 1\npieces.snare = 3", "2: pieces.snare is no table"),
-        ("format = 1\nroom = []", "2: room is no table"),
+        ("format = 1\npieces = 3", "2: pieces is not a table"),
+        ("format = 1\npieces.snare = 3", "2: pieces.snare is not a table"),
+        ("format = 1\nroom = []", "2: room is not a table"),
         (
             "format = 1\nmicrophones.overheads_m = [[1, 2, 3]]",
             "2: microphones.overheads_m is an array of 1, ",
@@ -126,12 +126,12 @@ fn every_error_names_the_line_the_field_and_what_is_accepted() {
         ("format = 1\nstarts_from = \"nothing\"\n[pieces.a]\n", "3: pieces.a.kind is missing"),
         (
             "format = 1\n\npieces.kick.batter = \"none\"",
-            "3: pieces.kick.batter is \"none\", accepted: only where",
+            "3: pieces.kick.batter is \"none\", accepted: only for",
         ),
         // The same field twice, in one way or another.
         (
             "format = 1\n[pieces.snare]\ndiameter_in = 13\ndiameter_m = 0.3",
-            "4: pieces.snare.diameter_m is there beside pieces.snare.diameter_in",
+            "4: pieces.snare.diameter_m is given together with pieces.snare.diameter_in",
         ),
         (
             "format = 1\n[pieces.snare]\ndiameter_in = 13\ndiameter_in = 12",
@@ -149,7 +149,7 @@ fn every_error_names_the_line_the_field_and_what_is_accepted() {
         ),
         // Pieces that are not there, or have no name.
         ("format = 1\nremove = [\"kick\",\n\"gong\"]", "3: remove.1 is `gong`, accepted: kick, snare, "),
-        ("format = 1\nremove = 3", "2: remove is no array"),
+        ("format = 1\nremove = 3", "2: remove is not an array"),
         (
             "format = 1\nstarts_from = \"nothing\"\nremove = [\"kick\"]",
             "3: remove.0 is `kick`, accepted: none",
@@ -158,14 +158,14 @@ fn every_error_names_the_line_the_field_and_what_is_accepted() {
             "format = 1\n[pieces.gong]\nlike = \"tam\"",
             "3: pieces.gong.like is `tam`, accepted: crash, floor-tom, ",
         ),
-        ("format = 1\n[pieces.gong]\nlike = 3", "3: pieces.gong.like is no text"),
+        ("format = 1\n[pieces.gong]\nlike = 3", "3: pieces.gong.like is not a string"),
         (
             "format = 1\n[pieces.kick]\nlike = \"snare\"",
-            "3: pieces.kick.like is given, accepted: only for a piece",
+            "3: pieces.kick.like is given, accepted: only for a new",
         ),
         (
             "format = 1\n[pieces.a]\nlike = \"b\"\n[pieces.b]\nlike = \"a\"",
-            "5: pieces.b.like is `a`, which is like",
+            "5: pieces.b.like is `a`, which is itself",
         ),
         ("format = 1\n[pieces.a]\nlike = \"a\"", "3: pieces.a.like is `a`, accepted: "),
         (
@@ -191,18 +191,18 @@ fn every_error_names_the_line_the_field_and_what_is_accepted() {
         // Notes.
         (
             "format = 1\n[pieces.kick]\nnotes = [36,\n38]\n[pieces.snare]\nnotes = [38]",
-            "6: pieces.snare.notes.0 is note 38, which pieces.kick.notes.1 is, too",
+            "6: pieces.snare.notes.0 is note 38, which pieces.kick.notes.1 has too",
         ),
         ("format = 1\n[pieces.kick]\nnotes = [36, 36]", "3: pieces.kick.notes.1 is note 36, which"),
         ("format = 1\n[pieces.kick]\nnotes = [36]\n[silent]\n36 = \"x\"", "5: silent.36 is note 36, which"),
         ("format = 1\n[pieces.kick]\nnotes = [128]", "3: pieces.kick.notes.0 is 128, accepted: 0 to 127"),
-        ("format = 1\n[pieces.kick]\nnotes = [-1]", "3: pieces.kick.notes.0 is -1, accepted: a whole number"),
+        ("format = 1\n[pieces.kick]\nnotes = [-1]", "3: pieces.kick.notes.0 is -1, accepted: an integer"),
         (
             "format = 1\n[pieces.kick]\nnotes = [\n{ note = 300 }]",
             "4: pieces.kick.notes.0.note is 300, accepted: 0 to 127",
         ),
-        ("format = 1\n[pieces.kick]\nnotes = 36", "3: pieces.kick.notes is no array"),
-        ("format = 1\n[pieces.kick]\nnotes = [\"C1\"]", "3: pieces.kick.notes.0 is no note"),
+        ("format = 1\n[pieces.kick]\nnotes = 36", "3: pieces.kick.notes is not an array"),
+        ("format = 1\n[pieces.kick]\nnotes = [\"C1\"]", "3: pieces.kick.notes.0 is not a note"),
         ("format = 1\n[pieces.kick]\nnotes = [{ at = 0.3 }]", "3: pieces.kick.notes.0.note is missing"),
         (
             "format = 1\n[pieces.kick]\nnotes = [{ note = 36, at = 1.5 }]",
@@ -244,7 +244,7 @@ fn every_error_names_the_line_the_field_and_what_is_accepted() {
             "format = 1\n[pieces.kick]\nposition_controller = 20",
             "3: pieces.kick.position_controller is not accepted: one of 16 to 19",
         ),
-        ("format = 1\n[silent]\n200 = \"x\"", "3: silent.200 is no note, accepted: 0 to 127"),
+        ("format = 1\n[silent]\n200 = \"x\"", "3: silent.200 is not a note, accepted: 0 to 127"),
         ("format = 1\n[silent]\n20 = 3", "3: silent.20 is 3, accepted: a text"),
         ("format = 1\n[silent]\n20 = \"\"", "3: silent.20 is ``, accepted: 1 to 40 characters"),
     ] {

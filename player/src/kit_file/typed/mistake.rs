@@ -58,11 +58,7 @@ impl Mistake {
             What::Missing(key) => {
                 let missing = format!("{path}.{key}");
                 if origins.has(&missing) {
-                    return Fault::of(
-                        &missing,
-                        origins,
-                        "is \"none\", accepted: only where a part can be left out",
-                    );
+                    return Fault::of(&missing, origins, "is \"none\", accepted: only for optional parts");
                 }
                 let reason = format!("is missing, accepted: {}", with_units(key));
                 Fault::new(origins.locate(&path).at, format!("{missing} {reason}"))
@@ -124,7 +120,7 @@ fn accepted_of(expected: &dyn Expected) -> String {
     let expected = expected.to_string();
     match &*expected {
         "f64" | "f32" => "a number",
-        "u8" | "u16" | "u32" | "u64" => "a whole number, 0 or more",
+        "u8" | "u16" | "u32" | "u64" => "an integer, 0 or more",
         "a boolean" => "true or false",
         "a string" | "string or map" | "variant identifier" => "a text",
         other if other.starts_with("struct") => "a table",

@@ -44,7 +44,7 @@ fn remark(octaves: &[f32; OCTAVES]) -> String {
     let most = octaves.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
     match most {
         Some((octave, &energy)) if energy > RANGE.0 => {
-            format!("most from {} to {} Hz", name(octave), name(octave + 1))
+            format!("strongest from {} to {} Hz", name(octave), name(octave + 1))
         }
         _ => "at rest".to_owned(),
     }
@@ -77,7 +77,7 @@ mod tests {
         let mut octaves = [0.0; OCTAVES];
         assert_eq!(remark(&octaves), "at rest");
         octaves[5] = 1e-3;
-        assert_eq!(remark(&octaves), "most from 1k to 2k Hz");
+        assert_eq!(remark(&octaves), "strongest from 1k to 2k Hz");
         assert_eq!([height(f32::NAN), height(0.0), height(1e9)], [0.0, 0.0, 1.0]);
     }
 }

@@ -92,9 +92,9 @@ impl Closeup {
         let far = length_text(moved);
         match bending::thickness(piece) {
             Some(thickness) => {
-                format!("moves {far}, {:.2} of its thickness, drawn {factor:.0} times", moved / thickness)
+                format!("moves {far}, {:.2} of its thickness, magnified {factor:.0} times", moved / thickness)
             }
-            None => format!("moves {far}, drawn {factor:.0} times"),
+            None => format!("moves {far}, magnified {factor:.0} times"),
         }
     }
 }

@@ -9,7 +9,7 @@ use crate::editor::plot::{Plot, time_text};
 pub fn show(ui: &Ui, rect: Rect, title: &str, strike: &StrikeSnapshot, accent: Color32) {
     let heading = format!("{title}: contact force");
     if strike.count == 0 {
-        Plot::new(ui, rect, &heading, "").nothing("Strike it: the force of its latest stroke appears here");
+        Plot::new(ui, rect, &heading, "").nothing("Strike the piece to see the force of its latest stroke");
         return;
     }
     let plot = Plot::new(ui, rect, &heading, &remark(strike));
@@ -31,7 +31,7 @@ pub fn show(ui: &Ui, rect: Rect, title: &str, strike: &StrikeSnapshot, accent: C
 fn remark(strike: &StrikeSnapshot) -> String {
     let touches = if strike.touches > 1 { format!(" in {} touches", strike.touches) } else { String::new() };
     format!(
-        "{}{touches}, peak {:.0} N, {:.0} mN s, back at {:.1} m/s",
+        "{}{touches}, peak {:.0} N, {:.0} mN s, rebound {:.1} m/s",
         time_text(strike.contact_time),
         strike.peak_force,
         1e3 * strike.impulse,
@@ -53,6 +53,6 @@ mod tests {
             touches: 2,
             ..StrikeSnapshot::default()
         };
-        assert_eq!(remark(&strike), "5.8 ms in 2 touches, peak 31 N, 91 mN s, back at 2.0 m/s");
+        assert_eq!(remark(&strike), "5.8 ms in 2 touches, peak 31 N, 91 mN s, rebound 2.0 m/s");
     }
 }

@@ -170,7 +170,7 @@ fn another_kit_may_come_while_the_window_is_open() {
     window.key(Key::Z);
     window.modifiers = Modifiers::NONE;
     assert!(window.gestures().is_empty());
-    assert!(window.find("Nothing was struck yet. Click a head or a cymbal").is_some(), "{:?}", window.texts);
+    assert!(window.find("No stroke yet. Click a head or a cymbal").is_some(), "{:?}", window.texts);
     window.panels.open(Page::Kit);
     window.frame(Vec::new());
     assert!(window.strike(Slot::ALL[0]).is_some());
