@@ -19,15 +19,15 @@
 //! Nobody has published one in real time; the parts are as elsewhere in this crate. Energy: all contacts are
 //! discrete gradients of one potential, solved together with the strikers through both bodies.
 
-pub mod balance;
-pub mod edge;
 pub mod foot;
 pub mod half;
 pub mod pair;
 mod rest;
 pub mod rigid;
-pub mod rims;
+pub mod rim_contact;
+pub mod rim_points;
 mod spec;
+pub mod static_equilibrium;
 mod step;
 
 use std::f64::consts::TAU;
@@ -43,15 +43,13 @@ use crate::modal::Mode;
 use crate::piece::{BuildContext, ModeInfo, ModeKind};
 use crate::surface::{Surface, SurfaceParts};
 
+pub use rim_points::POINTS;
 pub use spec::HiHatSpec;
 
 use foot::SPEED;
 use half::{Damping, Half, Struck};
 use pair::{Pair, PairParts};
 use rigid::Rigid;
-
-/// Places around the rims where they may touch.
-pub const POINTS: usize = 16;
 
 /// Mean distance of the rims while the pedal is up, m. *Literature*: players set 2 to 4 cm.
 pub const GAP: f64 = 0.030;
@@ -185,7 +183,7 @@ impl HiHat {
         if speed.is_nan() {
             return;
         }
-        // Rims that are pressed together have to come apart to ring.
+        // RimContacts that are pressed together have to come apart to ring.
         self.pedal = self.pedal.min(SPLASHING);
         let rod = self.rod(self.pedal);
         self.surface.move_pedal(|foot| foot.turn(GAP, rod, speed));
@@ -332,7 +330,7 @@ fn assemble(
         rigid,
         law,
         lasting_loss: law.lambda(spec.lasting),
-        depth: std::array::from_fn(|j| GAP + leaning * (edge::angle(j) - spec.toward).cos()),
+        depth: std::array::from_fn(|j| GAP + leaning * (rim_points::angle(j) - spec.toward).cos()),
         sample_rate: options.sample_rate,
     }));
     (surface, [top, bottom])

@@ -19,6 +19,7 @@ pub mod error;
 pub mod fitted;
 pub mod glide;
 pub mod hi_hat;
+pub mod high_band;
 pub mod kit;
 pub mod kit_spec;
 pub mod layout;

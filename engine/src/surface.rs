@@ -21,8 +21,8 @@ pub mod touch;
 pub mod wires;
 
 use crate::contact::Material;
-use crate::drum::high_band::HighBand;
 use crate::hi_hat::pair::Pair;
+use crate::high_band::HighBand;
 use crate::modal::faint::Faint;
 use crate::modal::simd::MAX_RUN;
 use crate::modal::{EARS, ModalBody, Mode, Pickup};

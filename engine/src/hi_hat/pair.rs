@@ -10,7 +10,7 @@
 //! upper one while the pedal is up, and presses with `F_j` by the law of every contact.
 //!
 //! Shells are measured from where the clamping has bent them, as snare wires are from where the strainer
-//! holds them: with `P_j` the forces in [balance] at the present place of the rod and `bend` what
+//! holds them: with `P_j` the forces in [static equilibrium](static_equilibrium) at the present place of the rod and `bend` what
 //! they bend, a shell moves by `F_j - P_j` only. Clamped cymbals that are still are exactly still, and nothing is
 //! lost of the small in the large. Held by a still pedal, all of this keeps its energy to rounding. `P` and `bend`
 //! follow a moving pedal over a block; what they and the rod change of the energy is the
@@ -33,12 +33,12 @@ use crate::snapshot::RimSnapshot;
 use crate::surface::STRIKER_PLACES;
 use crate::surface::together::Compliances;
 
-use super::POINTS;
-use super::balance;
-use super::edge;
 use super::foot::Foot;
 use super::rest::Rest;
 use super::rigid::{Rigid, Weights};
+use super::rim_points;
+use super::rim_points::POINTS;
+use super::static_equilibrium;
 
 /// What a pair is made from.
 pub struct PairParts {
@@ -152,7 +152,7 @@ impl Pair {
             law: parts.law,
             lasting_loss: parts.lasting_loss,
             depth: parts.depth,
-            weights: std::array::from_fn(|j| Rigid::weights(1.0, edge::angle(j))),
+            weights: std::array::from_fn(|j| Rigid::weights(1.0, rim_points::angle(j))),
             foot: Foot::new(0.0),
             steady_shells: [[0.0; POINTS]; POINTS],
             steady: [[0.0; POINTS]; POINTS],
@@ -265,8 +265,9 @@ impl Pair {
         self.bottom.tune(&mut self.pickup);
         let steady_before = self.steady;
         let bodies = [(top, &self.folded[0]), (&self.bottom, &self.folded[1])];
-        let [a, b] = bodies.map(|(body, folded)| edge::between_points(&body.class_compliances(folded)));
-        let [c, d] = bodies.map(|(body, folded)| edge::between_points(&body.static_compliances(folded)));
+        let [a, b] = bodies.map(|(body, folded)| rim_points::between_points(&body.class_compliances(folded)));
+        let [c, d] =
+            bodies.map(|(body, folded)| rim_points::between_points(&body.static_compliances(folded)));
         for i in 0..POINTS {
             for j in 0..POINTS {
                 let (wi, wj) = (&self.weights[i], &self.weights[j]);
@@ -304,8 +305,8 @@ impl Pair {
     fn balance(&self, y: f64, near: &[f64; POINTS]) -> (Rest, [[f64; 3]; 2], [f64; POINTS]) {
         let overlap = self.depth.map(|depth| y - depth);
         let mut preload = *near;
-        balance::settle(&self.law, &self.steady, &overlap, &mut preload);
-        let compression = balance::compressions(&self.steady, &overlap, &preload);
+        static_equilibrium::settle(&self.law, &self.steady, &overlap, &mut preload);
+        let compression = static_equilibrium::compressions(&self.steady, &overlap, &preload);
         let bend = self.steady_shells.map(|row| -row.iter().zip(&preload).map(|(s, p)| s * p).sum::<f64>());
         let mut resting = self.rigid;
         for (rigid, (rest, sign)) in resting.iter_mut().zip([(y, -1.0), (0.0, 1.0)]) {
@@ -364,7 +365,7 @@ impl Pair {
         shells.as_flattened_mut().iter_mut().zip(below.as_flattened()).for_each(|(a, b)| *a -= b);
         let shells = self.kernels.vectorized(
             #[inline(always)]
-            || edge::at_points(&shells),
+            || rim_points::at_points(&shells),
         );
         std::array::from_fn(|j| shells[j] + self.apart(j))
     }

@@ -1,6 +1,6 @@
 //! Where a pair of cymbals rests.
 
-use super::POINTS;
+use super::rim_points::POINTS;
 
 /// Forces and places while nothing moves.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -11,11 +11,11 @@ use crate::modal::{EARS, Heard, ModalBody, Port};
 use crate::potential::NonlinearForce;
 use crate::surface::together::Meeting;
 
-use super::POINTS;
-use super::edge;
 use super::pair::{MARGIN, Pair, SETTLING};
 use super::rigid::Rigid;
-use super::rims::{self, Rims};
+use super::rim_contact::{self, RimContacts};
+use super::rim_points;
+use super::rim_points::POINTS;
 
 impl Pair {
     /// A striker comes down at `radius` (share of it) in direction `angle` (rad).
@@ -25,7 +25,7 @@ impl Pair {
 
     /// Follows a change of a striker's port.
     pub fn connect_striker(&mut self, point: usize, top: &ModalBody, port: &Port) {
-        let shell = edge::at_points(&top.folded_compliance(&self.folded[0], port));
+        let shell = rim_points::at_points(&top.folded_compliance(&self.folded[0], port));
         let place = &mut self.strikers[point];
         for (j, shell) in shell.into_iter().enumerate() {
             place.shell[j] = -shell;
@@ -58,7 +58,7 @@ impl Pair {
     /// Follows the force beyond the upper cymbal's modes; without one nothing is coupled.
     pub fn couple(&mut self, top: &ModalBody, force: Option<&NonlinearForce>) {
         self.coupling = force.map_or([0.0; POINTS], |force| {
-            edge::at_points(&force.folded_coupling(top, &self.folded[0])).map(|q| -q)
+            rim_points::at_points(&force.folded_coupling(top, &self.folded[0])).map(|q| -q)
         });
     }
 
@@ -120,7 +120,7 @@ impl Pair {
     /// Finds the forces at the rims if nothing else touches, `divisor` being the dimensionless `2 + G`; whether
     /// that succeeded.
     pub fn solve_alone(&mut self, divisor: f64) -> bool {
-        let rims = Rims {
+        let rims = RimContacts {
             law: &self.law,
             yields: &self.whole,
             coupling: &self.coupling,
@@ -191,7 +191,7 @@ impl Pair {
         self.rigid[1].push_parts(&felt);
         let down = self.kernels.vectorized(
             #[inline(always)]
-            || edge::amplitudes(&beyond),
+            || rim_points::amplitudes(&beyond),
         );
         let up: Amplitudes = down.map(|pair| pair.map(|x| -x));
         top.push_folded(&self.folded[0], &up);
@@ -221,7 +221,7 @@ impl Pair {
         let (whole, force) = (&self.whole, &self.force);
         let mut moved = self.kernels.vectorized(
             #[inline(always)]
-            || rims::product(whole, force),
+            || rim_contact::product(whole, force),
         );
         for (point, force, _) in strikers {
             moved.iter_mut().zip(&self.strikers[point].whole).for_each(|(moved, y)| *moved += y * force);

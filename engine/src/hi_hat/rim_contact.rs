@@ -9,7 +9,7 @@
 use crate::contact::ContactLaw;
 use crate::modal::simd::Kernels;
 
-use super::POINTS;
+use super::rim_points::POINTS;
 
 /// Newton steps; it needs 2 to 4.
 const MAX_STEPS: usize = 12;
@@ -25,7 +25,7 @@ pub type Places = [f64; POINTS];
 
 /// One sample's contacts.
 #[derive(Debug, Clone, Copy)]
-pub struct Rims<'a> {
+pub struct RimContacts<'a> {
     /// The law of all; Hertz's.
     pub law: &'a ContactLaw,
     /// Compliance between any two places, symmetric, m/N.
@@ -44,7 +44,7 @@ pub struct Rims<'a> {
     pub dt: f64,
 }
 
-impl Rims<'_> {
+impl RimContacts<'_> {
     /// Finds the forces, N, from a guess; whether that succeeded.
     ///
     /// # Real-time
@@ -169,7 +169,7 @@ mod tests {
             let (mut before, mut free) = (before, free);
             (before[3], free[3]) = (-1e-4, -1e-4);
             (before[4], free[4]) = (-1e-4, -1e-4 + 1e-9);
-            let rims = Rims {
+            let rims = RimContacts {
                 law: &law,
                 yields: &yields,
                 coupling: &coupling,

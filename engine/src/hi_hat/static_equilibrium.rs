@@ -8,7 +8,7 @@
 use crate::contact::ContactLaw;
 use crate::surface::together::eliminate;
 
-use super::POINTS;
+use super::rim_points::POINTS;
 
 /// Steps; it needs 3 to 8, from nothing up to 15.
 const MAX_STEPS: usize = 40;

@@ -1,3 +1,4 @@
+use super::slices::*;
 use super::*;
 use crate::drum::DrumSpec;
 use crate::drum::build::Blueprint;
