@@ -19,6 +19,7 @@
 //! Nobody has published one in real time; the parts are as elsewhere in this crate. Energy: all contacts are
 //! discrete gradients of one potential, solved together with the strikers through both bodies.
 
+mod attached;
 pub mod foot;
 pub mod half;
 pub mod pair;
@@ -39,14 +40,13 @@ use crate::error::SpecError;
 use crate::fitted;
 use crate::glide::Glide;
 use crate::math::roots;
-use crate::modal::Mode;
 use crate::piece::{BuildContext, ModeInfo, ModeKind};
 use crate::surface::{Surface, SurfaceParts};
 
 pub use rim_points::POINTS;
 pub use spec::HiHatSpec;
 
-use foot::SPEED;
+use foot::{Foot, SPEED};
 use half::{Damping, Half, Struck};
 use pair::{Pair, PairParts};
 use rigid::Rigid;
@@ -112,7 +112,7 @@ impl HiHat {
 
     /// Where the rod is when the rims press on each other with [`CLAMPING`], m.
     fn find_closed(&self) -> f64 {
-        let clamping = |y: f64| self.surface.pair().map_or(CLAMPING, |pair| pair.clamping(y));
+        let clamping = |y: f64| self.pair().map_or(CLAMPING, |pair| pair.clamping(y));
         // Far below what moves: an atom's width.
         const TOLERANCE: f64 = 1e-11;
         let most = GAP + 0.05;
@@ -159,7 +159,7 @@ impl HiHat {
         }
         self.pedal = pedal;
         let rod = self.rod(pedal);
-        self.surface.move_pedal(|foot| foot.go(rod, speed));
+        self.move_pedal(|foot| foot.go(rod, speed));
     }
 
     /// Brings the pedal down at up to a speed (m/s); a foot that is down already lifts first, as fast as it can.
@@ -172,7 +172,7 @@ impl HiHat {
         }
         self.pedal = 1.0;
         let closed = self.closed;
-        self.surface.move_pedal(|foot| foot.stamp(GAP - LIFT, closed, speed));
+        self.move_pedal(|foot| foot.stamp(GAP - LIFT, closed, speed));
     }
 
     /// Brings the rims together at up to a speed (m/s) and the pedal up again at once, to where it was.
@@ -183,10 +183,25 @@ impl HiHat {
         if speed.is_nan() {
             return;
         }
-        // RimContacts that are pressed together have to come apart to ring.
+        // Rims that are pressed together have to come apart to ring.
         self.pedal = self.pedal.min(SPLASHING);
         let rod = self.rod(self.pedal);
-        self.surface.move_pedal(|foot| foot.turn(GAP, rod, speed));
+        self.move_pedal(|foot| foot.turn(GAP, rod, speed));
+    }
+
+    /// Sends the foot on the pedal somewhere.
+    fn move_pedal(&mut self, send: impl FnOnce(&mut Foot)) {
+        self.surface.with(|pair: &mut Pair, site| {
+            send(pair.foot_mut());
+            if pair.foot().moves() {
+                pair.engage(site.body.modal());
+            }
+        });
+    }
+
+    /// The lower cymbal and what is between the two.
+    fn pair(&self) -> Option<&Pair> {
+        self.surface.attachment()
     }
 
     /// Asks for a ratio of all frequencies to the cymbals' own.
@@ -214,7 +229,9 @@ impl HiHat {
     pub fn finish_controls(&mut self) {
         let moved = [&mut self.tuning, &mut self.muffling, &mut self.hand].map(Glide::jump);
         self.stale |= moved.contains(&true);
-        self.surface.rest_pedal();
+        if let Some(pair) = self.surface.attachment_mut::<Pair>().filter(|pair| pair.foot().moves()) {
+            pair.come_to_rest();
+        }
         let rubbing = self.rubbing_now();
         self.stale |= rubbing != self.rubbing;
         self.rubbing = rubbing;
@@ -223,7 +240,7 @@ impl HiHat {
 
     /// How much the rims rub where they are, 0 to 1.
     fn rubbing_now(&self) -> f64 {
-        let clamped = self.surface.pair().map_or(0.0, Pair::clamped);
+        let clamped = self.pair().map_or(0.0, Pair::clamped);
         clamped / (clamped + self.half_rubbing)
     }
 
@@ -247,9 +264,10 @@ impl HiHat {
             lossless: self.lossless,
         };
         let [top, bottom] = &self.halves;
-        self.surface.retune_pair(|k, _: &Mode| top.mode(k, tuning, &damping), &|k, _: &Mode| {
-            bottom.mode(k, tuning, &damping)
-        });
+        if let Some(pair) = self.surface.attachment_mut::<Pair>() {
+            pair.retune(|k| bottom.mode(k, tuning, &damping));
+        }
+        self.surface.retune(|k, _| top.mode(k, tuning, &damping));
         // A stiffer metal resists stretching as it resists bending.
         if let Some(force) = self.surface.beyond_mut() {
             force.set_stiffness(tuning * tuning);
@@ -260,7 +278,7 @@ impl HiHat {
     pub fn modes(&self) -> Vec<ModeInfo> {
         let bodies = [
             ("top", Some(self.surface.body()), &self.halves[0]),
-            ("bottom", self.surface.pair().map(Pair::bottom), &self.halves[1]),
+            ("bottom", self.pair().map(Pair::bottom), &self.halves[1]),
         ];
         let rows = bodies.into_iter().filter_map(|(name, body, half)| Some((name, body?, half)));
         rows.flat_map(|(name, body, half)| {
@@ -323,7 +341,7 @@ fn assemble(
     let dt = 1.0 / options.sample_rate;
     let rigid = [(&top, &spec.clutch), (&bottom, &spec.seat)]
         .map(|(half, mount)| Rigid::new(half.mass, mount, lossless, dt));
-    surface.set_pair(Pair::new(PairParts {
+    surface.attach(Pair::new(PairParts {
         bottom: bare(&bottom),
         transfers: std::mem::take(&mut bottom.transfers),
         folded: [std::mem::take(&mut top.folded), std::mem::take(&mut bottom.folded)],

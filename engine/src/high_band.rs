@@ -191,6 +191,11 @@ impl HighBand {
         }
     }
 
+    /// Places that forces can act on.
+    pub fn places(&self) -> usize {
+        self.places.len()
+    }
+
     /// Puts place `i` somewhere: distance from the centre as a share of the radius, direction in rad, and the
     /// radius (m) of the largest patch that is pressed on.
     ///

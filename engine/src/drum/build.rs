@@ -17,8 +17,9 @@ use crate::membrane::{self, Membrane, MembraneMode, MembraneSpec, ModeRange, Sur
 use crate::piece::{BuildContext, Receivers};
 use crate::shapes::{ShapeIndex, ShapeTable};
 use crate::split::Splitting;
+use crate::surface::contacts::STRIKER_PLACES;
 use crate::surface::patch::Film;
-use crate::surface::{STRIKER_PLACES, wires};
+use crate::surface::wires;
 
 /// Modes of the enclosed air up to this are kept as modes, Hz; above, air only rides along.
 const CAVITY_LIMIT_HZ: f64 = 2500.0;

@@ -25,13 +25,13 @@
 //! displacement); motion along the rims; the air between.
 
 use crate::contact::ContactLaw;
+use crate::contact::solver::Compliances;
 use crate::fitted;
 use crate::modal::simd::Kernels;
 use crate::modal::simd::folded::{Amplitudes, Folded};
 use crate::modal::{EARS, ModalBody, Mode, Pickup};
 use crate::snapshot::RimSnapshot;
-use crate::surface::STRIKER_PLACES;
-use crate::surface::together::Compliances;
+use crate::surface::contacts::STRIKER_PLACES;
 
 use super::foot::Foot;
 use super::rest::Rest;
@@ -240,20 +240,14 @@ impl Pair {
         }
     }
 
-    /// Counts anew from a stroke on.
-    pub fn begin_count(&mut self) {
-        (self.landings, self.last_lift, self.age) = (0, 0, 0);
-    }
-
-    /// Changes the lower cymbal's modes; `mode(k, old)` gives the new one. [`follow`](Self::follow) must be called
-    /// after.
+    /// Changes the lower cymbal's modes; `mode(k)` gives the new one. The upper one's must be changed after, and the pair
+    /// follows that.
     ///
     /// # Real-time
     /// Linear in the number of modes.
-    pub fn retune(&mut self, mode: &dyn Fn(usize, &Mode) -> Mode) {
+    pub fn retune(&mut self, mode: impl Fn(usize) -> Mode) {
         for k in 0..self.bottom.len() {
-            let new = mode(k, &self.bottom.modes()[k]);
-            self.bottom.set_mode(k, new);
+            self.bottom.set_mode(k, mode(k));
         }
     }
 
@@ -261,7 +255,7 @@ impl Pair {
     ///
     /// # Real-time
     /// Linear in the number of modes, and some microseconds.
-    pub fn follow(&mut self, top: &ModalBody, heard: &Pickup) {
+    pub(super) fn follow_modes(&mut self, top: &ModalBody, heard: &Pickup) {
         self.bottom.tune(&mut self.pickup);
         let steady_before = self.steady;
         let bodies = [(top, &self.folded[0]), (&self.bottom, &self.folded[1])];
@@ -350,14 +344,6 @@ impl Pair {
         self.ease();
     }
 
-    /// Everything at rest, pedal where it is to go.
-    pub fn reset(&mut self) {
-        self.bottom.reset();
-        self.come_to_rest();
-        self.begin_count();
-        self.pedal_work = 0.0;
-    }
-
     /// Overlap at the places with both shells as they are, m.
     pub(super) fn overlaps(&self, top: &ModalBody) -> [f64; POINTS] {
         let mut shells = top.folded_displacement(&self.folded[0]);
@@ -376,7 +362,7 @@ impl Pair {
         self.rigid[0].at(weights) - self.rigid[1].at(weights) + self.rest.bend[j] - self.depth[j]
     }
 
-    /// Takes care of the rims from now on, until the next [`settle`](Self::settle) says otherwise.
+    /// Takes care of the rims from now on, until the next [look](Self::look) says otherwise.
     pub fn engage(&mut self, top: &ModalBody) {
         self.still = false;
         if !self.engaged {
@@ -390,13 +376,8 @@ impl Pair {
         self.touching.contains(&true)
     }
 
-    /// Whether rims may meet.
-    pub fn is_engaged(&self) -> bool {
-        self.engaged
-    }
-
     /// Energy beyond that of rest, J: of the lower shell, of both cymbals as a whole and of the contacts.
-    pub fn energy(&self) -> f64 {
+    pub(super) fn held_energy(&self) -> f64 {
         self.bottom.energy() + self.held()
     }
 
@@ -413,17 +394,11 @@ impl Pair {
     }
 
     /// Once a block: follows the rod, zeroes what has decayed, looks whether rims may meet. The fastest of the strikers
-    /// about the upper cymbal, if there are any, comes so far (m) in a block; its shell has `top_energy` (J), asked for
-    /// only where it decides.
+    /// about the upper cymbal, if there are any, comes so far (m) in a block.
     ///
     /// # Real-time
     /// Linear in the number of modes, and some microseconds while the pedal moves.
-    pub fn settle(
-        &mut self,
-        top: &ModalBody,
-        strikers: Option<f64>,
-        top_energy: impl FnOnce() -> f64,
-    ) -> Settled {
+    pub(super) fn look(&mut self, top: &ModalBody, strikers: Option<f64>) -> Settled {
         let pushed = strikers.map_or(0.0, |way| PUSHED.0.max(PUSHED.1 * way));
         let strikers = strikers.is_some();
         self.bottom.flush_quiet();
@@ -442,7 +417,7 @@ impl Pair {
             return Settled::Moving;
         }
         let touching = self.is_touching();
-        if !strikers && touching && self.held() < STILL && self.energy() + top_energy() < STILL {
+        if !strikers && touching && self.held() < STILL && self.held_energy() + top.energy() < STILL {
             self.bottom.reset();
             self.come_to_rest();
             return Settled::Parked;
@@ -466,16 +441,11 @@ impl Pair {
         nearest < stiff
             || nearest < stiff + top.folded_reach(&self.folded[0]) + self.bottom.folded_reach(&self.folded[1])
     }
-
-    /// Whether nothing moves.
-    pub fn is_still(&self) -> bool {
-        self.still && !self.engaged && self.bottom.is_still()
-    }
 }
 
 /// What a block's look has found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Settled {
+pub(super) enum Settled {
     /// Something moves.
     Moving,
     /// The cymbals rest on each other; the upper shell is to be put to rest too.

@@ -6,7 +6,7 @@
 //! method, with steps halved until the energy falls, finds its one minimum, which is the balance.
 
 use crate::contact::ContactLaw;
-use crate::surface::together::eliminate;
+use crate::contact::solver::eliminate;
 
 use super::rim_points::POINTS;
 

@@ -1,15 +1,15 @@
 //! One sample of a [`Pair`]: both cymbals step freely, then the rims' forces are found together with the strikers'
-//! (see [`together`](crate::surface::together)).
+//! (see [the solver](crate::contact::solver)).
 //!
 //! Signs: a striker presses the upper cymbal down, a place of the rim presses it up and the lower one down. What
 //! the force beyond the upper cymbal's modes has to do with a contact is counted as that contact presses.
 
 use crate::contact::ContactStep;
+use crate::contact::solver::ContactProblem;
 use crate::modal::simd::MAX_RUN;
 use crate::modal::simd::folded::Amplitudes;
 use crate::modal::{EARS, Heard, ModalBody, Port};
 use crate::potential::NonlinearForce;
-use crate::surface::together::Meeting;
 
 use super::pair::{MARGIN, Pair, SETTLING};
 use super::rigid::Rigid;
@@ -19,12 +19,12 @@ use super::rim_points::POINTS;
 
 impl Pair {
     /// A striker comes down at `radius` (share of it) in direction `angle` (rad).
-    pub fn put_striker(&mut self, point: usize, radius: f64, angle: f64) {
+    pub(super) fn put_striker(&mut self, point: usize, radius: f64, angle: f64) {
         self.strikers[point].weights = Rigid::weights(radius, angle);
     }
 
     /// Follows a change of a striker's port.
-    pub fn connect_striker(&mut self, point: usize, top: &ModalBody, port: &Port) {
+    pub(super) fn connect_striker(&mut self, point: usize, top: &ModalBody, port: &Port) {
         let shell = rim_points::at_points(&top.folded_compliance(&self.folded[0], port));
         let place = &mut self.strikers[point];
         for (j, shell) in shell.into_iter().enumerate() {
@@ -33,19 +33,9 @@ impl Pair {
         }
     }
 
-    /// What the upper cymbal's motion as a whole adds to the compliance between two strikers, m/N.
-    pub fn between_strikers(&self, a: usize, b: usize) -> f64 {
-        self.rigid[0].compliance(&self.strikers[a].weights, &self.strikers[b].weights)
-    }
-
-    /// What it adds to the displacement under a striker, m.
-    pub fn under_striker(&self, point: usize) -> f64 {
-        self.rigid[0].at(&self.strikers[point].weights)
-    }
-
     /// How far the preloads, which the upper shell is measured from, ease a striker's contact, m; `coupling` and
     /// `divisor` tell of the force beyond the modes.
-    pub fn eases_striker(&self, point: usize, coupling: f64, divisor: f64) -> f64 {
+    pub(super) fn eases_striker(&self, point: usize, coupling: f64, divisor: f64) -> f64 {
         let place = &self.strikers[point];
         let shell: f64 = place.shell.iter().zip(&self.rest.preload).map(|(y, p)| y * p).sum();
         shell - coupling * self.preloads_coupled() / divisor
@@ -56,7 +46,7 @@ impl Pair {
     }
 
     /// Follows the force beyond the upper cymbal's modes; without one nothing is coupled.
-    pub fn couple(&mut self, top: &ModalBody, force: Option<&NonlinearForce>) {
+    pub(super) fn couple_with(&mut self, top: &ModalBody, force: Option<&NonlinearForce>) {
         self.coupling = force.map_or([0.0; POINTS], |force| {
             rim_points::at_points(&force.folded_coupling(top, &self.folded[0])).map(|q| -q)
         });
@@ -87,7 +77,7 @@ impl Pair {
 
     /// Steps both as stiff bodies, and the lower shell if rims may meet. The upper one has stepped; `mean` (m) and
     /// the dimensionless `divisor` tell of the force beyond its modes.
-    pub fn step_free(&mut self, top: &ModalBody, mean: f64, divisor: f64) {
+    pub(super) fn step_free(&mut self, top: &ModalBody, mean: f64, divisor: f64) {
         self.follow_pedal();
         self.from = self.rigid[0].place()[0];
         let (drawn, damper) = self.rigid[0].drawn(self.foot.place(), self.foot.speed());
@@ -113,13 +103,13 @@ impl Pair {
     }
 
     /// Whether a rim may be touching by the end of the sample.
-    pub fn is_near(&self) -> bool {
+    pub(super) fn is_near(&self) -> bool {
         self.engaged && (0..POINTS).any(|j| self.free[j].max(self.compression[j]) > -MARGIN)
     }
 
     /// Finds the forces at the rims if nothing else touches, `divisor` being the dimensionless `2 + G`; whether
     /// that succeeded.
-    pub fn solve_alone(&mut self, divisor: f64) -> bool {
+    pub(super) fn solve_alone(&mut self, divisor: f64) -> bool {
         let rims = RimContacts {
             law: &self.law,
             yields: &self.whole,
@@ -134,17 +124,17 @@ impl Pair {
     }
 
     /// Compliance between a place and another, m/N; `divisor` tells of the force beyond the modes.
-    pub fn yielding(&self, i: usize, j: usize, divisor: f64) -> f64 {
+    pub(super) fn stiffened(&self, i: usize, j: usize, divisor: f64) -> f64 {
         self.whole[i][j] - self.coupling[i] * self.coupling[j] / divisor
     }
 
     /// Compliance between a striker, of that coupling, and a place, m/N.
-    pub fn yielding_to(&self, point: usize, coupling: f64, j: usize, divisor: f64) -> f64 {
+    pub(super) fn stiffened_to(&self, point: usize, coupling: f64, j: usize, divisor: f64) -> f64 {
         self.strikers[point].whole[j] - coupling * self.coupling[j] / divisor
     }
 
     /// A place's contact of a compliance in m/N, to be solved.
-    pub fn meeting(&self, j: usize, compliance: f64) -> Meeting {
+    pub(super) fn problem(&self, j: usize, compliance: f64) -> ContactProblem {
         let step = ContactStep {
             before: self.compression[j],
             free: self.free[j],
@@ -152,30 +142,12 @@ impl Pair {
             lambda: self.lambda[j],
             dt: self.dt,
         };
-        Meeting { law: self.law, step, force: self.force[j] }
+        ContactProblem { law: self.law, step, force: self.force[j] }
     }
 
-    /// Takes the forces that were found, N.
-    pub fn set_forces(&mut self, forces: [f64; POINTS]) {
-        self.force = forces;
-    }
-
-    /// A striker presses the upper cymbal as a whole, N.
-    pub fn push_striker(&mut self, point: usize, force: f64) {
-        self.rigid[0].push(&self.strikers[point].weights, force);
-    }
-
-    /// Moves a striker's contact by the rims' forces, m.
-    pub fn moves_striker(&self, point: usize, coupling: f64, divisor: f64) -> f64 {
-        if !self.engaged {
-            return 0.0;
-        }
-        (0..POINTS).map(|j| self.yielding_to(point, coupling, j, divisor) * self.force[j]).sum()
-    }
-
-    /// Applies the forces, with those of `strikers` `(point, force, coupling)`; returns what they press the force
-    /// beyond the modes with, and the pressure at once, Pa.
-    pub fn press(&mut self, top: &mut ModalBody) -> (f64, Heard) {
+    /// Applies the forces at the rims; returns what they press the force beyond the modes with, and the pressure at once,
+    /// Pa.
+    pub(super) fn press_rims(&mut self, top: &mut ModalBody) -> (f64, Heard) {
         if !self.engaged {
             return (0.0, Heard::default());
         }
@@ -206,7 +178,7 @@ impl Pair {
 
     /// Ends the sample; `strikers` are the points about, their forces (N) and their coupling. What is heard of the
     /// lower shell, Pa.
-    pub fn finish(
+    pub(super) fn finish_sample(
         &mut self,
         strikers: impl Iterator<Item = (usize, f64, f64)> + Clone,
         divisor: f64,
@@ -241,7 +213,7 @@ impl Pair {
 
     /// Many samples in which no rim meets the other: adds what is heard of the lower shell, Pa. As stiff bodies both
     /// have moved for the first `stiff` of them already.
-    pub fn ring(&mut self, out: &mut [&mut [f32]; EARS], stiff: usize) {
+    pub(super) fn ring_apart(&mut self, out: [&mut [f32]; EARS], stiff: usize) {
         let samples = out[0].len();
         for _ in stiff..samples {
             let (drawn, _) = self.rigid[0].drawn(self.foot.place(), 0.0);
@@ -252,7 +224,7 @@ impl Pair {
         if !self.bottom.is_still() {
             let mut heard = [[0.0; MAX_RUN]; EARS];
             self.bottom.ring(0, &self.pickup, heard.each_mut().map(|row| &mut row[..samples]));
-            for (out, heard) in out.iter_mut().zip(&heard) {
+            for (out, heard) in out.into_iter().zip(&heard) {
                 out.iter_mut().zip(heard).for_each(|(sum, x)| *sum += x);
             }
         }
