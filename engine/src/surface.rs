@@ -23,6 +23,7 @@ pub mod oscillator;
 pub mod patch;
 pub mod rim;
 mod sample;
+mod strike_log;
 mod striking;
 pub mod wires;
 
@@ -43,7 +44,7 @@ use incident_field::IncidentPressure;
 use observer::ForceObservers;
 use patch::Film;
 use rim::AttachedRim;
-use striking::StrikeLog;
+use strike_log::StrikeLog;
 use wires::SnareWires;
 
 /// What a surface is made from.

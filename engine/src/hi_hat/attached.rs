@@ -8,8 +8,9 @@ use crate::surface::attachment::{Attachment, Site};
 use crate::surface::body::{FreeStep, StruckBody};
 use crate::surface::contacts::{Contacts, STRIKER_PLACES};
 
-use super::pair::{Pair, Settled};
+use super::pair::Pair;
 use super::rim_points::POINTS;
+use super::settling::Settled;
 
 /// Contacts of strikers and of rims.
 const MOST: usize = STRIKER_PLACES + POINTS;
@@ -57,7 +58,7 @@ impl Pair {
             let i = contacts.present()[k];
             contacts.point_mut(i).force = problem.force;
         }
-        self.force = std::array::from_fn(|j| problems[n + j].force);
+        self.rims.force = std::array::from_fn(|j| problems[n + j].force);
     }
 }
 
@@ -76,7 +77,7 @@ impl Attachment for Pair {
     }
 
     fn begin_count(&mut self) {
-        (self.landings, self.last_lift, self.age) = (0, 0, 0);
+        self.rims.begin_count();
     }
 
     fn put(&mut self, point: usize, radius: f64, angle: f64) {
@@ -109,7 +110,7 @@ impl Attachment for Pair {
 
     fn solve(&mut self, contacts: &mut Contacts, free: &FreeStep) -> bool {
         if !self.is_near() {
-            self.force = [0.0; POINTS];
+            self.rims.force = [0.0; POINTS];
             return false;
         }
         let apart = |&i: &usize| {
@@ -139,7 +140,7 @@ impl Attachment for Pair {
         if !self.engaged {
             return 0.0;
         }
-        (0..POINTS).map(|j| self.stiffened_to(point, coupling, j, free.divisor) * self.force[j]).sum()
+        (0..POINTS).map(|j| self.stiffened_to(point, coupling, j, free.divisor) * self.rims.force[j]).sum()
     }
 
     fn finish(&mut self, contacts: &Contacts, free: &FreeStep) -> Heard {
@@ -183,14 +184,14 @@ impl Attachment for Pair {
     }
 
     fn is_still(&self) -> bool {
-        self.still && !self.engaged && self.bottom.is_still()
+        self.still && !self.engaged && self.lower.modal.is_still()
     }
 
     /// With the pedal where it is to go.
     fn reset(&mut self, _contacts: &mut Contacts) {
-        self.bottom.reset();
+        self.lower.modal.reset();
         self.come_to_rest();
         self.begin_count();
-        self.pedal_work = 0.0;
+        self.pedal.work = 0.0;
     }
 }

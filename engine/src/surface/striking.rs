@@ -14,7 +14,7 @@ use crate::strike::{Across, Strike, StrikerSpec};
 use super::Surface;
 use super::attachment::Attachment;
 use super::contacts::{Contacts, MAX_STRIKERS, points_of};
-use super::exciter::{ContactPoint, Exciter, Ground, PARTS};
+use super::exciter::{Ground, PARTS};
 use super::rim::AttachedRim;
 
 /// A striker farther off than this has left for good, m. *By ear*: no head comes up so far.
@@ -26,17 +26,6 @@ const LIFTED_AFTER: f64 = fitted::STRIKER_LIFTED_AFTER;
 /// In a rimshot the bead meets the head so long before the shaft meets the rim, s: a head gives way by some
 /// millimetres, and drummers aim for the rim below it. *By ear*.
 const SHOT_LEAD: f64 = fitted::SHOT_LEAD;
-
-/// What strikers have done.
-#[derive(Default)]
-pub(super) struct StrikeLog {
-    /// Energy that strikers have come with, and taken with them, J.
-    pub(super) brought: f64,
-    pub(super) departed: f64,
-    pub(super) last: StrikeSnapshot,
-    /// Strikers that had to make room for others before they had left.
-    pub(super) hurried: u32,
-}
 
 impl Surface {
     /// Strikes at the next sample: the tip is just touching and moves at the stroke's speed.
@@ -165,7 +154,7 @@ impl Surface {
             let age = striker.age as f64 * dt;
             let points = &points[points_of(i)];
             if striker.stroke == self.log.last.count {
-                report(&mut self.log.last, striker, points, dt);
+                self.log.report(striker, points, dt);
             }
             let mut present = points.iter().filter(|point| point.present);
             let touching = present.clone().any(|point| point.touching);
@@ -179,25 +168,6 @@ impl Surface {
             self.contacts.list();
         }
     }
-}
-
-/// Adds this sample to what a stroke's contacts have measured.
-fn report(last: &mut StrikeSnapshot, striker: &Exciter, points: &[ContactPoint], dt: f64) {
-    let mut force = 0.0;
-    for point in points.iter().filter(|point| point.present && point.force > 0.0) {
-        force += point.force;
-        if point.step.before <= 0.0 {
-            last.touches += 1;
-        }
-        last.contact_time = (striker.age as f64 * dt) as f32;
-        last.peak_force = last.peak_force.max(point.force as f32);
-        last.impulse += (point.force * dt) as f32;
-    }
-    if force > 0.0 {
-        // The first sample of a touch is the first of its age.
-        last.force.add(striker.age.saturating_sub(1), force as f32);
-    }
-    last.leaving_speed = striker.leaving_speed() as f32;
 }
 
 #[cfg(test)]
