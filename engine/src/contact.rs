@@ -26,6 +26,8 @@
 //!
 //! Neglected: adhesion, friction, and the mass of the deformed material.
 
+pub mod solver;
+
 use serde::{Deserialize, Serialize};
 
 use crate::numbers::{Numbers, Visitor};

@@ -9,7 +9,6 @@ use std::f64::consts::TAU;
 pub mod build;
 pub mod coupled;
 pub mod hearing;
-pub mod high_band;
 pub mod shadow;
 pub mod spec;
 pub mod stretch;
@@ -23,6 +22,7 @@ use crate::cache::{Cache, Shared};
 use crate::damping::{Muffler, SIGMA_T60};
 use crate::error::SpecError;
 use crate::glide::Glide;
+use crate::high_band::{self, HighBand, HighMuffling};
 use crate::instrument::Instrument;
 use crate::modal::Mode;
 use crate::mode::Member;
@@ -32,13 +32,14 @@ use crate::rim::Rim;
 use crate::schema::MARK;
 use crate::shapes::ShapeTable;
 use crate::split::Splitting;
+use crate::surface::contacts::STRIKER_PLACES;
 use crate::surface::patch::Film;
-use crate::surface::wires::PRELOAD;
+use crate::surface::rim::AttachedRim;
+use crate::surface::wires::{PRELOAD, SnareWires};
 use crate::surface::{Surface, SurfaceParts};
 
 use build::Blueprint;
 use hearing::Hearing;
-use high_band::{HighBand, HighMuffling};
 pub use spec::{DrumSpec, HeadContact, HeadSpec, PitchOf, ResonantSpec, ShellSpec};
 use stretch::Stretch;
 use tuned::{Place, Rung};
@@ -174,14 +175,17 @@ impl Drum {
         if spec.high_band {
             let near = HighBand::new(&drum.blueprint.high_band(spec, context));
             let far = drum.blueprint.far_high_band(spec, context).filter(|_| spec.wires.is_some());
-            drum.surface.set_high_bands(near, far.as_ref().map(HighBand::new));
+            drum.surface.observe(0, near);
+            far.iter().for_each(|far| drum.surface.observe(STRIKER_PLACES, HighBand::new(far)));
         }
         drum.follow_controls();
         if let (Some(resonant), Some(wires)) = (spec.resonant, spec.wires) {
-            drum.surface.set_wires(&wires, &resonant.material);
+            let dt = 1.0 / options.sample_rate;
+            drum.surface.attach(SnareWires::new(&wires, &resonant.material, ideal.lossless, dt));
         }
         if let Some(hoop) = spec.hoop {
-            drum.surface.set_rim(Rim::new(spec.radius(), &hoop, points, ideal.lossless));
+            let rim = Rim::new(spec.radius(), &hoop, points, ideal.lossless);
+            drum.surface.attach(AttachedRim::new(rim, options.sample_rate));
         }
         drum.follow_shapes();
         if !ideal.linear {
@@ -189,6 +193,12 @@ impl Drum {
             drum.surface.set_potential(Box::new(stretch), modes, stretch::stride(options.sample_rate));
         }
         Ok(drum)
+    }
+
+    /// Brings the strainer's force to where its control is.
+    fn follow_preload(&mut self) {
+        let preload = self.preload.value();
+        self.surface.with(|wires: &mut SnareWires, site| wires.set_preload(preload, site));
     }
 }
 
@@ -231,9 +241,9 @@ impl Instrument for Drum {
         surface.set_transfers(near, far.map(|transfer| transfer.map(|h| h * *far_distance)));
         let far = self.blueprint.resonant.as_ref().map(|head| head.film(&place));
         let near = Film { wraps: self.wraps, ..self.blueprint.batter.film(&place) };
-        self.surface.set_films(near, far);
-        if let Some(far) = &self.far_shapes {
-            self.surface.lay_wires(far);
+        self.surface.set_local_compliance(near);
+        if let Some(shapes) = &self.far_shapes {
+            self.surface.with(|wires: &mut SnareWires, site| wires.lay(far, shapes, site));
         }
     }
 
@@ -246,7 +256,7 @@ impl Instrument for Drum {
     }
 
     fn throw_wires(&mut self, on: bool) {
-        self.surface.throw_wires(on);
+        self.surface.with(|wires: &mut SnareWires, site| wires.throw(on, site));
     }
 
     fn set_preload(&mut self, newtons: f64) {
@@ -257,7 +267,7 @@ impl Instrument for Drum {
         let moved = [&mut self.pitch, &mut self.muffling].map(|glide| glide.advance(seconds));
         self.stale |= moved.contains(&true);
         if self.preload.advance(seconds) {
-            self.surface.set_preload(self.preload.value());
+            self.follow_preload();
         }
     }
 
@@ -281,11 +291,11 @@ impl Instrument for Drum {
             let sigma = if lossless { 0.0 } else { rung.sigma + muffled };
             Mode { omega: rung.omega * mode.detuning, sigma, mass: rung.mass }
         });
-        let [near, far] = self.surface.high_bands_mut();
-        if let Some(near) = near {
+        let mut bands = self.surface.high_bands_mut();
+        if let Some(near) = bands.next() {
             near.retune(self.blueprint.batter.tension(&place), &self.muffler.above(amount));
         }
-        if let (Some(far), Some(head)) = (far, &self.blueprint.resonant) {
+        if let (Some(far), Some(head)) = (bands.next(), &self.blueprint.resonant) {
             far.retune(head.tension(&place), &HighMuffling::NONE);
         }
     }
@@ -294,7 +304,7 @@ impl Instrument for Drum {
         let moved = [&mut self.pitch, &mut self.muffling].map(Glide::jump);
         self.stale |= moved.contains(&true);
         if self.preload.jump() {
-            self.surface.set_preload(self.preload.value());
+            self.follow_preload();
         }
         self.follow_controls();
         self.follow_shapes();
@@ -329,7 +339,7 @@ impl Instrument for Drum {
             radiation: 0.0,
             kind: Rim::kind(mode),
         });
-        let slices = self.surface.high_band().into_iter().flat_map(HighBand::slices);
+        let slices = self.surface.high_bands().take(1).flat_map(HighBand::slices);
         complete.chain(slices.map(sampled)).chain(rim).collect()
     }
 

@@ -19,16 +19,16 @@
 //! Nobody has published one in real time; the parts are as elsewhere in this crate. Energy: all contacts are
 //! discrete gradients of one potential, solved together with the strikers through both bodies.
 
-pub mod balance;
-pub mod edge;
+mod attached;
 pub mod foot;
 pub mod half;
 pub mod pair;
-pub mod points;
-mod rest;
 pub mod rigid;
-pub mod rims;
+pub mod rim_contact;
+pub mod rim_points;
+mod settling;
 pub mod spec;
+pub mod static_equilibrium;
 mod step;
 
 use std::f64::consts::TAU;
@@ -44,15 +44,14 @@ use crate::fitted;
 use crate::glide::Glide;
 use crate::instrument::{Instrument, Pedal};
 use crate::math::roots;
-use crate::modal::Mode;
 use crate::mode::ModeInfo;
 use crate::mode::ModeKind;
 use crate::surface::Surface;
 
-pub use points::POINTS;
+pub use rim_points::POINTS;
 pub use spec::HiHatSpec;
 
-use foot::SPEED;
+use foot::{Foot, SPEED};
 use half::{Damping, Half};
 use pair::{Pair, PairParts};
 use rigid::Rigid;
@@ -116,7 +115,7 @@ impl HiHat {
 
     /// Where the rod is when the rims press on each other with [`CLAMPING`], m.
     fn find_closed(&self) -> f64 {
-        let clamping = |y: f64| self.surface.pair().map_or(CLAMPING, |pair| pair.clamping(y));
+        let clamping = |y: f64| self.pair().map_or(CLAMPING, |pair| pair.clamping(y));
         // Far below what moves: an atom's width.
         const TOLERANCE: f64 = 1e-11;
         let most = GAP + 0.05;
@@ -139,9 +138,24 @@ impl HiHat {
         self.pedal
     }
 
+    /// Sends the foot on the pedal somewhere.
+    fn move_pedal(&mut self, send: impl FnOnce(&mut Foot)) {
+        self.surface.with(|pair: &mut Pair, site| {
+            send(pair.foot_mut());
+            if pair.foot().moves() {
+                pair.engage(site.body.modal());
+            }
+        });
+    }
+
+    /// The lower cymbal and what is between the two.
+    fn pair(&self) -> Option<&Pair> {
+        self.surface.attachment()
+    }
+
     /// How much the rims rub where they are, 0 to 1.
     fn rubbing_now(&self) -> f64 {
-        let clamped = self.surface.pair().map_or(0.0, Pair::clamped);
+        let clamped = self.pair().map_or(0.0, Pair::clamped);
         clamped / (clamped + self.half_rubbing)
     }
 }
@@ -192,9 +206,10 @@ impl Instrument for HiHat {
             lossless: self.lossless,
         };
         let [top, bottom] = &self.halves;
-        self.surface.retune_pair(|k, _: &Mode| top.mode(k, tuning, &damping), &|k, _: &Mode| {
-            bottom.mode(k, tuning, &damping)
-        });
+        if let Some(pair) = self.surface.attachment_mut::<Pair>() {
+            pair.retune(|k| bottom.mode(k, tuning, &damping));
+        }
+        self.surface.retune(|k, _| top.mode(k, tuning, &damping));
         // A stiffer metal resists stretching as it resists bending.
         if let Some(force) = self.surface.beyond_mut() {
             force.set_stiffness(tuning * tuning);
@@ -204,7 +219,9 @@ impl Instrument for HiHat {
     fn finish_controls(&mut self) {
         let moved = [&mut self.tuning, &mut self.muffling, &mut self.hand].map(Glide::jump);
         self.stale |= moved.contains(&true);
-        self.surface.rest_pedal();
+        if let Some(pair) = self.surface.attachment_mut::<Pair>().filter(|pair| pair.foot().moves()) {
+            pair.come_to_rest();
+        }
         let rubbing = self.rubbing_now();
         self.stale |= rubbing != self.rubbing;
         self.rubbing = rubbing;
@@ -214,7 +231,7 @@ impl Instrument for HiHat {
     fn modes(&self) -> Vec<ModeInfo> {
         let bodies = [
             ("top", Some(self.surface.body()), &self.halves[0]),
-            ("bottom", self.surface.pair().map(Pair::bottom), &self.halves[1]),
+            ("bottom", self.pair().map(Pair::bottom), &self.halves[1]),
         ];
         let rows = bodies.into_iter().filter_map(|(name, body, half)| Some((name, body?, half)));
         rows.flat_map(|(name, body, half)| {
@@ -245,7 +262,7 @@ impl Pedal for HiHat {
         }
         self.pedal = pedal;
         let rod = self.rod(pedal);
-        self.surface.move_pedal(|foot| foot.go(rod, speed));
+        self.move_pedal(|foot| foot.go(rod, speed));
     }
 
     fn stamp(&mut self, speed: f64) {
@@ -254,7 +271,7 @@ impl Pedal for HiHat {
         }
         self.pedal = 1.0;
         let closed = self.closed;
-        self.surface.move_pedal(|foot| foot.stamp(GAP - LIFT, closed, speed));
+        self.move_pedal(|foot| foot.stamp(GAP - LIFT, closed, speed));
     }
 
     fn splash(&mut self, speed: f64) {
@@ -264,7 +281,7 @@ impl Pedal for HiHat {
         // Rims that are pressed together have to come apart to ring.
         self.pedal = self.pedal.min(SPLASHING);
         let rod = self.rod(self.pedal);
-        self.surface.move_pedal(|foot| foot.turn(GAP, rod, speed));
+        self.move_pedal(|foot| foot.turn(GAP, rod, speed));
     }
 }
 
@@ -293,14 +310,14 @@ fn assemble(
     let dt = 1.0 / options.sample_rate;
     let rigid = [(&top, &spec.clutch), (&bottom, &spec.seat)]
         .map(|(half, mount)| Rigid::new(half.cymbal.mass, mount, lossless, dt));
-    surface.set_pair(Pair::new(PairParts {
+    surface.attach(Pair::new(PairParts {
         bottom: (0..bottom.cymbal.modes.len()).map(|k| bottom.cymbal.bare(k, 1.0)).collect(),
         transfers: below.transfers,
         folded: [std::mem::take(&mut top.folded), std::mem::take(&mut bottom.folded)],
         rigid,
         law,
         lasting_loss: law.lambda(spec.lasting),
-        depth: std::array::from_fn(|j| GAP + leaning * (edge::angle(j) - spec.toward).cos()),
+        depth: std::array::from_fn(|j| GAP + leaning * (rim_points::angle(j) - spec.toward).cos()),
         sample_rate: options.sample_rate,
     }));
     (surface, [top, bottom])

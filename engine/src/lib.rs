@@ -29,6 +29,7 @@ pub mod instrument;
 
 // The struck body: modes, contacts, and what is attached.
 pub mod surface;
+pub mod high_band;
 pub mod rim;
 
 // Heads, plates, cavities: from descriptions to modes, shapes, losses.

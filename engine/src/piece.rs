@@ -19,7 +19,7 @@ use crate::slot::Slot;
 use crate::snapshot::{FIELD_MODES, FieldShapes, ModeSnapshot, PieceSnapshot, StrikeSnapshot};
 use crate::strike::Strike;
 use crate::surface::Surface;
-use crate::surface::air::{AUDIBLE, Incident};
+use crate::surface::incident_field::{AUDIBLE, IncidentPressure};
 
 /// Sound below this is silence, Pa: 100 dB under full scale.
 const SILENT: f32 = 2e-4;
@@ -126,7 +126,7 @@ impl Piece {
     ///
     /// # Real-time
     /// No allocation, no lock.
-    pub fn render_in_air(&mut self, mut out: [&mut [f32]; EARS], incident: Option<Incident<'_>>) {
+    pub fn render_in_air(&mut self, mut out: [&mut [f32]; EARS], incident: Option<IncidentPressure<'_>>) {
         if self.phase == 0 {
             self.doze();
             self.begin_block();
@@ -135,7 +135,8 @@ impl Piece {
         debug_assert!(samples <= BLOCK - self.phase);
         let incident = incident.filter(|_| self.instrument.surface().listens());
         let deaf = self.asleep || self.instrument.surface().has_parked_wires();
-        let loud = |incident: Incident<'_>| incident.iter().position(|pressure| pressure.abs() > AUDIBLE);
+        let loud =
+            |incident: IncidentPressure<'_>| incident.iter().position(|pressure| pressure.abs() > AUDIBLE);
         let wakes = incident.filter(|_| deaf).and_then(loud);
         let before = wakes.unwrap_or(samples);
         self.render_stretch(out.each_mut().map(|out| &mut out[..before]), incident, 0);
@@ -149,7 +150,12 @@ impl Piece {
     }
 
     /// Renders from sample `from` of what arrives on.
-    fn render_stretch(&mut self, out: [&mut [f32]; EARS], incident: Option<Incident<'_>>, from: usize) {
+    fn render_stretch(
+        &mut self,
+        out: [&mut [f32]; EARS],
+        incident: Option<IncidentPressure<'_>>,
+        from: usize,
+    ) {
         if self.asleep {
             out.into_iter().for_each(|out| out.fill(0.0));
             return;

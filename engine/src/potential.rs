@@ -49,9 +49,17 @@
 //! Source: Bilbao, Ducceschi, Zama, Explicit exactly energy-conserving methods for Hamiltonian
 //! systems, J. Comput. Phys. 472, 2023. The exact hold, the contacts and the exchange are ours.
 
+mod safety;
+mod schedule;
+mod sound;
+
 use crate::modal::front::Front;
 use crate::modal::simd::folded::{Amplitudes, Folded};
 use crate::modal::{EARS, Heard, ModalBody, Pickup, Port, Row, zero_row};
+
+use safety::Safety;
+use schedule::Schedule;
+use sound::Sound;
 
 /// A potential's energy at one place.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -89,106 +97,53 @@ const LEAST_SHIFT: f64 = 1e-14;
 /// Time in which an unneeded `C` falls by `e`, s.
 const SHIFT_TIME: f64 = 0.05;
 
-/// Window of the peaks the rest is judged on, s: some periods of the slowest mode that stretches.
-const WINDOW: f64 = 0.05;
+/// `psi` and `C`.
+struct Scalar {
+    /// The root of J.
+    psi: f64,
+    /// `C`, J.
+    shift: f64,
+}
 
-/// Time constant below which a force is slow, s: 100 Hz, under all that is heard of a cymbal's
-/// stretching and far over the sway of its mean. *Derived*.
-const SLOW_TIME: f64 = 1.6e-3;
+impl Scalar {
+    const REST: Scalar = Scalar { psi: 0.0, shift: LEAST_SHIFT };
 
-/// Share of the energy under which a potential rests. *Converged* on the crash: 3e-4 moves no third
-/// octave of a soft stroke by 0.06 dB, 1e-3 some by 0.2 dB.
-const NEGLIGIBLE: f64 = 3e-4;
+    /// Energy held, J.
+    fn energy(&self) -> f64 {
+        0.5 * self.psi * self.psi - self.shift
+    }
 
-/// Share of the energy under which a potential is weak. *Converged* on the crash: no third octave moves by
-/// 0.09 dB.
-const WEAK: f64 = 0.05;
-
-/// Share of that under which it is faint. *Converged* on the crash: no third octave moves by 0.04 dB.
-const FAINT: f64 = 0.2;
-
-/// Error of the energy held, over the kinetic energy, from which it is evaluated three times as often, and the
-/// time in which one is forgotten, s. *Converged*: a crash at 6 m/s stays below, evaluated seven times a period; a
-/// stick at 25 m/s on a splash goes from three times this to a runaway within half a millisecond.
-const ASTRAY: f64 = 0.01;
-const CALM_TIME: f64 = 0.005;
-
-/// Error from which `psi` is lost, and what share of its velocity the plate keeps then, at each evaluation, until
-/// so little of the depth that it yields at is held that it may be found anew. *Derived*: nothing below abuse
-/// comes near a tenth.
-const LOST: f64 = 0.5;
-const COLLAPSING: f32 = 0.7;
-const FOUND: f64 = 1e-3;
-
-/// Depth beyond which the body yields, J/kg, and what share of its velocity it keeps at each evaluation then.
-/// *Derived*: a hundred strokes at 25 m/s within a second would turn a cymbal inside out, where a true
-/// one would crack; the hardest single stroke, a beater of 34 J on a crash's centre, stays below.
-const YIELD: f64 = 560.0;
-const YIELDING: f32 = 0.98;
-
-/// Share of the depth it yields at that a body turned inside out holds at least, and what share of what it holds
-/// changes at most once it lies there. *Converged*: a splash, turned, holds nearly all of that depth, and a fourth
-/// at its lowest tuning; yielding and exchanges, which take a plate held bent for one that moves, keep 3 % trembling.
-const INSIDE_OUT: f64 = 0.05;
-const LYING: f64 = 0.05;
-
-/// Peaks over this window and the one before.
-#[derive(Debug, Clone, Copy, Default)]
-struct Peaks {
-    potential: [f64; 2],
-    kinetic: [f64; 2],
-    /// Least that the potential was below zero throughout.
-    below: [f64; 2],
+    /// Keeps `C` above the depth (J), lets it sink where it need not be so high, after a stretch of time (s).
+    fn shift_to(&mut self, depth: f64, stretch: f64) {
+        let sunk = self.shift * (1.0 - stretch / SHIFT_TIME).max(0.0);
+        // Not so far that psi would vanish.
+        let least = self.shift - 0.25 * self.psi * self.psi;
+        let shift = sunk.max(least).max(HEADROOM * depth).max(LEAST_SHIFT);
+        self.psi = self.psi.signum() * (self.psi * self.psi + 2.0 * (shift - self.shift)).max(0.0).sqrt();
+        self.shift = shift;
+    }
 }
 
 /// A potential acting on the first modes of a body.
 pub struct NonlinearForce {
     potential: Box<dyn Potential>,
     front: Front,
-    /// Samples between evaluations while it is strong, at least 1, and now.
-    strong_stride: u32,
-    stride: u32,
-    /// Share of the energy under which it is weak.
-    weak: f64,
+    /// When to evaluate, and whether to act at all.
+    schedule: Schedule,
+    /// What keeps it from running away.
+    safety: Safety,
     /// Factor on the potential.
     stiffness: f64,
     dt: f64,
-    /// Share of the energy under which it rests.
-    negligible: f64,
-    active: bool,
-    /// No evaluation since it woke.
-    fresh: bool,
-    /// Has found itself negligible; rests from the next [`settle`](Self::settle) on.
-    done: bool,
-    /// Lies inside out.
-    inside_out: bool,
-    /// Samples until the next evaluation, and evaluations until the window ends.
-    countdown: u32,
-    window: u32,
-    psi: f64,
-    /// `C`, J.
-    shift: f64,
+    scalar: Scalar,
     /// `g` as a port, and `1 + G / 2`.
     port: Port,
     stiffening: f64,
-    /// Pressure at the pickup at once per unit of `psibar`, Pa.
-    direct: Heard,
     /// The present sample's `psibar` without strikers.
     mean: f64,
-    /// Pressure per unit rate of change of `psibar`, Pa s, and the force's slow part heard by it, Pa s.
-    slow: Heard,
-    lag: Heard,
-    /// Pressure of the latest exchange with the velocities, Pa, for one sample.
-    jolt: Heard,
+    sound: Sound,
     predicted: Row,
     gradient: Row,
-    peaks: Peaks,
-    /// Share of the energy over the last windows.
-    share: f64,
-    /// Depth beyond which it yields, J.
-    yields_at: f64,
-    /// Largest error of the energy held of late, over the kinetic energy.
-    astray: f64,
     /// All that was exchanged between `psi` and the modes since it was built, J, without sign.
     exchanged: f64,
 }
@@ -205,33 +160,17 @@ impl NonlinearForce {
         let mut force = NonlinearForce {
             potential,
             front: Front::new(modes),
-            strong_stride: stride.max(1),
-            stride: stride.max(1),
-            weak: WEAK,
+            schedule: Schedule::new(stride),
+            safety: Safety::new(body.modes().first().map_or(0.0, |mode| mode.mass)),
             stiffness: 1.0,
             dt: 1.0 / sample_rate,
-            negligible: NEGLIGIBLE,
-            active: false,
-            fresh: true,
-            done: false,
-            inside_out: false,
-            countdown: 0,
-            window: 0,
-            psi: 0.0,
-            shift: LEAST_SHIFT,
+            scalar: Scalar::REST,
             port: Port::new(modes),
             stiffening: 1.0,
-            direct: [0.0; EARS],
             mean: 0.0,
-            slow: [0.0; EARS],
-            lag: [0.0; EARS],
-            jolt: [0.0; EARS],
+            sound: Sound::default(),
             predicted: zero_row(modes),
             gradient: zero_row(modes),
-            peaks: Peaks::default(),
-            share: f64::INFINITY,
-            yields_at: YIELD * body.modes().first().map_or(0.0, |mode| mode.mass),
-            astray: 0.0,
             exchanged: 0.0,
         };
         force.follow(body, pickup);
@@ -240,7 +179,7 @@ impl NonlinearForce {
 
     /// Rests under another share of the energy; under 0 never. For comparisons.
     pub fn set_negligible(&mut self, share: f64) {
-        self.negligible = share;
+        self.schedule.negligible = share;
     }
 
     /// Scales the potential by a factor, as a stiffer material would; from the next evaluation on.
@@ -249,27 +188,25 @@ impl NonlinearForce {
     pub fn set_stiffness(&mut self, stiffness: f64) {
         if stiffness > 0.0 && self.stiffness > 0.0 {
             let ratio = stiffness / self.stiffness;
-            self.psi *= ratio.sqrt();
-            self.shift *= ratio;
+            self.scalar.psi *= ratio.sqrt();
+            self.scalar.shift *= ratio;
         }
         self.stiffness = stiffness;
     }
 
     /// Evaluates once in `stride` samples from now on; [`follow`](Self::follow) must be called after.
     pub fn set_stride(&mut self, stride: u32) {
-        self.strong_stride = stride.max(1);
-        self.stride = self.strong_stride;
-        self.countdown = 0;
+        self.schedule.set_stride(stride);
     }
 
     /// Is weak under another share of the energy; under 0 never. For comparisons.
     pub fn set_weak(&mut self, share: f64) {
-        self.weak = share;
+        self.schedule.weak = share;
     }
 
     /// Whether it acts; otherwise it rests.
     pub fn is_active(&self) -> bool {
-        self.active
+        self.schedule.is_active()
     }
 
     /// The modes it acts on.
@@ -279,7 +216,7 @@ impl NonlinearForce {
 
     /// Energy it holds as the scheme has it, `psi^2 / 2 - C`, J; zero at rest.
     pub fn energy(&self) -> f64 {
-        if self.active && !self.fresh { 0.5 * self.psi * self.psi - self.shift } else { 0.0 }
+        if self.schedule.is_evaluated() { self.scalar.energy() } else { 0.0 }
     }
 
     /// True energy it holds, J, and how far `psi` is off, relative.
@@ -287,8 +224,8 @@ impl NonlinearForce {
         let n = self.front.length();
         let truth = self.potential.evaluate(&body.displacements()[..n], &mut self.gradient);
         let energy = self.stiffness * truth.energy;
-        let psi = (2.0 * (energy + self.shift).max(0.0)).sqrt();
-        (energy, self.psi / psi - 1.0)
+        let psi = (2.0 * (energy + self.scalar.shift).max(0.0)).sqrt();
+        (energy, self.scalar.psi / psi - 1.0)
     }
 
     /// All that was exchanged between `psi` and the modes to hold the drift, J, without sign.
@@ -301,47 +238,37 @@ impl NonlinearForce {
     /// # Real-time
     /// Linear in the modes it acts on.
     pub fn follow(&mut self, body: &ModalBody, pickup: &Pickup) {
-        body.face(&mut self.front, pickup, 0.5 * f64::from(self.stride));
+        body.face(&mut self.front, pickup, self.schedule.ahead());
         body.connect(&mut self.port);
         self.stiffening = 1.0 + 0.5 * body.compliance(&self.port, &self.port);
     }
 
     /// Acts from now on, until it no longer matters.
     pub fn wake(&mut self) {
-        if !self.active || self.done {
-            self.active = true;
-            self.done = false;
-            self.fresh = true;
-            self.countdown = 0;
-            self.peaks = Peaks::default();
-            self.astray = 0.0;
-            self.window = 0;
+        if self.schedule.wake() {
+            self.safety.forget();
         }
-        self.share = f64::INFINITY;
     }
 
     /// Whether the body has come to lie inside out, where it would hold energy for ever.
     pub fn is_inside_out(&self) -> bool {
-        self.inside_out
+        self.safety.is_inside_out()
     }
 
     /// Lets it rest if it has found itself negligible; on the clock that blocks are cut by, so that
     /// no sample depends on how time is cut.
     pub fn settle(&mut self) {
-        if std::mem::take(&mut self.done) {
+        if self.schedule.takes_rest() {
             self.reset();
         }
     }
 
     /// Rests.
     pub fn reset(&mut self) {
-        self.active = false;
-        self.done = false;
-        self.inside_out = false;
-        self.psi = 0.0;
-        self.lag = [0.0; EARS];
-        self.astray = 0.0;
-        self.shift = LEAST_SHIFT;
+        self.schedule.rest();
+        self.safety.reset();
+        self.scalar = Scalar::REST;
+        self.sound.reset();
     }
 
     /// Before the body steps: evaluates if it is time. True if `g` is another one now.
@@ -352,23 +279,19 @@ impl NonlinearForce {
 
     /// Evaluates if it is time.
     fn prepare(&mut self, body: &mut ModalBody, pickup: &Pickup) -> bool {
-        let due = self.countdown == 0 && !self.done;
+        let due = self.schedule.is_due();
         if due {
-            let stride = self.judge();
-            if stride != self.stride {
-                self.stride = stride;
-                body.face(&mut self.front, pickup, 0.5 * f64::from(stride));
+            if self.schedule.set_out(self.stiffness, self.safety.is_astray()) {
+                body.face(&mut self.front, pickup, self.schedule.ahead());
             }
-            self.countdown = self.stride;
             body.keep(&mut self.front);
             self.evaluate(body);
             body.connect(&mut self.port);
             self.stiffening = 1.0 + 0.5 * body.compliance(&self.port, &self.port);
-            self.direct = pickup.direct_at(body, &self.port);
-            self.slow = pickup.slow_at(body, &self.port);
+            self.sound.follow(body, pickup, &self.port);
             // The exchange scales velocities only: what was kept still holds.
         }
-        self.countdown = self.countdown.saturating_sub(1);
+        self.schedule.tick();
         due
     }
 
@@ -391,7 +314,7 @@ impl NonlinearForce {
             }
             let pressure = air.map_or(0.0, |(_, pressures)| pressures[i]);
             let moved = body.step_front_along(&self.front, &self.port) + felt * f64::from(pressure);
-            self.mean = (self.psi + 0.5 * moved) / self.stiffening;
+            self.mean = (self.scalar.psi + 0.5 * moved) / self.stiffening;
             let (force, mut heard) = self.hold(0.0);
             let forces = [(force, &self.port), (pressure, air.map_or(&self.port, |(port, _)| port))];
             let rung = body.push_front_and_listen(&self.front, forces, pickup);
@@ -402,7 +325,7 @@ impl NonlinearForce {
 
     /// After the body's free step: `psibar` if no striker pressed, in the unit of `psi` (the root of J).
     pub fn free(&mut self, body: &ModalBody) -> f64 {
-        self.mean = (self.psi + 0.5 * body.moved(&self.front, &self.port)) / self.stiffening;
+        self.mean = (self.scalar.psi + 0.5 * body.moved(&self.front, &self.port)) / self.stiffening;
         self.mean
     }
 
@@ -431,34 +354,24 @@ impl NonlinearForce {
     /// The force held over the sample, and the pressure that follows at once.
     fn hold(&mut self, strikers: f64) -> (f32, Heard) {
         let mean = self.mean + strikers / self.divisor();
-        self.psi = 2.0 * mean - self.psi;
+        self.scalar.psi = 2.0 * mean - self.scalar.psi;
         let force = -mean as f32;
-        let heard = std::array::from_fn(|ear| {
-            // The rate of the slow part: of what changes faster the velocity is right.
-            let rate = (force * self.slow[ear] - self.lag[ear]) * (1.0 / SLOW_TIME) as f32;
-            self.lag[ear] += rate * self.dt as f32;
-            force * self.direct[ear] + rate + std::mem::take(&mut self.jolt[ear])
-        });
-        (force, heard)
-    }
-
-    /// The velocities were scaled: that is heard.
-    fn jolted(&mut self, heard: Heard) {
-        self.jolt.iter_mut().zip(heard).for_each(|(sum, jolt)| *sum += jolt);
+        (force, self.sound.heard(force, self.dt))
     }
 
     fn evaluate(&mut self, body: &mut ModalBody) {
         body.look_ahead(&self.front, &mut self.predicted);
         let found = self.potential.evaluate(&self.predicted, &mut self.gradient);
         let (energy, depth) = (self.stiffness * found.energy, self.stiffness * found.depth);
-        let lost = self.astray > LOST;
-        if lost || depth > self.yields_at {
+        let lost = self.safety.is_lost();
+        if let Some(kept) = self.safety.slows(depth) {
             // Only of the velocities: a dome half turned inside out gains by being bent less.
-            self.jolted(body.jolt(&self.front, if lost { COLLAPSING } else { YIELDING }));
+            self.sound.jolt(body.jolt(&self.front, kept));
         }
-        self.shift_to(depth);
+        let stretch = self.schedule.stretch(self.dt);
+        self.scalar.shift_to(depth, stretch);
         // Beyond the depth foretold only by rounding.
-        let psi = (2.0 * (energy + self.shift)).max(LEAST_SHIFT).sqrt();
+        let psi = (2.0 * (energy + self.scalar.shift)).max(LEAST_SHIFT).sqrt();
         let kernels = body.kernels();
         let scale = (self.stiffness / psi) as f32;
         kernels.vectorized(
@@ -470,29 +383,23 @@ impl NonlinearForce {
         );
         let ahead = f64::from(kernels.dot_difference(self.port.shape(), &self.predicted, self.front.kept()));
         let kinetic = body.kinetic_energy(&self.front);
-        let found_anew = lost && energy < FOUND * self.yields_at;
-        if std::mem::take(&mut self.fresh) || found_anew {
-            self.psi = psi - ahead;
-            self.astray = 0.0;
+        let found_anew = lost && self.safety.is_found(energy);
+        if self.schedule.begins() || found_anew {
+            self.scalar.psi = psi - ahead;
+            self.safety.forget();
         } else {
-            let kept = (1.0 - f64::from(self.stride) * self.dt / CALM_TIME).max(0.0);
-            let error =
-                0.5 * (self.psi * self.psi - (psi - ahead).powi(2)).abs() / kinetic.max(f64::MIN_POSITIVE);
-            self.astray = error.max(kept * self.astray);
+            let held = self.scalar.psi * self.scalar.psi;
+            let error = 0.5 * (held - (psi - ahead).powi(2)).abs() / kinetic.max(f64::MIN_POSITIVE);
+            self.safety.strays(error, stretch);
             self.exchange(body, psi - ahead, kinetic);
         }
-        self.count(energy, kinetic);
-    }
-
-    /// Keeps `C` above the depth, lets it sink where it need not be so high.
-    fn shift_to(&mut self, depth: f64) {
-        let stretch = f64::from(self.stride) * self.dt;
-        let sunk = self.shift * (1.0 - stretch / SHIFT_TIME).max(0.0);
-        // Not so far that psi would vanish.
-        let least = self.shift - 0.25 * self.psi * self.psi;
-        let shift = sunk.max(least).max(HEADROOM * depth).max(LEAST_SHIFT);
-        self.psi = self.psi.signum() * (self.psi * self.psi + 2.0 * (shift - self.shift)).max(0.0).sqrt();
-        self.shift = shift;
+        if let Some(window) = self.schedule.count(energy, kinetic, self.dt) {
+            self.safety.look(&window);
+            if window.rests {
+                self.scalar.psi = 0.0;
+                self.port.shape_mut().fill(0.0);
+            }
+        }
     }
 
     /// Moves `psi` toward where it ought to be, at the expense or to the gain of the velocities.
@@ -500,62 +407,18 @@ impl NonlinearForce {
         if kinetic <= 0.0 || !target.is_finite() {
             return;
         }
-        let aim = self.psi + PULL * (target - self.psi);
+        let psi = self.scalar.psi;
+        let aim = psi + PULL * (target - psi);
         let limit = LARGEST_EXCHANGE * kinetic;
-        let cost = (0.5 * (aim * aim - self.psi * self.psi)).clamp(-limit, limit);
+        let cost = (0.5 * (aim * aim - psi * psi)).clamp(-limit, limit);
         let factor = (1.0 - cost / kinetic).sqrt() as f32;
         // What the rounded factor really gives is what psi gets.
         let given = kinetic * (1.0 - f64::from(factor) * f64::from(factor));
-        let square = self.psi * self.psi + 2.0 * given;
+        let square = psi * psi + 2.0 * given;
         if factor != 1.0 && square > 0.0 {
-            self.jolted(body.jolt(&self.front, factor));
-            self.psi = square.sqrt();
+            self.sound.jolt(body.jolt(&self.front, factor));
+            self.scalar.psi = square.sqrt();
             self.exchanged += given.abs();
-        }
-    }
-
-    /// Counts what an evaluation found; rests where the peaks say that nothing is left to do.
-    fn count(&mut self, potential: f64, kinetic: f64) {
-        let Peaks { potential: p, kinetic: t, below } = &mut self.peaks;
-        p[1] = p[1].max(potential.abs());
-        t[1] = t[1].max(kinetic);
-        below[1] = below[1].min(-potential);
-        self.window += self.stride;
-        if f64::from(self.window) * self.dt < WINDOW {
-            return;
-        }
-        let known = t[0] > 0.0;
-        let share = p[0].max(p[1]) / t[0].max(t[1]).max(f64::MIN_POSITIVE);
-        let (turned, most) = (below[0].min(below[1]), p[0].max(p[1]));
-        self.inside_out = turned > INSIDE_OUT * self.yields_at && turned > (1.0 - LYING) * most;
-        (p[0], t[0], below[0]) = (p[1], t[1], below[1]);
-        (p[1], t[1], below[1]) = (0.0, 0.0, f64::INFINITY);
-        self.window = 0;
-        self.share = if known { share } else { f64::INFINITY };
-        if self.share < self.negligible {
-            self.done = true;
-            self.psi = 0.0;
-            self.port.shape_mut().fill(0.0);
-        }
-    }
-
-    /// Samples until the next evaluation: by how weak it is, judged by the windows, though a blow
-    /// counts at once; and by how far `psi` strays between two.
-    fn judge(&mut self) -> u32 {
-        let (p, t) = (self.peaks.potential[1], self.peaks.kinetic[1]);
-        if p > self.weak * t {
-            self.share = self.share.max(self.weak);
-        }
-        // A stiffer material moves faster by the square root.
-        let strong = ((f64::from(self.strong_stride) / self.stiffness.max(1.0).sqrt()) as u32).max(1);
-        if self.astray > ASTRAY {
-            (strong / 3).max(1)
-        } else if self.share < FAINT * self.weak {
-            3 * strong
-        } else if self.share < self.weak {
-            2 * strong
-        } else {
-            strong
         }
     }
 }

@@ -3,6 +3,7 @@
 use std::cell::RefCell;
 
 use overhear_engine::hi_hat::foot::SPEED;
+use overhear_engine::hi_hat::pair::Pair;
 use overhear_engine::hi_hat::{HiHat, HiHatSpec, POINTS};
 use overhear_engine::instrument::{Instrument as _, Pedal as _};
 use overhear_engine::kit_spec::{InstrumentSpec, PieceSpec};
@@ -19,7 +20,7 @@ use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 const RATE: f64 = 44_100.0;
 
 fn pedal_work(hat: &mut Piece) -> f64 {
-    hat.surface_mut().pair().expect("a hi-hat").pedal_work()
+    hat.surface_mut().attachment::<Pair>().expect("a hi-hat").pedal_work()
 }
 
 /// The hi-hat of the standard kit, and one of caps as thick everywhere.
@@ -169,18 +170,18 @@ fn swapped_and_upside_down_two_equal_cymbals_move_the_same() {
         let count = surface.body().len();
         let bent: Vec<f32> =
             (0..count).map(|k| 2e-5 * ((k * k % 13) as f32 - 6.0) / (1.0 + k as f32)).collect();
-        let pair = surface.pair_mut().expect("a pair");
+        let pair = surface.attachment_mut::<Pair>().expect("a pair");
         if swapped {
             let mirrored: Vec<f32> = bent.iter().map(|q| -q).collect();
             pair.bottom_mut().set_displacements(&mirrored);
             pair.rigid_mut()[1].set_speed([-0.1, 0.05, -0.02]);
         } else {
             surface.body_mut().set_displacements(&bent);
-            surface.pair_mut().expect("a pair").rigid_mut()[0].set_speed([0.1, -0.05, 0.02]);
+            surface.attachment_mut::<Pair>().expect("a pair").rigid_mut()[0].set_speed([0.1, -0.05, 0.02]);
         }
-        surface.wake_pair();
+        surface.wake();
         render_surface(surface, 600);
-        let pair = surface.pair().expect("a pair");
+        let pair = surface.attachment::<Pair>().expect("a pair");
         let [top, bottom] = [surface.body(), pair.bottom()]
             .map(|body| (0..count).map(|k| f64::from(body.displacement(k))).collect::<Vec<f64>>());
         let rest = pair.foot().place();

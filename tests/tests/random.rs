@@ -7,6 +7,7 @@ use std::cell::Cell;
 
 use overhear_engine::drum::{Drum, DrumSpec, HeadSpec, ResonantSpec};
 use overhear_engine::hi_hat::foot::SPEED;
+use overhear_engine::hi_hat::pair::Pair;
 use overhear_engine::instrument::Instrument as _;
 use overhear_engine::kit_spec::{Kind, PieceSpec};
 use overhear_engine::piece::{BuildOptions, ModeInfo, ModeKind, Piece};
@@ -67,7 +68,7 @@ fn stroke(chance: &mut Chance, fastest: f64) -> Strike {
 /// Energy that is there and has left over what was brought by strikers and, of a hi-hat, by the pedal and what the clamped
 /// rims hold.
 fn balance(piece: &mut Piece, at_rest: f64) -> f64 {
-    let work = piece.surface_mut().pair().map_or(0.0, |pair| pair.pedal_work());
+    let work = piece.surface_mut().attachment().map_or(0.0, Pair::pedal_work);
     (total_energy(piece) - at_rest - work) / piece.brought_energy()
 }
 

@@ -18,12 +18,11 @@ const LONGEST: usize = 600;
 const LONG: usize = 500;
 
 /// Sources of more than [`LONG`] lines, and why each is one.
-const LONG_FOR_A_REASON: [(&str, &str); 3] = [
+const LONG_FOR_A_REASON: [(&str, &str); 2] = [
     (
         "engine/src/surface.rs",
         "one surface's turn of a sample, in the order it happens; its parts are in the folder",
     ),
-    ("engine/src/drum/high_band.rs", "one model from its count to its run; a fifth of it are equations"),
     ("engine/src/potential.rs", "one scheme; a fifth of it are its equations"),
 ];
 

@@ -9,17 +9,18 @@ use crate::air::{DENSITY, MassCurves};
 use crate::build_context::BuildContext;
 use crate::cavity::{CavityOrder, HeadShape};
 use crate::drum::coupled::{CoupledMode, OrderProblem, Stretched};
-use crate::drum::high_band::{Ear, HighBandSpec};
 use crate::drum::spec::{DrumSpec, PitchOf};
 use crate::drum::tuned::{self, Grid, PITCHES, PitchScale, Place, TunedMode};
 use crate::error::SpecError;
+use crate::high_band::{Ear, HighBandSpec};
 use crate::math::bessel::{self, JTable};
 use crate::membrane::{self, Membrane, MembraneMode, MembraneSpec, ModeRange, Surroundings};
 use crate::receiver::Receivers;
 use crate::shapes::{ShapeIndex, ShapeTable};
 use crate::split::Splitting;
+use crate::surface::contacts::STRIKER_PLACES;
 use crate::surface::patch::Film;
-use crate::surface::{STRIKER_PLACES, wires};
+use crate::surface::wires;
 
 /// Modes of the enclosed air up to this are kept as modes, Hz; above, air only rides along.
 const CAVITY_LIMIT_HZ: f64 = 2500.0;

@@ -48,7 +48,7 @@ pub struct DrumSpec {
     pub evenness: Splitting,
     /// How tips press on its heads.
     pub contact: HeadContact,
-    /// Whether it sounds above its heads' complete sets of modes; see [`high_band`](crate::drum::high_band).
+    /// Whether it sounds above its heads' complete sets of modes; see [`high_band`](crate::high_band).
     pub high_band: bool,
 }
 

@@ -17,8 +17,8 @@ use crate::mode::Member;
 use crate::plate::ShellMode;
 use crate::snapshot::FIELD_MODES;
 
-use super::points::POINTS;
 use super::rigid::Mount;
+use super::rim_points::POINTS;
 
 /// How a mode is to be damped.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -128,7 +128,7 @@ fn share(m: u32, member: Member, axis: f64, at_rim: f64) -> (usize, [f64; 2]) {
 mod tests {
     use super::*;
     use crate::build_context::BuildOptions;
-    use crate::hi_hat::edge;
+    use crate::hi_hat::rim_points;
     use crate::modal::ModalBody;
     use crate::reference;
 
@@ -144,10 +144,10 @@ mod tests {
         let mut body = ModalBody::new(modes, 44_100.0);
         let bent: Vec<f32> = (0..body.len()).map(|k| ((k * 37 % 101) as f32 - 50.0) * 1e-6).collect();
         body.set_displacements(&bent);
-        let all = edge::at_points(&body.folded_displacement(&half.folded));
+        let all = rim_points::at_points(&body.folded_displacement(&half.folded));
         let mut port = crate::modal::Port::new(body.len());
         for (j, &at) in all.iter().enumerate() {
-            shapes.fill(1.0, edge::angle(j), port.shape_mut());
+            shapes.fill(1.0, rim_points::angle(j), port.shape_mut());
             let want = body.displacement_at(&port);
             assert!((at - want).abs() < 1e-7, "place {j}: {at} {want}");
         }
@@ -155,9 +155,9 @@ mod tests {
         let forces: [f64; POINTS] = std::array::from_fn(|j| (j as f64 * 1.7).sin());
         let mut one_by_one = ModalBody::new(body.modes().to_vec(), 44_100.0);
         body.reset();
-        body.push_folded(&half.folded, &edge::amplitudes(&forces));
+        body.push_folded(&half.folded, &rim_points::amplitudes(&forces));
         for (j, &force) in forces.iter().enumerate() {
-            shapes.fill(1.0, edge::angle(j), port.shape_mut());
+            shapes.fill(1.0, rim_points::angle(j), port.shape_mut());
             one_by_one.connect(&mut port);
             one_by_one.push(&port, force as f32);
         }

@@ -1,258 +1,226 @@
 //! One sample of a [`Pair`]: both cymbals step freely, then the rims' forces are found together with the strikers'
-//! (see [`together`](crate::surface::together)).
+//! (see [the solver](crate::contact::solver)).
 //!
 //! Signs: a striker presses the upper cymbal down, a place of the rim presses it up and the lower one down. What
 //! the force beyond the upper cymbal's modes has to do with a contact is counted as that contact presses.
 
 use crate::contact::ContactStep;
+use crate::contact::solver::ContactProblem;
+use crate::fitted;
 use crate::modal::simd::MAX_RUN;
 use crate::modal::simd::folded::Amplitudes;
 use crate::modal::{EARS, Heard, ModalBody, Port};
 use crate::potential::NonlinearForce;
-use crate::surface::together::Meeting;
 
-use super::edge;
-use super::pair::{MARGIN, Pair, SETTLING};
-use super::points::POINTS;
+use super::pair::Pair;
 use super::rigid::Rigid;
-use super::rims::{self, Rims};
+use super::rim_contact::{self, RimContacts};
+use super::rim_points;
+use super::rim_points::POINTS;
+
+/// Time in which a touch becomes as lossy as one that lasts, s. *By ear*.
+const SETTLING: f64 = fitted::HAT_SETTLING;
+
+/// A place less open than this may close in a sample, m. *Derived*: what 5 m/s does in one.
+const MARGIN: f64 = 2e-4;
 
 impl Pair {
     /// A striker comes down at `radius` (share of it) in direction `angle` (rad).
-    pub fn put_striker(&mut self, point: usize, radius: f64, angle: f64) {
+    pub(super) fn put_striker(&mut self, point: usize, radius: f64, angle: f64) {
         self.strikers[point].weights = Rigid::weights(radius, angle);
     }
 
     /// Follows a change of a striker's port.
-    pub fn connect_striker(&mut self, point: usize, top: &ModalBody, port: &Port) {
-        let shell = edge::at_points(&top.folded_compliance(&self.folded[0], port));
+    pub(super) fn connect_striker(&mut self, point: usize, top: &ModalBody, port: &Port) {
+        let shell = rim_points::at_points(&top.folded_compliance(&self.folded[0], port));
         let place = &mut self.strikers[point];
         for (j, shell) in shell.into_iter().enumerate() {
             place.shell[j] = -shell;
-            place.whole[j] = -shell - self.rigid[0].compliance(&place.weights, &self.weights[j]);
+            place.whole[j] = -shell - self.rigid[0].compliance(&place.weights, &self.statics.weights[j]);
         }
-    }
-
-    /// What the upper cymbal's motion as a whole adds to the compliance between two strikers, m/N.
-    pub fn between_strikers(&self, a: usize, b: usize) -> f64 {
-        self.rigid[0].compliance(&self.strikers[a].weights, &self.strikers[b].weights)
-    }
-
-    /// What it adds to the displacement under a striker, m.
-    pub fn under_striker(&self, point: usize) -> f64 {
-        self.rigid[0].at(&self.strikers[point].weights)
     }
 
     /// How far the preloads, which the upper shell is measured from, ease a striker's contact, m; `coupling` and
     /// `divisor` tell of the force beyond the modes.
-    pub fn eases_striker(&self, point: usize, coupling: f64, divisor: f64) -> f64 {
+    pub(super) fn eases_striker(&self, point: usize, coupling: f64, divisor: f64) -> f64 {
         let place = &self.strikers[point];
-        let shell: f64 = place.shell.iter().zip(&self.rest.preload).map(|(y, p)| y * p).sum();
+        let shell: f64 = place.shell.iter().zip(&self.pedal.rest.preload).map(|(y, p)| y * p).sum();
         shell - coupling * self.preloads_coupled() / divisor
     }
 
     fn preloads_coupled(&self) -> f64 {
-        self.coupling.iter().zip(&self.rest.preload).map(|(u, p)| u * p).sum()
+        self.dynamics.coupling.iter().zip(&self.pedal.rest.preload).map(|(u, p)| u * p).sum()
     }
 
     /// Follows the force beyond the upper cymbal's modes; without one nothing is coupled.
-    pub fn couple(&mut self, top: &ModalBody, force: Option<&NonlinearForce>) {
-        self.coupling = force.map_or([0.0; POINTS], |force| {
-            edge::at_points(&force.folded_coupling(top, &self.folded[0])).map(|q| -q)
+    pub(super) fn couple_with(&mut self, top: &ModalBody, force: Option<&NonlinearForce>) {
+        self.dynamics.coupling = force.map_or([0.0; POINTS], |force| {
+            rim_points::at_points(&force.folded_coupling(top, &self.folded[0])).map(|q| -q)
         });
     }
 
     /// The pedal moves on: rod, preloads and what they bend.
     fn follow_pedal(&mut self) {
-        if !self.foot.moves() && self.way == 0 {
+        if !self.pedal.moves() {
             return;
         }
-        let before = self.held();
-        self.foot.step(self.dt);
-        if self.way > 0 {
-            let old = self.rest.bend;
-            self.rest = if self.way == 1 {
-                self.goal
-            } else {
-                self.rest.toward(&self.goal, 1.0 / f64::from(self.way))
-            };
-            self.way -= 1;
-            for (j, d) in self.compression.iter_mut().enumerate() {
-                *d += self.rest.bend[j] - old[j];
+        let (before, old) = (self.held(), self.pedal.rest.bend);
+        self.pedal.foot.step(self.dt);
+        if self.pedal.lead() {
+            for (j, d) in self.rims.compression.iter_mut().enumerate() {
+                *d += self.pedal.rest.bend[j] - old[j];
             }
-            self.ease();
+            self.dynamics.ease(&self.pedal.rest.preload);
         }
-        self.pedal_work += self.held() - before;
+        self.pedal.work += self.held() - before;
     }
 
     /// Steps both as stiff bodies, and the lower shell if rims may meet. The upper one has stepped; `mean` (m) and
     /// the dimensionless `divisor` tell of the force beyond its modes.
-    pub fn step_free(&mut self, top: &ModalBody, mean: f64, divisor: f64) {
+    pub(super) fn step_free(&mut self, top: &ModalBody, mean: f64, divisor: f64) {
         self.follow_pedal();
-        self.from = self.rigid[0].place()[0];
-        let (drawn, damper) = self.rigid[0].drawn(self.foot.place(), self.foot.speed());
+        self.pedal.from = self.rigid[0].place()[0];
+        let (drawn, damper) = self.rigid[0].drawn(self.pedal.foot.place(), self.pedal.foot.speed());
         self.rigid.iter_mut().for_each(Rigid::step);
         self.rigid[0].push(&[1.0, 0.0, 0.0], drawn);
-        self.damper = damper;
-        self.age += 1;
+        self.pedal.damper = damper;
+        self.rims.age += 1;
         if !self.engaged {
             return;
         }
-        self.bottom.step();
+        self.lower.modal.step();
         let overlaps = self.overlaps(top);
         let beyond = mean - self.preloads_coupled() / divisor;
         for (j, overlap) in overlaps.into_iter().enumerate() {
-            let free = overlap + self.eased[j] + self.coupling[j] * beyond;
-            if !self.touching[j] && free > 0.0 {
-                self.lambda[j] = self.law.lambda((free - self.compression[j]) / self.dt);
-            } else if self.touching[j] {
-                self.lambda[j] += (self.lasting_loss - self.lambda[j]) * (self.dt / SETTLING).min(1.0);
+            let free = overlap + self.dynamics.preload_offset[j] + self.dynamics.coupling[j] * beyond;
+            if !self.rims.touching[j] && free > 0.0 {
+                self.rims.lambda[j] = self.rims.law.lambda((free - self.rims.compression[j]) / self.dt);
+            } else if self.rims.touching[j] {
+                self.rims.lambda[j] +=
+                    (self.rims.lasting_loss - self.rims.lambda[j]) * (self.dt / SETTLING).min(1.0);
             }
-            self.free[j] = free;
+            self.rims.free[j] = free;
         }
     }
 
     /// Whether a rim may be touching by the end of the sample.
-    pub fn is_near(&self) -> bool {
-        self.engaged && (0..POINTS).any(|j| self.free[j].max(self.compression[j]) > -MARGIN)
+    pub(super) fn is_near(&self) -> bool {
+        self.engaged && (0..POINTS).any(|j| self.rims.free[j].max(self.rims.compression[j]) > -MARGIN)
     }
 
     /// Finds the forces at the rims if nothing else touches, `divisor` being the dimensionless `2 + G`; whether
     /// that succeeded.
-    pub fn solve_alone(&mut self, divisor: f64) -> bool {
-        let rims = Rims {
-            law: &self.law,
-            yields: &self.whole,
-            coupling: &self.coupling,
+    pub(super) fn solve_alone(&mut self, divisor: f64) -> bool {
+        let rims = RimContacts {
+            law: &self.rims.law,
+            yields: &self.dynamics.whole,
+            coupling: &self.dynamics.coupling,
             divisor,
-            before: &self.compression,
-            free: &self.free,
-            lambda: &self.lambda,
+            before: &self.rims.compression,
+            free: &self.rims.free,
+            lambda: &self.rims.lambda,
             dt: self.dt,
         };
-        rims.solve(&self.kernels, &mut self.force)
+        rims.solve(&self.kernels, &mut self.rims.force)
     }
 
     /// Compliance between a place and another, m/N; `divisor` tells of the force beyond the modes.
-    pub fn yielding(&self, i: usize, j: usize, divisor: f64) -> f64 {
-        self.whole[i][j] - self.coupling[i] * self.coupling[j] / divisor
+    pub(super) fn stiffened(&self, i: usize, j: usize, divisor: f64) -> f64 {
+        self.dynamics.whole[i][j] - self.dynamics.coupling[i] * self.dynamics.coupling[j] / divisor
     }
 
     /// Compliance between a striker, of that coupling, and a place, m/N.
-    pub fn yielding_to(&self, point: usize, coupling: f64, j: usize, divisor: f64) -> f64 {
-        self.strikers[point].whole[j] - coupling * self.coupling[j] / divisor
+    pub(super) fn stiffened_to(&self, point: usize, coupling: f64, j: usize, divisor: f64) -> f64 {
+        self.strikers[point].whole[j] - coupling * self.dynamics.coupling[j] / divisor
     }
 
     /// A place's contact of a compliance in m/N, to be solved.
-    pub fn meeting(&self, j: usize, compliance: f64) -> Meeting {
+    pub(super) fn problem(&self, j: usize, compliance: f64) -> ContactProblem {
         let step = ContactStep {
-            before: self.compression[j],
-            free: self.free[j],
+            before: self.rims.compression[j],
+            free: self.rims.free[j],
             compliance,
-            lambda: self.lambda[j],
+            lambda: self.rims.lambda[j],
             dt: self.dt,
         };
-        Meeting { law: self.law, step, force: self.force[j] }
+        ContactProblem { law: self.rims.law, step, force: self.rims.force[j] }
     }
 
-    /// Takes the forces that were found, N.
-    pub fn set_forces(&mut self, forces: [f64; POINTS]) {
-        self.force = forces;
-    }
-
-    /// A striker presses the upper cymbal as a whole, N.
-    pub fn push_striker(&mut self, point: usize, force: f64) {
-        self.rigid[0].push(&self.strikers[point].weights, force);
-    }
-
-    /// Moves a striker's contact by the rims' forces, m.
-    pub fn moves_striker(&self, point: usize, coupling: f64, divisor: f64) -> f64 {
-        if !self.engaged {
-            return 0.0;
-        }
-        (0..POINTS).map(|j| self.yielding_to(point, coupling, j, divisor) * self.force[j]).sum()
-    }
-
-    /// Applies the forces, with those of `strikers` `(point, force, coupling)`; returns what they press the force
-    /// beyond the modes with, and the pressure at once, Pa.
-    pub fn press(&mut self, top: &mut ModalBody) -> (f64, Heard) {
+    /// Applies the forces at the rims; returns what they press the force beyond the modes with, and the pressure at once,
+    /// Pa.
+    pub(super) fn press_rims(&mut self, top: &mut ModalBody) -> (f64, Heard) {
         if !self.engaged {
             return (0.0, Heard::default());
         }
-        let beyond: [f64; POINTS] = std::array::from_fn(|j| self.force[j] - self.rest.preload[j]);
-        if beyond == [0.0; POINTS] && self.force == [0.0; POINTS] {
+        let beyond: [f64; POINTS] = std::array::from_fn(|j| self.rims.force[j] - self.pedal.rest.preload[j]);
+        if beyond == [0.0; POINTS] && self.rims.force == [0.0; POINTS] {
             return (0.0, Heard::default());
         }
         let mut felt = [0.0; 3];
-        for (weights, force) in self.weights.iter().zip(&self.force) {
+        for (weights, force) in self.statics.weights.iter().zip(&self.rims.force) {
             felt.iter_mut().zip(weights).for_each(|(felt, weight)| *felt += weight * force);
         }
         self.rigid[0].push_parts(&felt.map(|force| -force));
         self.rigid[1].push_parts(&felt);
         let down = self.kernels.vectorized(
             #[inline(always)]
-            || edge::amplitudes(&beyond),
+            || rim_points::amplitudes(&beyond),
         );
         let up: Amplitudes = down.map(|pair| pair.map(|x| -x));
         top.push_folded(&self.folded[0], &up);
-        self.bottom.push_folded(&self.folded[1], &down);
+        self.lower.modal.push_folded(&self.folded[1], &down);
         let heard = |forces: &Amplitudes, direct: &Amplitudes| -> f32 {
             forces.iter().flatten().zip(direct.iter().flatten()).map(|(force, direct)| force * direct).sum()
         };
-        let pressed = beyond.iter().zip(&self.coupling).map(|(force, u)| force * u).sum();
-        let [above, below] = &self.direct;
+        let pressed = beyond.iter().zip(&self.dynamics.coupling).map(|(force, u)| force * u).sum();
+        let [above, below] = &self.dynamics.direct;
         (pressed, std::array::from_fn(|ear| heard(&up, &above[ear]) + heard(&down, &below[ear])))
     }
 
     /// Ends the sample; `strikers` are the points about, their forces (N) and their coupling. What is heard of the
     /// lower shell, Pa.
-    pub fn finish(
+    pub(super) fn finish_sample(
         &mut self,
         strikers: impl Iterator<Item = (usize, f64, f64)> + Clone,
         divisor: f64,
     ) -> Heard {
-        self.pedal_work += self.damper * (self.rigid[0].place()[0] - self.from);
+        self.pedal.work += self.pedal.damper * (self.rigid[0].place()[0] - self.pedal.from);
         if !self.engaged {
             return Heard::default();
         }
         let of_strikers: f64 = strikers.clone().map(|(_, force, u)| force * u).sum();
-        let of_rims: f64 = self.force.iter().zip(&self.coupling).map(|(force, u)| force * u).sum();
+        let of_rims: f64 =
+            self.rims.force.iter().zip(&self.dynamics.coupling).map(|(force, u)| force * u).sum();
         let coupled = (of_strikers + of_rims) / divisor;
-        let (whole, force) = (&self.whole, &self.force);
+        let (whole, force) = (&self.dynamics.whole, &self.rims.force);
         let mut moved = self.kernels.vectorized(
             #[inline(always)]
-            || rims::product(whole, force),
+            || rim_contact::product(whole, force),
         );
         for (point, force, _) in strikers {
             moved.iter_mut().zip(&self.strikers[point].whole).for_each(|(moved, y)| *moved += y * force);
         }
         for (j, moved) in moved.into_iter().enumerate() {
-            self.compression[j] = self.free[j] - moved + self.coupling[j] * coupled;
-            let touches = self.compression[j] > 0.0;
-            match (self.touching[j], touches) {
-                (false, true) => self.landings = self.landings.saturating_add(1),
-                (true, false) => self.last_lift = self.age,
-                _ => {}
-            }
-            self.touching[j] = touches;
+            self.rims.compression[j] = self.rims.free[j] - moved + self.dynamics.coupling[j] * coupled;
         }
-        self.bottom.listen(&self.pickup)
+        self.rims.count();
+        self.lower.modal.listen(&self.lower.receiver)
     }
 
     /// Many samples in which no rim meets the other: adds what is heard of the lower shell, Pa. As stiff bodies both
     /// have moved for the first `stiff` of them already.
-    pub fn ring(&mut self, out: &mut [&mut [f32]; EARS], stiff: usize) {
+    pub(super) fn ring_apart(&mut self, out: [&mut [f32]; EARS], stiff: usize) {
         let samples = out[0].len();
         for _ in stiff..samples {
-            let (drawn, _) = self.rigid[0].drawn(self.foot.place(), 0.0);
+            let (drawn, _) = self.rigid[0].drawn(self.pedal.foot.place(), 0.0);
             self.rigid.iter_mut().for_each(Rigid::step);
             self.rigid[0].push(&[1.0, 0.0, 0.0], drawn);
-            self.age += 1;
+            self.rims.age += 1;
         }
-        if !self.bottom.is_still() {
+        if !self.lower.modal.is_still() {
             let mut heard = [[0.0; MAX_RUN]; EARS];
-            self.bottom.ring(0, &self.pickup, heard.each_mut().map(|row| &mut row[..samples]));
-            for (out, heard) in out.iter_mut().zip(&heard) {
+            self.lower.modal.ring(0, &self.lower.receiver, heard.each_mut().map(|row| &mut row[..samples]));
+            for (out, heard) in out.into_iter().zip(&heard) {
                 out.iter_mut().zip(heard).for_each(|(sum, x)| *sum += x);
             }
         }

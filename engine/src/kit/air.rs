@@ -1,7 +1,7 @@
 //! The air of the kit: what every piece sends out, how it reaches the drums' heads and the microphones.
 //!
 //! Model: a piece sends out what it is heard as far away, in the direction of the overheads, as at a metre; and, of a drum to
-//! the others, what goes [all around](crate::surface::air). Everywhere it arrives after the way over the speed of
+//! the others, what goes [all around](crate::surface::incident_field). Everywhere it arrives after the way over the speed of
 //! sound, weakened as one over the way. Pieces neither shade nor mirror each other.
 //!
 //! Limits: one direction stands for all. That is right for a drum's low modes, which go all around; high modes

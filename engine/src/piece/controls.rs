@@ -96,7 +96,7 @@ impl Piece {
 
     /// What a hi-hat's rims have done since the latest stroke.
     pub fn rims(&self) -> RimSnapshot {
-        self.instrument.surface().pair().map_or_else(RimSnapshot::default, Pair::landings)
+        self.instrument.surface().attachment().map_or_else(RimSnapshot::default, Pair::landings)
     }
 
     /// Lets tuning and muffling arrive at once instead of gliding.

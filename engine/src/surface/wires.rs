@@ -9,19 +9,23 @@
 //!
 //! Neglected: motion of the strands against each other, their own bending waves, their weight.
 
-use std::ops::RangeInclusive;
+use std::ops::{Range, RangeInclusive};
 
 use serde::{Deserialize, Serialize};
 
 use crate::contact::{ContactLaw, Material, Tip};
 use crate::fitted;
+use crate::modal::Heard;
 use crate::numbers::{Numbers, Visitor};
 use crate::shapes::ShapeTable;
 use crate::snapshot::WireSnapshot;
 
+use super::attachment::{Attachment, Site};
+use super::body::FreeStep;
+use super::contacts::{Contacts, owner};
+use super::exciter::{ContactPoint, Exciter, Ground};
 use super::oscillator::Oscillator;
-use super::touch::{Side, TouchPoint, Toucher};
-use super::{FIRST_WIRE, MAX_STRIKERS, Surface, owner};
+use super::patch::Film;
 
 /// Groups of strands.
 pub const GROUPS: usize = 8;
@@ -90,23 +94,34 @@ pub const STILL: f64 = 1e-10;
 /// All groups of one drum.
 pub struct SnareWires {
     /// Whether they lie against the head.
-    pub on: bool,
+    on: bool,
     /// Whether they and the head lie still together.
-    pub parked: bool,
+    parked: bool,
     /// Force of the strainer, N.
-    pub preload: f64,
+    preload: f64,
     /// The law of every group.
-    pub law: ContactLaw,
-    /// Samples since the latest stroke.
-    pub age: u64,
+    law: ContactLaw,
+    /// The head right under a group.
+    head: Option<Film>,
+    /// Place of the first group's point among the contacts.
+    first: usize,
     spec: WiresSpec,
-    landings: u32,
-    last_lift: u64,
+    count: Landings,
+    lossless: bool,
     dt: f64,
 }
 
+/// What the groups have done since the latest stroke.
+#[derive(Default)]
+struct Landings {
+    /// Samples since the stroke.
+    age: u64,
+    landings: u32,
+    last_lift: u64,
+}
+
 impl SnareWires {
-    /// Wires against a head of that material, at rest; a sample lasts `dt` s.
+    /// Wires against a head of that material, at rest; a sample lasts `dt` s. [`lay`](Self::lay) tells where.
     pub fn new(spec: &WiresSpec, head: &Material, lossless: bool, dt: f64) -> SnareWires {
         let tip = Tip::Solid { material: spec.material, radius: spec.radius };
         let law = ContactLaw::new(&tip, head, if lossless { 1.0 } else { spec.restitution });
@@ -115,97 +130,63 @@ impl SnareWires {
             parked: true,
             preload: *PRELOAD.start(),
             law,
-            age: 0,
+            head: None,
+            first: 0,
             spec: *spec,
-            landings: 0,
-            last_lift: 0,
+            count: Landings::default(),
+            lossless,
             dt,
         }
     }
 
     /// A group on its spring.
-    pub fn group(&self, lossless: bool) -> Oscillator {
+    fn group(&self) -> Oscillator {
         let WiresSpec { mass, stiffness, q, .. } = self.spec;
         let mass = mass / GROUPS as f64;
         let omega = (stiffness / mass).sqrt();
-        let sigma = if lossless { 0.0 } else { omega / (2.0 * q) };
+        let sigma = if self.lossless { 0.0 } else { omega / (2.0 * q) };
         Oscillator::sprung(mass, omega, sigma, self.dt)
     }
 
     /// Each group's share of the preload (N), and the compression (m) it holds.
-    pub fn seat(&self) -> (f64, f64) {
+    fn static_compression(&self) -> (f64, f64) {
         let share = self.preload / GROUPS as f64;
         (share, (share / self.law.stiffness).powf(1.0 / self.law.exponent))
     }
 
-    /// Loss of a touch that began at rest, s/m.
-    pub fn resting_lambda(&self) -> f64 {
-        self.law.lambda(RESTING_SPEED)
+    /// The points of all groups.
+    fn points(&self) -> Range<usize> {
+        self.first..self.first + GROUPS
     }
 
-    /// Counts anew from a stroke on.
-    pub fn begin_count(&mut self) {
-        (self.age, self.landings, self.last_lift) = (0, 0, 0);
+    /// The exciters of all groups.
+    fn exciters(&self) -> Range<usize> {
+        owner(self.first)..owner(self.first) + GROUPS
     }
 
-    /// Counts a group that was or was not touching and now is or is not.
-    pub fn count(&mut self, before: bool, now: bool) {
-        match (before, now) {
-            (false, true) => self.landings = self.landings.saturating_add(1),
-            (true, false) => self.last_lift = self.age,
-            _ => {}
-        }
-    }
-
-    /// What is to be seen of them; `aloft` has a bit for each group off the head.
-    pub fn snapshot(&self, aloft: u32) -> WireSnapshot {
-        WireSnapshot { landings: self.landings, aloft, last_lift: (self.last_lift as f64 * self.dt) as f32 }
-    }
-}
-
-impl Surface {
-    /// Gives the drum snare wires; [`lay_wires`](Self::lay_wires) tells where. Allocates.
-    pub fn set_wires(&mut self, spec: &WiresSpec, head: &Material) {
-        let wires = SnareWires::new(spec, head, self.lossless, self.dt);
-        let (preload, seat) = wires.seat();
-        for _ in PLACES {
-            let mut point = TouchPoint::absent(self.body.len(), self.dt);
-            point.arrive(Side::Surface, wires.law, [1.0, 0.0, 0.0, 0.0, 0.0]);
-            (point.present, point.preload, point.seat) = (false, preload, seat);
-            let mut group = Toucher::absent(self.dt);
-            (group.parts[0], group.part_count) = (wires.group(self.lossless), 1);
-            self.points.push(point);
-            self.touchers.push(group);
-        }
-        self.wires = Some(wires);
-    }
-
-    /// Lays the wires against the far head of these shapes (positive along the stroke).
+    /// Lays the wires against the far head of these shapes (positive along the stroke), which yields right under them
+    /// as `head` says.
     ///
     /// # Real-time
     /// Linear in the number of modes.
-    pub fn lay_wires(&mut self, far: &ShapeTable) {
-        let disc = self.far_film.map_or(0.0, |film| PATCH / film.radius);
-        for (point, [x, y]) in self.points.iter_mut().skip(FIRST_WIRE).zip(PLACES) {
-            let shape = point.port.shape_mut();
+    pub fn lay(&mut self, head: Option<Film>, far: &ShapeTable, site: Site<'_>) {
+        let Site { body, contacts, observers } = site;
+        self.head = head;
+        let disc = head.map_or(0.0, |film| PATCH / film.radius);
+        for (i, [x, y]) in self.points().zip(PLACES) {
+            let shape = contacts.points[i].port.shape_mut();
             far.fill_pressed(x.hypot(y), x.atan2(-y), disc, shape);
             // They lie on the other side: their way into the head is against the stroke.
             shape.iter_mut().for_each(|shape| *shape = -*shape);
+            observers.put(i, x.hypot(y), x.atan2(-y), TURN);
         }
-        if let Some(high) = &mut self.far_high {
-            for (i, [x, y]) in PLACES.into_iter().enumerate() {
-                high.put(i, x.hypot(y), x.atan2(-y), TURN);
-            }
-        }
-        for i in FIRST_WIRE..self.points.len() {
-            let position = self.touchers[owner(i)].position(&self.points[i].weights);
-            let moved = position - self.body.displacement_at(&self.points[i].port);
+        for i in self.points() {
+            let position = contacts.exciter(i).position(&contacts.points[i].weights);
+            let moved = position - body.modal().displacement_at(&contacts.points[i].port);
             // A head of another shape lies elsewhere under the wires; the contact must not notice.
-            let point = &mut self.points[i];
-            point.origin = moved - (point.compression - point.seat) - point.bands_bent();
-            if point.present {
-                self.connect(i);
-            }
+            let point = &mut contacts.points[i];
+            point.origin = moved - (point.compression - point.static_compression) - point.bands_bent();
+            point.stale = true;
         }
     }
 
@@ -213,70 +194,113 @@ impl Surface {
     ///
     /// # Real-time
     /// No allocation; linear in the number of modes.
-    pub fn throw_wires(&mut self, on: bool) {
-        if let Some(wires) = self.wires.as_mut().filter(|wires| wires.on != on) {
-            wires.on = on;
-            self.park_wires();
-            if on && !self.body.is_still() {
-                self.wake_wires();
+    pub fn throw(&mut self, on: bool, site: Site<'_>) {
+        if self.on != on {
+            self.on = on;
+            self.park(site.contacts);
+            if on && !site.body.modal().is_still() {
+                self.wake(site);
             }
         }
     }
 
     /// Sets the force of the strainer, N; live.
-    pub fn set_preload(&mut self, preload: f64) {
-        let Some(wires) = &mut self.wires else {
-            return;
-        };
-        wires.preload = preload.clamp(*PRELOAD.start(), *PRELOAD.end());
-        let (share, seat) = wires.seat();
-        for point in &mut self.points[FIRST_WIRE..] {
+    pub fn set_preload(&mut self, preload: f64, site: Site<'_>) {
+        self.preload = preload.clamp(*PRELOAD.start(), *PRELOAD.end());
+        let (share, compression) = self.static_compression();
+        for point in &mut site.contacts.points[self.points()] {
             // What is measured from equilibrium stays; equilibrium itself moves.
-            point.compression += seat - point.seat;
-            (point.preload, point.seat) = (share, seat);
+            point.compression += compression - point.static_compression;
+            (point.preload, point.static_compression) = (share, compression);
         }
     }
 
     /// What the wires have done since the latest stroke.
-    pub fn wires(&self) -> WireSnapshot {
-        let groups = self.points.iter().skip(FIRST_WIRE).map(|point| point.present && !point.touching);
+    pub fn snapshot(&self, contacts: &Contacts) -> WireSnapshot {
+        let groups = contacts.points[self.points()].iter().map(|point| point.present && !point.touching);
         let aloft = groups.enumerate().fold(0, |bits, (group, aloft)| bits | (u32::from(aloft) << group));
-        self.wires.as_ref().map_or_else(WireSnapshot::default, |wires| wires.snapshot(aloft))
+        let Landings { landings, last_lift, .. } = self.count;
+        WireSnapshot { landings, aloft, last_lift: (last_lift as f64 * self.dt) as f32 }
     }
+}
 
-    /// Lets the wires lie still where they are.
-    pub(super) fn park_wires(&mut self) {
-        if let Some(wires) = &mut self.wires {
-            wires.parked = true;
-            self.points[FIRST_WIRE..].iter_mut().for_each(|point| point.present = false);
-            self.touchers[MAX_STRIKERS..].iter_mut().for_each(|group| group.present = false);
-            self.list();
+impl Attachment for SnareWires {
+    fn attached(&mut self, site: Site<'_>) {
+        let (preload, compression) = self.static_compression();
+        self.first = site.contacts.points.len();
+        for _ in PLACES {
+            let mut point = ContactPoint::absent(site.body.modal().len(), self.dt);
+            point.arrive(Ground::Body, self.law, [1.0, 0.0, 0.0, 0.0, 0.0]);
+            (point.present, point.preload, point.static_compression) = (false, preload, compression);
+            let mut group = Exciter::absent(self.dt);
+            (group.parts[0], group.part_count) = (self.group(), 1);
+            site.contacts.add(group, point);
         }
     }
 
-    /// Lets the wires move again, from the equilibrium they were left in.
-    pub(super) fn wake_wires(&mut self) {
-        let Some(wires) = self.wires.as_mut().filter(|wires| wires.on && wires.parked) else {
+    /// From the equilibrium they were left in.
+    fn wake(&mut self, site: Site<'_>) {
+        if !self.on || !std::mem::take(&mut self.parked) {
             return;
-        };
-        wires.parked = false;
-        let lambda = wires.resting_lambda();
-        for i in FIRST_WIRE..self.points.len() {
-            let point = &mut self.points[i];
+        }
+        let lambda = self.law.lambda(RESTING_SPEED);
+        for (i, [x, y]) in self.points().zip(PLACES) {
+            let point = &mut site.contacts.points[i];
             (point.present, point.touching, point.lambda) = (true, true, lambda);
-            (point.compression, point.force) = (point.seat, point.preload);
-            if let Some(film) = self.far_film {
-                let (x, y) = (PLACES[i - FIRST_WIRE][0], PLACES[i - FIRST_WIRE][1]);
-                (point.bands, point.band_count) = film.bands(x.hypot(y), PATCH, !self.lossless, self.dt);
+            (point.compression, point.force) = (point.static_compression, point.preload);
+            if let Some(head) = self.head {
+                (point.bands, point.band_count) = head.bands(x.hypot(y), PATCH, !self.lossless, self.dt);
             }
-            let group = &mut self.touchers[owner(i)];
+            point.origin = -site.body.modal().displacement_at(&point.port);
+            point.stale = true;
+            let group = site.contacts.exciter_mut(i);
             group.present = true;
             group.parts[0].rest();
-            self.points[i].origin = -self.body.displacement_at(&self.points[i].port);
         }
-        self.list();
-        for i in FIRST_WIRE..self.points.len() {
-            self.connect(i);
+        site.contacts.list();
+    }
+
+    fn begin_count(&mut self) {
+        self.count = Landings::default();
+    }
+
+    fn finish(&mut self, contacts: &Contacts, _free: &FreeStep) -> Heard {
+        for point in contacts.points[self.points()].iter().filter(|point| point.present) {
+            match (point.touched, point.touching) {
+                (false, true) => self.count.landings = self.count.landings.saturating_add(1),
+                (true, false) => self.count.last_lift = self.count.age,
+                _ => {}
+            }
         }
+        self.count.age += 1;
+        Heard::default()
+    }
+
+    fn energy(&self, contacts: &Contacts) -> f64 {
+        contacts.energy(self.exciters())
+    }
+
+    /// Wires against a head that was tuned meanwhile may hold it bent for good, which nothing is heard of.
+    fn motion(&self, contacts: &Contacts) -> f64 {
+        contacts.motion(self.exciters())
+    }
+
+    fn parks_below(&self) -> Option<f64> {
+        (self.on && !self.parked).then_some(STILL)
+    }
+
+    fn park(&mut self, contacts: &mut Contacts) {
+        self.parked = true;
+        contacts.points[self.points()].iter_mut().for_each(|point| point.present = false);
+        contacts.exciters[self.exciters()].iter_mut().for_each(|group| group.present = false);
+        contacts.list();
+    }
+
+    fn is_parked(&self) -> bool {
+        self.on && self.parked
+    }
+
+    fn reset(&mut self, contacts: &mut Contacts) {
+        self.park(contacts);
     }
 }

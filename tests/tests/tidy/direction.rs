@@ -10,20 +10,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::{files, none, read};
 use imports::{Imports, imports};
 
-/// TEMPORARY, until the struck body's files are restructured: imports of the engine that may still close a circle or go
-/// up, by file and file it imports from.
-const EXCEPTIONS: [(&str, &str); 9] = [
-    ("hi_hat/pair.rs", "surface.rs"),
-    ("shapes.rs", "surface/patch.rs"),
-    ("surface.rs", "drum/high_band.rs"),
-    ("surface.rs", "hi_hat/pair.rs"),
-    ("surface/air.rs", "surface.rs"),
-    ("surface/paired.rs", "hi_hat/foot.rs"),
-    ("surface/paired.rs", "hi_hat/pair.rs"),
-    ("surface/paired.rs", "hi_hat/points.rs"),
-    ("surface/wires.rs", "surface.rs"),
-];
-
 /// TEMPORARY, until these crates are cut anew: their files still import in circles.
 const CIRCULAR: [&str; 2] = ["plugin", "xtask"];
 
@@ -46,14 +32,6 @@ fn imports_of(member: &str) -> Imports {
     let strip = |path: &str| path.strip_prefix(&format!("{folder}/")).expect("below src").to_owned();
     let sources = files(&folder, &["rs"]).into_iter().map(|path| (strip(&path), read(path).1));
     imports(&sources.collect::<Vec<_>>())
-}
-
-/// The engine's imports without those that are excused.
-fn of_engine() -> Imports {
-    let mut imports = imports_of("engine");
-    let excused = |from: &str, to: &str| EXCEPTIONS.iter().any(|known| *known == (from, to));
-    imports.retain(|(from, to), _| !excused(from, to));
-    imports
 }
 
 /// Files that can be reached from one.
@@ -111,7 +89,7 @@ fn upward(imports: &Imports, layers: &[String]) -> Vec<String> {
 fn no_files_of_a_crate_import_each_other_in_a_circle() {
     let (mut wrong, mut seen) = (Vec::new(), 0);
     for member in crates() {
-        let imports = if member == "engine" { of_engine() } else { imports_of(&member) };
+        let imports = if member == "engine" { imports_of("engine") } else { imports_of(&member) };
         seen += imports.len();
         let circles = circles(&imports);
         if CIRCULAR.contains(&&*member) {
@@ -128,18 +106,10 @@ fn no_files_of_a_crate_import_each_other_in_a_circle() {
 
 #[test]
 fn no_file_of_the_engine_imports_from_a_layer_above_its_own() {
-    let imports = of_engine();
+    let imports = imports_of("engine");
     let layers = layers(&read("engine/src/lib.rs".to_owned()).1);
     assert!(imports.len() > 300 && layers.len() > 20, "{} {layers:?}", imports.len());
     none(upward(&imports, &layers));
-}
-
-#[test]
-fn no_exception_outlives_its_reason() {
-    let imports = imports_of("engine");
-    let gone = |(from, to): &&(&str, &str)| !imports.contains_key(&((*from).to_owned(), (*to).to_owned()));
-    let gone = EXCEPTIONS.iter().filter(gone);
-    none(gone.map(|(from, to)| format!("{from} -> {to} is gone: excuse it no longer")).collect());
 }
 
 /// The imports of a made-up crate.

@@ -1,6 +1,6 @@
 //! All contacts around two rims at once, and nothing else: what a closed hi-hat solves at every sample.
 //!
-//! The equations are those of [`together`](crate::surface::together): with `Y` the compliances and `f` where each
+//! The equations are those of [the solver](crate::contact::solver): with `Y` the compliances and `f` where each
 //! compression would be without any force, `d + Y F(d) = f`. Newton's step solves `(1 + Y F') x = r`. Within a sample
 //! a wave comes less far than from one place to the next, so `Y` is nearly diagonal, and a few rounds of Jacobi's
 //! method do what elimination takes ten times as long for: a Newton step then leaves a thousandth of the error
@@ -9,7 +9,7 @@
 use crate::contact::ContactLaw;
 use crate::modal::simd::Kernels;
 
-use super::points::POINTS;
+use super::rim_points::POINTS;
 
 /// Newton steps; it needs 2 to 4.
 const MAX_STEPS: usize = 12;
@@ -25,7 +25,7 @@ pub type Places = [f64; POINTS];
 
 /// One sample's contacts.
 #[derive(Debug, Clone, Copy)]
-pub struct Rims<'a> {
+pub struct RimContacts<'a> {
     /// The law of all; Hertz's.
     pub law: &'a ContactLaw,
     /// Compliance between any two places, symmetric, m/N.
@@ -44,7 +44,7 @@ pub struct Rims<'a> {
     pub dt: f64,
 }
 
-impl Rims<'_> {
+impl RimContacts<'_> {
     /// Finds the forces, N, from a guess; whether that succeeded.
     ///
     /// # Real-time
@@ -139,8 +139,8 @@ pub fn product(matrix: &[Places; POINTS], x: &Places) -> Places {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contact::solver::{self, ContactProblem};
     use crate::contact::{ContactStep, Material, Tip};
-    use crate::surface::together::{self, Meeting};
 
     #[test]
     fn the_rims_alone_find_what_all_contacts_together_do() {
@@ -169,7 +169,7 @@ mod tests {
             let (mut before, mut free) = (before, free);
             (before[3], free[3]) = (-1e-4, -1e-4);
             (before[4], free[4]) = (-1e-4, -1e-4 + 1e-9);
-            let rims = Rims {
+            let rims = RimContacts {
                 law: &law,
                 yields: &yields,
                 coupling: &coupling,
@@ -186,7 +186,7 @@ mod tests {
                     *y -= coupling[i] * coupling[j] / divisor;
                 }
             }
-            let mut meetings: Vec<Meeting> = (0..POINTS)
+            let mut problems: Vec<ContactProblem> = (0..POINTS)
                 .map(|i| {
                     let step = ContactStep {
                         before: before[i],
@@ -195,13 +195,13 @@ mod tests {
                         lambda: lambda[i],
                         dt,
                     };
-                    Meeting { law, step, force: 0.0 }
+                    ContactProblem { law, step, force: 0.0 }
                 })
                 .collect();
-            together::solve(&mut meetings, &yields);
+            solver::solve(&mut problems, &yields);
             let largest = forces.iter().fold(0.0_f64, |most, x| most.max(*x));
-            for (force, meeting) in forces.iter().zip(&meetings) {
-                assert!((force - meeting.force).abs() <= 1e-6 * largest, "{force} {}", meeting.force);
+            for (force, problem) in forces.iter().zip(&problems) {
+                assert!((force - problem.force).abs() <= 1e-6 * largest, "{force} {}", problem.force);
             }
         }
     }

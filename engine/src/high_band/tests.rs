@@ -1,3 +1,4 @@
+use super::slices::*;
 use super::*;
 use crate::build_context::BuildOptions;
 use crate::drum::build::Blueprint;

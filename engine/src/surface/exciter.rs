@@ -1,4 +1,4 @@
-//! Something that touches a surface: what moves it, and the points it touches with.
+//! Something that touches a struck body: what moves it, and the points it touches with.
 //!
 //! A striker is a free mass behind a tip, a stick also bends and may meet the rim with its shaft; a
 //! group of snare wires is a mass on a spring that a preload presses on. All are a few
@@ -16,61 +16,67 @@ use crate::strike::{Across, Striker, StrikerSpec};
 use super::oscillator::Oscillator;
 use super::patch::BANDS;
 
-/// Oscillators of one toucher: two of a rigid stick, three of its bending.
+/// Oscillators of one exciter: two of a rigid stick, three of its bending.
 pub const PARTS: usize = 5;
 
-/// What a point touches.
+/// What a point presses on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Side {
-    /// The surface itself.
-    Surface,
-    /// Its rim.
-    Rim,
+pub enum Ground {
+    /// The struck body itself.
+    Body,
+    /// The body of an attachment, counted in the order in which they were attached.
+    Attachment(usize),
 }
 
 /// A point of contact.
-pub struct TouchPoint {
+///
+/// More than fifteen fields: place, law, state and present sample of one point are read together in the same loop.
+pub struct ContactPoint {
     /// Whether there is one.
     pub present: bool,
-    /// What it touches.
-    pub side: Side,
+    /// What it presses on.
+    pub ground: Ground,
     /// By which law.
     pub law: ContactLaw,
     /// Where it touches.
     pub port: Port,
     /// Pressure at the pickup at once per unit force, Pa/N.
     pub direct: Heard,
-    /// How much it feels of each part of its toucher: shares.
+    /// How much it feels of each part of its exciter: shares.
     pub weights: [f64; PARTS],
     /// The head right under it, so many bands of it.
     pub bands: [Oscillator; BANDS],
     /// Bands in use.
     pub band_count: usize,
-    /// Where it would be if the surface were at rest, against its toucher's parts, m.
+    /// Where it would be if the surface were at rest, against its exciter's parts, m.
     pub origin: f64,
     /// Force that holds it in equilibrium, N.
     pub preload: f64,
     /// Compression in equilibrium, m.
-    pub seat: f64,
+    pub static_compression: f64,
     /// Overlap with the surface now, m.
     pub compression: f64,
     /// Loss of the present touch, s/m.
     pub lambda: f64,
-    /// Whether it did at the end of the latest sample.
+    /// Whether it touches at the end of the latest sample, and whether it did at its start.
     pub touching: bool,
+    /// See `touching`.
+    pub touched: bool,
+    /// Whether shape or body have changed since it was last connected.
+    pub stale: bool,
     /// Force of the present sample, N, preload and all.
     pub force: f64,
     /// What the sample is solved from.
     pub step: ContactStep,
 }
 
-impl TouchPoint {
+impl ContactPoint {
     /// No point yet, on a body of so many modes; a sample lasts `dt` s. Allocates.
-    pub fn absent(modes: usize, dt: f64) -> TouchPoint {
+    pub fn absent(modes: usize, dt: f64) -> ContactPoint {
         let spec = Striker::Stick.spec();
-        TouchPoint {
+        ContactPoint {
             present: false,
-            side: Side::Surface,
+            ground: Ground::Body,
             law: ContactLaw::new(&spec.tip, &Material::FILM, spec.restitution),
             port: Port::new(modes),
             direct: Heard::default(),
@@ -79,20 +85,22 @@ impl TouchPoint {
             band_count: 0,
             origin: 0.0,
             preload: 0.0,
-            seat: 0.0,
+            static_compression: 0.0,
             compression: 0.0,
             lambda: 0.0,
             touching: false,
+            touched: false,
+            stale: true,
             force: 0.0,
             step: ContactStep { before: 0.0, free: 0.0, compliance: 0.0, lambda: 0.0, dt },
         }
     }
 
     /// A point just about to touch.
-    pub fn arrive(&mut self, side: Side, law: ContactLaw, weights: [f64; PARTS]) {
+    pub fn arrive(&mut self, ground: Ground, law: ContactLaw, weights: [f64; PARTS]) {
         self.present = true;
-        (self.side, self.law, self.weights) = (side, law, weights);
-        (self.preload, self.seat, self.compression, self.force) = (0.0, 0.0, 0.0, 0.0);
+        (self.ground, self.law, self.weights) = (ground, law, weights);
+        (self.preload, self.static_compression, self.compression, self.force) = (0.0, 0.0, 0.0, 0.0);
         self.touching = false;
         self.band_count = 0;
     }
@@ -102,29 +110,28 @@ impl TouchPoint {
         self.force - self.preload
     }
 
-    /// Prepares the sample's contact. `apart` is how far (m) the toucher would be in the surface, both left
-    /// alone, measured from equilibrium; `compliance` that of the surface's modes and the toucher.
+    /// Prepares the sample's contact. `apart` is how far (m) the exciter would be in the surface, both left
+    /// alone, measured from equilibrium; `compliance` that of the surface's modes and the exciter.
     pub fn free_flight(&mut self, apart: f64, compliance: f64, dt: f64) {
-        let mut yielding = compliance;
+        let mut compliance = compliance;
         let mut gap = apart;
         for band in &mut self.bands[..self.band_count] {
             band.step();
             gap -= band.q;
-            yielding += band.compliance();
+            compliance += band.compliance();
         }
         // The law wants the whole force: what the preload does is put back.
-        let free = self.seat + gap + yielding * self.preload;
+        let free = self.static_compression + gap + compliance * self.preload;
         if !self.touching && free > 0.0 {
             self.lambda = self.law.lambda((free - self.compression) / dt);
         }
-        self.step =
-            ContactStep { before: self.compression, free, compliance: yielding, lambda: self.lambda, dt };
+        self.step = ContactStep { before: self.compression, free, compliance, lambda: self.lambda, dt };
     }
 
     /// Applies the force of the sample; `others` is how far those of all other points have parted the two, m.
     pub fn finish(&mut self, others: f64) {
         self.compression = self.step.free - others - self.step.compliance * self.force;
-        self.touching = self.compression > 0.0;
+        self.touched = std::mem::replace(&mut self.touching, self.compression > 0.0);
         let pressing = self.force - self.preload;
         for band in &mut self.bands[..self.band_count] {
             band.push(pressing);
@@ -139,13 +146,13 @@ impl TouchPoint {
     /// Energy held in the contact and right under it beyond that of equilibrium, J.
     pub fn energy(&self) -> f64 {
         let bands: f64 = self.bands[..self.band_count].iter().map(Oscillator::energy).sum();
-        let held = self.law.potential(self.compression) - self.law.potential(self.seat);
-        bands + held - self.preload * (self.compression - self.seat)
+        let held = self.law.potential(self.compression) - self.law.potential(self.static_compression);
+        bands + held - self.preload * (self.compression - self.static_compression)
     }
 }
 
 /// Something with one or two points of contact.
-pub struct Toucher {
+pub struct Exciter {
     /// Whether there is one.
     pub present: bool,
     /// What moves.
@@ -164,10 +171,10 @@ pub struct Toucher {
     pub stroke: u32,
 }
 
-impl Toucher {
+impl Exciter {
     /// None yet; a sample lasts `dt` s.
-    pub fn absent(dt: f64) -> Toucher {
-        Toucher {
+    pub fn absent(dt: f64) -> Exciter {
+        Exciter {
             present: false,
             parts: [Oscillator::free(1.0, dt); PARTS],
             part_count: 0,

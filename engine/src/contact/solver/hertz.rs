@@ -1,6 +1,6 @@
 //! Several contacts of Hertz's law at once, side by side in the lanes of a register.
 //!
-//! The equations of [`together`](super), with `F = K d^(3/2) (1 + lambda d')`. With `s0`, `s1` the roots of the compressions
+//! The equations of [the solver](super), with `F = K d^(3/2) (1 + lambda d')`. With `s0`, `s1` the roots of the compressions
 //! before and after, the discrete gradient of a contact that stays closed needs no difference quotient,
 //!
 //! ```text
@@ -41,7 +41,7 @@ pub struct Hertz<const N: usize> {
     /// A guess at each force first, N, then what was found.
     pub force: [f64; N],
     /// `[contact][contact]`, m/N.
-    pub yielding: [[f64; N]; N],
+    pub compliance: [[f64; N]; N],
 }
 
 impl<const N: usize> Hertz<N> {
@@ -52,7 +52,7 @@ impl<const N: usize> Hertz<N> {
         free: [-1.0; N],
         loss: [0.0; N],
         force: [0.0; N],
-        yielding: [[0.0; N]; N],
+        compliance: [[0.0; N]; N],
     };
 
     /// Whether these contacts are solved for such a law.
@@ -79,7 +79,7 @@ impl<const N: usize> Hertz<N> {
             let (force, slope) = self.gradient(&root, &d);
             let moved = self.moved(&force);
             let left: [f64; N] = std::array::from_fn(|i| moved[i] - d[i]);
-            let own: [f64; N] = std::array::from_fn(|i| self.yielding[i][i] * slope[i]);
+            let own: [f64; N] = std::array::from_fn(|i| self.compliance[i][i] * slope[i]);
             let mut change: [f64; N] = std::array::from_fn(|i| left[i] / (1.0 + own[i]));
             for _ in 0..SWEEPS {
                 let pushed: [f64; N] = std::array::from_fn(|i| slope[i] * change[i]);
@@ -119,7 +119,7 @@ impl<const N: usize> Hertz<N> {
     fn yields(&self, force: &[f64; N]) -> [f64; N] {
         let mut sum = [0.0; N];
         // By columns, which are rows: the sums run side by side.
-        for (row, force) in self.yielding.iter().zip(force) {
+        for (row, force) in self.compliance.iter().zip(force) {
             for i in 0..N {
                 sum[i] += row[i] * force;
             }
@@ -206,22 +206,22 @@ mod tests {
         for _ in 0..500 {
             let mutual = 3e-7 * chance();
             let mut hertz = Hertz::<8>::APART;
-            let mut meetings = Vec::new();
-            let mut yielding = [[mutual; super::super::MOST]; super::super::MOST];
-            for (i, yielding) in yielding.iter_mut().enumerate().take(7) {
+            let mut problems = Vec::new();
+            let mut compliance = [[mutual; super::super::MAX_CONTACTS]; super::super::MAX_CONTACTS];
+            for (i, compliance) in compliance.iter_mut().enumerate().take(7) {
                 let before = 2e-6 * (chance() - 0.3);
                 let free = before + 4e-6 * (chance() - 0.5);
                 let step = ContactStep { before, free, compliance: 3e-6, lambda: 3.0, dt };
-                meetings.push(super::super::Meeting { law, step, force: 0.0 });
+                problems.push(super::super::ContactProblem { law, step, force: 0.0 });
                 (hertz.stiffness[i], hertz.before[i], hertz.free[i], hertz.loss[i]) =
                     (law.stiffness, before, free, 3.0 / dt);
-                hertz.yielding[i][..7].fill(mutual);
-                (hertz.yielding[i][i], yielding[i]) = (3e-6, 3e-6);
+                hertz.compliance[i][..7].fill(mutual);
+                (hertz.compliance[i][i], compliance[i]) = (3e-6, 3e-6);
             }
             assert!(hertz.solve(Kernels::detect()), "did not settle");
-            super::super::solve(&mut meetings, &yielding);
-            let largest = meetings.iter().map(|meeting| meeting.force).fold(0.0, f64::max);
-            for (fast, slow) in hertz.force.iter().zip(&meetings) {
+            super::super::solve(&mut problems, &compliance);
+            let largest = problems.iter().map(|problem| problem.force).fold(0.0, f64::max);
+            for (fast, slow) in hertz.force.iter().zip(&problems) {
                 assert!((fast - slow.force).abs() <= 1e-8 * largest, "{fast} {}", slow.force);
             }
         }

@@ -6,9 +6,9 @@
 //! method, with steps halved until the energy falls, finds its one minimum, which is the balance.
 
 use crate::contact::ContactLaw;
-use crate::surface::together::eliminate;
+use crate::contact::solver::eliminate;
 
-use super::points::POINTS;
+use super::rim_points::POINTS;
 
 /// Steps; it needs 3 to 8, from nothing up to 15.
 const MAX_STEPS: usize = 40;

@@ -5,7 +5,8 @@ use std::f64::consts::TAU;
 use crate::modal::folded::ClassCompliances;
 use crate::modal::simd::folded::{Amplitudes, MAX_CLASSES};
 
-use super::points::POINTS;
+/// Places around the rims where they may touch.
+pub const POINTS: usize = 16;
 
 const _: () = assert!(POINTS / 2 < MAX_CLASSES);
 

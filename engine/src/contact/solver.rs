@@ -8,10 +8,10 @@
 
 pub mod hertz;
 
-use crate::contact::{ContactLaw, ContactStep};
+use super::{ContactLaw, ContactStep};
 
 /// Contacts of one surface that can be solved together.
-pub const MOST: usize = 16;
+pub const MAX_CONTACTS: usize = 16;
 
 /// Newton steps before the sweeps are asked; it needs 2 or 3.
 const MAX_STEPS: usize = 12;
@@ -28,7 +28,7 @@ const SETTLED: f64 = 1e-10;
 
 /// One contact.
 #[derive(Debug, Clone, Copy)]
-pub struct Meeting {
+pub struct ContactProblem {
     /// Its law.
     pub law: ContactLaw,
     /// Its sample, all other forces left out.
@@ -38,42 +38,42 @@ pub struct Meeting {
 }
 
 /// Compliance between contacts, m/N; the diagonal is each step's own.
-pub type Compliances<const N: usize = MOST> = [[f64; N]; N];
+pub type Compliances<const N: usize = MAX_CONTACTS> = [[f64; N]; N];
 
 /// Finds all forces.
 ///
 /// # Real-time
 /// At most 12 steps of the order of the cube of the contacts, then at most 40 sweeps; usually 3 steps.
 #[inline(always)] // So that a caller may run it in all lanes.
-pub fn solve<const N: usize>(meetings: &mut [Meeting], yielding: &Compliances<N>) {
-    match meetings {
+pub fn solve<const N: usize>(problems: &mut [ContactProblem], compliances: &Compliances<N>) {
+    match problems {
         [] => {}
         [one] => one.force = one.law.force(&one.step),
         several => {
-            if !newton(several, yielding) {
-                sweep(several, yielding);
+            if !newton(several, compliances) {
+                sweep(several, compliances);
             }
         }
     }
 }
 
 #[inline(always)]
-fn newton<const N: usize>(meetings: &mut [Meeting], yielding: &Compliances<N>) -> bool {
-    let n = meetings.len();
-    let compliance = |meetings: &[Meeting], i: usize, j: usize| {
-        if i == j { meetings[i].step.compliance } else { yielding[i][j] }
+fn newton<const N: usize>(problems: &mut [ContactProblem], compliances: &Compliances<N>) -> bool {
+    let n = problems.len();
+    let compliance = |problems: &[ContactProblem], i: usize, j: usize| {
+        if i == j { problems[i].step.compliance } else { compliances[i][j] }
     };
     let (mut d, mut held, mut forces, mut slopes) = ([0.0; N], [0.0; N], [0.0; N], [0.0; N]);
     for i in 0..n {
-        held[i] = meetings[i].law.potential(meetings[i].step.before);
-        let moved: f64 = (0..n).map(|j| compliance(meetings, i, j) * meetings[j].force).sum();
-        d[i] = meetings[i].step.free - moved;
+        held[i] = problems[i].law.potential(problems[i].step.before);
+        let moved: f64 = (0..n).map(|j| compliance(problems, i, j) * problems[j].force).sum();
+        d[i] = problems[i].step.free - moved;
     }
     for _ in 0..MAX_STEPS {
         // Contacts that are open neither push nor are in the way: they follow from the closed ones.
         let (mut closed, mut count) = ([0; N], 0);
         for i in 0..n {
-            (forces[i], slopes[i]) = meetings[i].law.gradient(&meetings[i].step, held[i], d[i]);
+            (forces[i], slopes[i]) = problems[i].law.gradient(&problems[i].step, held[i], d[i]);
             if forces[i] != 0.0 || slopes[i] != 0.0 {
                 closed[count] = i;
                 count += 1;
@@ -83,9 +83,9 @@ fn newton<const N: usize>(meetings: &mut [Meeting], yielding: &Compliances<N>) -
         // (1 + Y F') change = free - d - Y F
         let (mut matrix, mut right) = ([[0.0; N]; N], [0.0; N]);
         for ((row, right), &i) in matrix.iter_mut().zip(&mut right).zip(closed) {
-            let mut left = meetings[i].step.free - d[i];
+            let mut left = problems[i].step.free - d[i];
             for (entry, &j) in row.iter_mut().zip(closed) {
-                let c = compliance(meetings, i, j);
+                let c = compliance(problems, i, j);
                 left -= c * forces[j];
                 *entry = c * slopes[j];
             }
@@ -100,14 +100,14 @@ fn newton<const N: usize>(meetings: &mut [Meeting], yielding: &Compliances<N>) -
         }
         let mut settled = true;
         for i in 0..n {
-            let moved: f64 = closed.iter().map(|&j| compliance(meetings, i, j) * forces[j]).sum();
-            let found = meetings[i].step.free - moved;
-            let scale = meetings[i].step.before.abs().max(meetings[i].step.free.abs());
+            let moved: f64 = closed.iter().map(|&j| compliance(problems, i, j) * forces[j]).sum();
+            let found = problems[i].step.free - moved;
+            let scale = problems[i].step.before.abs().max(problems[i].step.free.abs());
             settled &= (found - d[i]).abs() <= LAST_STEP * scale;
             d[i] = found;
         }
         if settled {
-            meetings.iter_mut().zip(forces).for_each(|(meeting, force)| meeting.force = force.max(0.0));
+            problems.iter_mut().zip(forces).for_each(|(problem, force)| problem.force = force.max(0.0));
             return true;
         }
     }
@@ -139,16 +139,16 @@ pub(crate) fn eliminate<const N: usize>(
     solution
 }
 
-fn sweep<const N: usize>(meetings: &mut [Meeting], yielding: &Compliances<N>) {
+fn sweep<const N: usize>(problems: &mut [ContactProblem], compliances: &Compliances<N>) {
     for _ in 0..MAX_SWEEPS {
         let mut changed = false;
-        for i in 0..meetings.len() {
-            let others = (0..meetings.len()).filter(|&j| j != i);
-            let moved: f64 = others.map(|j| yielding[i][j] * meetings[j].force).sum();
-            let Meeting { law, step, force } = meetings[i];
+        for i in 0..problems.len() {
+            let others = (0..problems.len()).filter(|&j| j != i);
+            let moved: f64 = others.map(|j| compliances[i][j] * problems[j].force).sum();
+            let ContactProblem { law, step, force } = problems[i];
             let found = law.force(&ContactStep { free: step.free - moved, ..step });
             changed |= (found - force).abs() > SETTLED * found;
-            meetings[i].force = found;
+            problems[i].force = found;
         }
         if !changed {
             break;
@@ -173,8 +173,8 @@ mod tests {
         for n in 2..=9 {
             for _ in 0..200 {
                 let mutual = 3e-7 * chance();
-                let yielding = [[mutual; MOST]; MOST];
-                let mut meetings: Vec<Meeting> = (0..n)
+                let compliances = [[mutual; MAX_CONTACTS]; MAX_CONTACTS];
+                let mut problems: Vec<ContactProblem> = (0..n)
                     .map(|_| {
                         let before = 2e-6 * (chance() - 0.3);
                         let step = ContactStep {
@@ -184,14 +184,14 @@ mod tests {
                             lambda: 3.0,
                             dt: 2e-5,
                         };
-                        Meeting { law, step, force: 0.0 }
+                        ContactProblem { law, step, force: 0.0 }
                     })
                     .collect();
-                let mut slow = meetings.clone();
-                assert!(newton(&mut meetings, &yielding), "Newton wandered off");
-                sweep(&mut slow, &yielding);
-                let largest = slow.iter().map(|meeting| meeting.force).fold(0.0, f64::max);
-                for (fast, slow) in meetings.iter().zip(&slow) {
+                let mut slow = problems.clone();
+                assert!(newton(&mut problems, &compliances), "Newton wandered off");
+                sweep(&mut slow, &compliances);
+                let largest = slow.iter().map(|problem| problem.force).fold(0.0, f64::max);
+                for (fast, slow) in problems.iter().zip(&slow) {
                     assert!(
                         (fast.force - slow.force).abs() <= 1e-9 * largest,
                         "{} {}",

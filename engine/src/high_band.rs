@@ -47,64 +47,23 @@
 //! Source: Weyl's law as in Rossing & Fletcher, Principles of Vibration and Sound, ch. 3; Cremer, Heckl &
 //! Petersson, Structure-Borne Sound, ch. 6 (radiation of bending waves at an edge). The mean square is derived here.
 
-use std::f64::consts::{PI, SQRT_2, TAU};
+mod slices;
 
-use crate::air::{DENSITY, SPEED_OF_SOUND};
-use crate::drum::coupled::Outside;
-use crate::drum::shadow;
-use crate::membrane::MembraneSpec;
+use std::f64::consts::{SQRT_2, TAU};
+
+use crate::air::SPEED_OF_SOUND;
 use crate::modal::simd::MAX_RUN;
 use crate::modal::{EARS, MAX_DRIVES, ModalBody, Mode, Pickup, Port};
-use crate::receiver::ListeningPoint;
-use crate::split::hash;
 use crate::surface::patch::Discs;
 
-/// Slices in an octave.
-const SLICES: f64 = 40.0;
-
-/// Highest frequency, Hz, and its largest share of the sample rate.
-const TOP_HZ: f64 = 16_000.0;
-const TOP_OF_RATE: f64 = 0.45;
+pub use slices::{Ear, HighBandSpec};
+use slices::{Slice, away, endless_sheet, loudness, mode, rim_strip, slices, taken, top_hz};
 
 /// The slow part of a force below this is nothing, N: 200 dB under a soft stroke.
 const FAINT: f32 = 1e-10;
 
 /// A slice fades from full to nothing over this ratio above the top, so that tuning takes it out softly.
 const FADE: f64 = 1.03;
-
-/// Where the head is heard from.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Ear {
-    /// The point, seen from the head's centre.
-    pub point: ListeningPoint,
-    /// A point far away.
-    pub away: ListeningPoint,
-    /// What surrounds the drum.
-    pub outside: Outside,
-    /// Whether the head is on the far side of the drum.
-    pub far: bool,
-}
-
-/// What a high band is made from.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct HighBandSpec {
-    /// The head.
-    pub head: MembraneSpec,
-    /// Lowest tension it will be asked for and the one at which slices are laid out, N/m.
-    pub tensions: [f64; 2],
-    /// Modes (pairs as two) of the complete set, all below the slices.
-    pub complete: usize,
-    /// Where it is heard from.
-    pub ear: Ear,
-    /// Nothing is lost.
-    pub lossless: bool,
-    /// Hz.
-    pub sample_rate: f64,
-    /// Tells the chance of one head from another's.
-    pub seed: u32,
-    /// Places that forces can act on at once, at most [`MAX_DRIVES`].
-    pub places: usize,
-}
 
 /// What muffles it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -119,21 +78,6 @@ pub struct HighMuffling {
 impl HighMuffling {
     /// Nothing.
     pub const NONE: HighMuffling = HighMuffling { even: 0.0, pad: (0.0, 0.0) };
-}
-
-/// One slice: a chance wave.
-#[derive(Debug, Clone, Copy)]
-struct Slice {
-    /// `k a`.
-    zero: f64,
-    /// Modes it stands for.
-    count: f64,
-    /// Where the wave runs, rad, and its phase.
-    direction: f64,
-    phase: f64,
-    /// Phase in which it is heard, and how loud for what the drum's body does to it.
-    heard: f64,
-    gain: f64,
 }
 
 /// A slice as the present tension has it.
@@ -247,6 +191,11 @@ impl HighBand {
         }
     }
 
+    /// Places that forces can act on.
+    pub fn places(&self) -> usize {
+        self.places.len()
+    }
+
     /// Puts place `i` somewhere: distance from the centre as a share of the radius, direction in rad, and the
     /// radius (m) of the largest patch that is pressed on.
     ///
@@ -353,154 +302,6 @@ impl HighBand {
             mass: mode.mass,
             monopole_area: rim_strip(&self.spec, slice, mode.omega) / slice.count.sqrt(),
         })
-    }
-}
-
-impl Slice {
-    /// The wave and its image in the rim, at a place.
-    fn at(&self, radius: f64, angle: f64) -> f64 {
-        let along = (angle - self.direction).cos();
-        let wave = |r: f64| (self.zero * r * along + self.phase).cos();
-        wave(radius) - wave(2.0 - radius)
-    }
-}
-
-/// Share of a point's force that a slice's wave takes from a patch (m).
-fn taken(spec: &HighBandSpec, slice: &Slice, patch: f64) -> f64 {
-    pressed(slice.zero * patch / spec.head.radius)
-}
-
-/// Share of a point's force that a wave takes from a patch of `k b`.
-fn pressed(kb: f64) -> f64 {
-    // The series where the difference would cancel.
-    if kb < 0.1 { 1.0 - kb * kb / 16.0 } else { 4.0 * (1.0 - libm::j0(kb)) / (kb * kb) }
-}
-
-/// Highest frequency heard at a sample rate, Hz.
-fn top_hz(sample_rate: f64) -> f64 {
-    TOP_HZ.min(TOP_OF_RATE * sample_rate)
-}
-
-/// `N(k)`.
-fn modes_below(zero: f64) -> f64 {
-    0.25 * zero * zero - 0.5 * zero
-}
-
-/// Cuts the band.
-fn slices(spec: &HighBandSpec) -> Vec<Slice> {
-    let [slackest, tension] = spec.tensions;
-    let step = (1.0 / SLICES).exp2();
-    let mut slices: Vec<Slice> = Vec::new();
-    // Where the complete set ends: N(k) solved for k.
-    let mut low = 1.0 + (1.0 + 4.0 * spec.complete as f64).sqrt();
-    let mut omega = wave(&spec.head, low, tension).0;
-    while wave(&spec.head, low, slackest).0 < TAU * top_hz(spec.sample_rate) {
-        omega *= step;
-        let high = wavenumber(&spec.head, omega, tension);
-        let draw = |what| hash(spec.seed, slices.len() as u32, 0, what);
-        // Anywhere in its slice: an even ladder of frequencies would be heard as one.
-        let zero = low * (high / low).powf(draw(0));
-        slices.push(Slice {
-            zero,
-            count: (modes_below(high) - modes_below(low)).max(1.0),
-            direction: TAU * draw(1),
-            phase: TAU * draw(2),
-            heard: TAU * draw(3),
-            gain: gain(spec, omega),
-        });
-        low = high;
-    }
-    slices
-}
-
-/// Undamped angular frequency (rad/s), decay rate by radiation (1/s) and mass per area with its air
-/// (kg/m2) of waves on an endless head, `zero` being `k a`.
-fn wave(head: &MembraneSpec, zero: f64, tension: f64) -> (f64, f64, f64) {
-    let k2 = (zero / head.radius).powi(2);
-    let stiffness = (tension + head.flexural_rigidity() * k2) * k2;
-    let film = head.area_density();
-    let (mut omega, mut sigma, mut mass) = ((stiffness / film).sqrt(), 0.0, film);
-    // The air weighs less, the higher: each round gains a digit or two.
-    for _ in 0..12 {
-        let sound = omega / SPEED_OF_SOUND;
-        let (gap, eta) = (k2 - sound * sound, 4.0 * sound / (PI * head.radius));
-        // 1 / sqrt(gap - i eta)
-        let size = gap.hypot(eta);
-        let (re, im) = ((0.5 * (size + gap)).sqrt() / size, (0.5 * (size - gap)).max(0.0).sqrt() / size);
-        mass = film + 2.0 * DENSITY * re;
-        sigma = omega * DENSITY * im / (2.0 * mass);
-        let next = (stiffness / mass).sqrt();
-        let settled = (next / omega - 1.0).abs() < 1e-7;
-        omega = next;
-        if settled {
-            break;
-        }
-    }
-    (omega, sigma, mass)
-}
-
-/// `k a` of the wave at an angular frequency.
-fn wavenumber(head: &MembraneSpec, omega: f64, tension: f64) -> f64 {
-    let mut zero = omega * head.radius * (head.area_density() / tension).sqrt();
-    // Frequency goes as its first power where tension rules and as its second where stiffness does: between,
-    // each round leaves at most two fifths of the error.
-    for _ in 0..20 {
-        zero *= (omega / wave(head, zero, tension).0).powf(0.7);
-    }
-    zero
-}
-
-fn mode(spec: &HighBandSpec, slice: &Slice, tension: f64) -> Mode {
-    let (omega, radiated, mass) = wave(&spec.head, slice.zero, tension);
-    let sigma = if spec.lossless { 0.0 } else { spec.head.loss.sigma(omega) + radiated };
-    Mode { omega, sigma, mass: mass * spec.head.area() / slice.count }
-}
-
-/// Root mean square of `int W e^(i x) dA` over the real modes, m2.
-fn rim_strip(spec: &HighBandSpec, slice: &Slice, omega: f64) -> f64 {
-    let (a, j) = (spec.head.radius, slice.zero);
-    let u = omega * a / SPEED_OF_SOUND * spec.ear.point.inclination.sin();
-    // A wave as fast as sound meets the rim only so long.
-    let apart = (j * j - u * u).hypot(2.0 * j);
-    a * a * (8.0 * PI * j).sqrt() / apart
-}
-
-/// Pressure at once per unit force on an endless sheet at a place, Pa/N; nothing at the rim, which does not move.
-fn endless_sheet(spec: &HighBandSpec, slices: &[Slice], radius: f64, angle: f64) -> f64 {
-    let Some(first) = slices.first() else { return 0.0 };
-    let gain = slices.iter().map(|slice| slice.gain).sum::<f64>() / slices.len() as f64;
-    let free = 1.0 - libm::j0(2.0 * first.zero * (1.0 - radius));
-    let distance = spec.ear.point.distance_to(radius * spec.head.radius, angle);
-    // Into the head is away from the point.
-    -free * gain * DENSITY / (TAU * distance * spec.head.area_density())
-}
-
-/// Pressure at the point over the acceleration of one real mode, root mean square, Pa s2/m.
-fn loudness(spec: &HighBandSpec, slice: &Slice, omega: f64) -> f64 {
-    let near = spec.ear.point.rim_nearness(spec.head.radius);
-    slice.gain * DENSITY / TAU * rim_strip(spec, slice, omega) * near
-}
-
-/// How much louder the slices are far away, as at a metre, than at the point, in the mean: they come by chance in any
-/// phase here and there.
-fn away(spec: &HighBandSpec, slices: &[Slice]) -> f32 {
-    let from_away = HighBandSpec { ear: Ear { point: spec.ear.away, ..spec.ear }, ..*spec };
-    let ratio = |slice: &Slice| {
-        let (omega, _, _) = wave(&spec.head, slice.zero, spec.tensions[1]);
-        let there = loudness(&from_away, &Slice { gain: gain(&from_away, omega), ..*slice }, omega);
-        (there * spec.ear.away.distance / loudness(spec, slice, omega)).ln()
-    };
-    (slices.iter().map(ratio).sum::<f64>() / slices.len().max(1) as f64).exp() as f32
-}
-
-/// Amplitude at the point over that of the same head in a baffle.
-fn gain(spec: &HighBandSpec, omega: f64) -> f64 {
-    let Ear { point, outside, far, .. } = spec.ear;
-    let ka = omega * spec.head.radius / SPEED_OF_SOUND;
-    match outside {
-        Outside::Baffle => 1.0,
-        Outside::Free { .. } if far => 0.5 * shadow::toward(ka, -point.inclination.cos()),
-        Outside::Free { .. } => shadow::near_gain(ka, point.fills(spec.head.radius)),
     }
 }
 

@@ -1,0 +1,197 @@
+//! The [`Pair`] as an attachment of the upper cymbal: the contacts at the rims are solved together with the strikers'.
+
+use crate::contact::ContactStep;
+use crate::contact::solver::{self, Compliances, ContactProblem};
+use crate::modal::simd::MAX_RUN;
+use crate::modal::{EARS, Heard, Port};
+use crate::surface::attachment::{Attachment, Site};
+use crate::surface::body::{FreeStep, StruckBody};
+use crate::surface::contacts::{Contacts, STRIKER_PLACES};
+
+use super::pair::Pair;
+use super::rim_points::POINTS;
+use super::settling::Settled;
+
+/// Contacts of strikers and of rims.
+const MOST: usize = STRIKER_PLACES + POINTS;
+
+/// A striker farther off than this does not meet the surface within a sample, m.
+const APART: f64 = 1e-3;
+
+impl Pair {
+    /// Finds the forces of strikers and rims together.
+    fn solve_with(&mut self, contacts: &mut Contacts, divisor: f64) {
+        let n = contacts.present().len();
+        let mut compliances: Compliances<MOST> = [[0.0; MOST]; MOST];
+        let mut problems: [ContactProblem; MOST] = std::array::from_fn(|k| {
+            if let Some(&i) = contacts.present().get(k) {
+                let point = contacts.point(i);
+                ContactProblem { law: point.law, step: point.step, force: point.force }
+            } else if k < n + POINTS {
+                self.problem(k - n, self.stiffened(k - n, k - n, divisor))
+            } else {
+                let point = contacts.point(0);
+                let step =
+                    ContactStep { before: -1.0, free: -1.0, compliance: 0.0, lambda: 0.0, dt: point.step.dt };
+                ContactProblem { law: point.law, step, force: 0.0 }
+            }
+        });
+        for (a, &i) in contacts.present().iter().enumerate() {
+            for (b, &j) in contacts.present().iter().enumerate() {
+                compliances[a][b] = contacts.stiffened(i, j);
+            }
+            for j in 0..POINTS {
+                let mutual = self.stiffened_to(i, contacts.coupling(i), j, divisor);
+                (compliances[a][n + j], compliances[n + j][a]) = (mutual, mutual);
+            }
+        }
+        for i in 0..POINTS {
+            for j in 0..POINTS {
+                compliances[n + i][n + j] = self.stiffened(i, j, divisor);
+            }
+        }
+        self.kernels.vectorized(
+            #[inline(always)]
+            || solver::solve(&mut problems[..n + POINTS], &compliances),
+        );
+        for (k, problem) in problems[..n].iter().enumerate() {
+            let i = contacts.present()[k];
+            contacts.point_mut(i).force = problem.force;
+        }
+        self.rims.force = std::array::from_fn(|j| problems[n + j].force);
+    }
+}
+
+impl Attachment for Pair {
+    fn attached(&mut self, site: Site<'_>) {
+        self.follow_modes(site.body.modal(), site.body.receiver());
+        self.come_to_rest();
+    }
+
+    fn follow(&mut self, body: &StruckBody) {
+        self.follow_modes(body.modal(), body.receiver());
+    }
+
+    fn wake(&mut self, site: Site<'_>) {
+        self.engage(site.body.modal());
+    }
+
+    fn begin_count(&mut self) {
+        self.rims.begin_count();
+    }
+
+    fn put(&mut self, point: usize, radius: f64, angle: f64) {
+        self.put_striker(point, radius, angle);
+    }
+
+    fn connect(&mut self, point: usize, port: &Port, body: &StruckBody) {
+        self.connect_striker(point, body.modal(), port);
+    }
+
+    fn compliance(&self, a: usize, b: usize) -> f64 {
+        self.rigid[0].compliance(&self.strikers[a].weights, &self.strikers[b].weights)
+    }
+
+    fn couple(&mut self, body: &StruckBody) {
+        self.couple_with(body.modal(), body.acting_force());
+    }
+
+    fn step(&mut self, body: &StruckBody, free: &FreeStep) {
+        self.step_free(body.modal(), free.mean, free.divisor);
+    }
+
+    fn displacement(&self, point: usize) -> f64 {
+        self.rigid[0].at(&self.strikers[point].weights)
+    }
+
+    fn preload_offset(&self, point: usize, coupling: f64, free: &FreeStep) -> f64 {
+        self.eases_striker(point, coupling, free.divisor)
+    }
+
+    fn solve(&mut self, contacts: &mut Contacts, free: &FreeStep) -> bool {
+        if !self.is_near() {
+            self.rims.force = [0.0; POINTS];
+            return false;
+        }
+        let apart = |&i: &usize| {
+            let step = &contacts.point(i).step;
+            step.free.max(step.before) < -APART
+        };
+        if contacts.present().iter().all(apart) && self.solve_alone(free.divisor) {
+            for k in 0..contacts.present().len() {
+                let i = contacts.present()[k];
+                contacts.point_mut(i).force = 0.0;
+            }
+            return true;
+        }
+        self.solve_with(contacts, free.divisor);
+        true
+    }
+
+    fn push(&mut self, point: usize, force: f64) {
+        self.rigid[0].push(&self.strikers[point].weights, force);
+    }
+
+    fn press(&mut self, body: &mut StruckBody) -> (f64, Heard) {
+        self.press_rims(body.modal_mut())
+    }
+
+    fn displaced(&self, point: usize, coupling: f64, free: &FreeStep) -> f64 {
+        if !self.engaged {
+            return 0.0;
+        }
+        (0..POINTS).map(|j| self.stiffened_to(point, coupling, j, free.divisor) * self.rims.force[j]).sum()
+    }
+
+    fn finish(&mut self, contacts: &Contacts, free: &FreeStep) -> Heard {
+        let strikers = contacts.present().iter();
+        let strikers = strikers.map(|&i| (i, contacts.point(i).force, contacts.coupling(i)));
+        self.finish_sample(strikers, free.divisor)
+    }
+
+    fn ring(&mut self, out: [&mut [f32]; EARS], from: usize) {
+        if !self.engaged {
+            self.ring_apart(out, from);
+        }
+    }
+
+    fn is_engaged(&self) -> bool {
+        self.engaged
+    }
+
+    fn drives_body(&self) -> bool {
+        true
+    }
+
+    fn energy(&self, _contacts: &Contacts) -> f64 {
+        self.held_energy()
+    }
+
+    fn motion(&self, _contacts: &Contacts) -> f64 {
+        self.held_energy()
+    }
+
+    fn settle(&mut self, body: &mut StruckBody, contacts: &Contacts) -> bool {
+        let way = contacts.fastest_striker().map(|speed| speed * MAX_RUN as f64 * contacts.dt());
+        match self.look(body.modal(), way) {
+            Settled::Moving => true,
+            Settled::Parked => {
+                body.reset();
+                true
+            }
+            Settled::Broken => false,
+        }
+    }
+
+    fn is_still(&self) -> bool {
+        self.still && !self.engaged && self.lower.modal.is_still()
+    }
+
+    /// With the pedal where it is to go.
+    fn reset(&mut self, _contacts: &mut Contacts) {
+        self.lower.modal.reset();
+        self.come_to_rest();
+        self.begin_count();
+        self.pedal.work = 0.0;
+    }
+}

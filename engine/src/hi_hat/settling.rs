@@ -1,0 +1,77 @@
+//! What is looked at once a block in a [`Pair`]: whether its rims may meet, whether it rests.
+
+use crate::modal::ModalBody;
+
+use super::pair::Pair;
+use super::rigid::Rigid;
+
+/// Way that a striker may push the rim within a block: at least, m, and of one that is fast, over its own. *Derived*: 5 m/s
+/// for a millisecond; a light body leaves a heavy one at up to twice its speed.
+const PUSHED: (f64, f64) = (5e-3, 2.0);
+
+/// Energy under which cymbals that touch are at rest, J: 10 dB under what a piece sleeps at.
+const STILL: f64 = 1e-11;
+
+/// What a block's look has found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Settled {
+    /// Something moves.
+    Moving,
+    /// The cymbals rest on each other; the upper shell is to be put to rest too.
+    Parked,
+    /// A value is not a number.
+    Broken,
+}
+
+impl Pair {
+    /// Once a block: follows the rod, zeroes what has decayed, looks whether rims may meet. The fastest of the strikers
+    /// about the upper cymbal, if there are any, comes so far (m) in a block.
+    ///
+    /// # Real-time
+    /// Linear in the number of modes, and some microseconds while the pedal moves.
+    pub(super) fn look(&mut self, top: &ModalBody, strikers: Option<f64>) -> Settled {
+        let pushed = strikers.map_or(0.0, |way| PUSHED.0.max(PUSHED.1 * way));
+        let strikers = strikers.is_some();
+        self.lower.modal.flush_quiet();
+        let finite = self.lower.modal.is_finite()
+            && self.rigid.iter().all(Rigid::is_finite)
+            && self.rims.compression.iter().all(|d| d.is_finite());
+        if !finite {
+            return Settled::Broken;
+        }
+        if self.pedal.goal_place != self.pedal.foot.place() {
+            let Pair { statics, pedal, rims, rigid, .. } = self;
+            let goal = statics.balance(pedal.foot.place(), &pedal.goal.preload, &rims.law, rigid).rest;
+            pedal.set_out(goal);
+        }
+        if self.pedal.moves() {
+            self.engage(top);
+            return Settled::Moving;
+        }
+        let touching = self.is_touching();
+        if !strikers && touching && self.held() < STILL && self.held_energy() + top.energy() < STILL {
+            self.lower.modal.reset();
+            self.come_to_rest();
+            return Settled::Parked;
+        }
+        if touching || self.may_meet(top, pushed) {
+            self.engage(top);
+        } else {
+            self.engaged = false;
+            if !strikers && !self.still && self.held() < STILL * 1e-3 {
+                self.come_to_rest();
+            }
+        }
+        Settled::Moving
+    }
+
+    /// Whether the rims might meet if left alone, or brought nearer by so much (m).
+    fn may_meet(&self, top: &ModalBody, nearer: f64) -> bool {
+        let y = self.pedal.foot.place();
+        let nearest = self.statics.nearest() - y - nearer;
+        let stiff = self.rigid[0].reach(y) + self.rigid[1].reach(0.0);
+        nearest < stiff
+            || nearest
+                < stiff + top.folded_reach(&self.folded[0]) + self.lower.modal.folded_reach(&self.folded[1])
+    }
+}

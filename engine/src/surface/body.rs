@@ -1,0 +1,298 @@
+//! A struck body by itself: modes, their shapes, how they are heard, and what acts on them beside contacts.
+//!
+//! Beside contacts act the nonlinear force beyond the modes and the pressure of sound from elsewhere.
+
+use crate::modal::faint::Faint;
+use crate::modal::simd::Kernels;
+use crate::modal::{EARS, Heard, ModalBody, Mode, Pickup, Port};
+use crate::potential::{NonlinearForce, Potential};
+use crate::shapes::ShapeTable;
+
+use super::incident_field::{AirLoad, IncidentPressure};
+
+/// Adds at every receiver, Pa.
+pub fn add(sum: &mut Heard, more: Heard) {
+    sum.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
+}
+
+/// A modal body and how it is heard.
+pub struct SoundingBody {
+    /// The modes and their motion.
+    pub modal: ModalBody,
+    /// How they are heard.
+    pub receiver: Pickup,
+}
+
+impl SoundingBody {
+    /// A body at rest; `transfer` as in [`Pickup::new`], Pa s2/m; sample rate in Hz. Allocates.
+    pub fn new(modes: Vec<Mode>, transfer: Vec<[f64; 2]>, sample_rate: f64) -> SoundingBody {
+        let mut body =
+            SoundingBody { modal: ModalBody::new(modes, sample_rate), receiver: Pickup::new(transfer) };
+        body.follow();
+        body
+    }
+
+    /// Follows a change of the modes or of the transfers.
+    ///
+    /// # Real-time
+    /// Linear in the number of modes.
+    pub fn follow(&mut self) {
+        self.modal.tune(&mut self.receiver);
+    }
+
+    /// What is heard now, Pa, without what follows a force at once.
+    pub fn listen(&self) -> Heard {
+        self.modal.listen(&self.receiver)
+    }
+}
+
+/// What a sample without contact forces has come to.
+#[derive(Debug, Clone, Copy)]
+pub struct FreeStep {
+    /// `psibar` of the [nonlinear force](crate::potential), the root of J: what multiplies the coupling of a place to give
+    /// how far the force has moved it.
+    pub mean: f64,
+    /// Its dimensionless `2 + G`; 1 if it does not act, for then nothing is coupled with it.
+    pub divisor: f64,
+    /// Whether couplings with the nonlinear force have changed.
+    pub recoupled: bool,
+    /// What is heard at once, Pa.
+    pub heard: Heard,
+}
+
+/// A body that can be struck.
+pub struct StruckBody {
+    sound: SoundingBody,
+    /// Below what its modes may sleep.
+    inaudible: Faint,
+    shapes: ShapeTable,
+    /// What it does beyond its modes.
+    nonlinear_force: Option<NonlinearForce>,
+    /// What the surrounding air presses on.
+    air: Option<AirLoad>,
+    /// Hz.
+    sample_rate: f64,
+}
+
+impl StruckBody {
+    /// A body at rest without nonlinear force, out of the air. Allocates.
+    pub fn new(sound: SoundingBody, shapes: ShapeTable, sample_rate: f64) -> StruckBody {
+        let inaudible = Faint::new(sound.modal.len());
+        StruckBody { sound, inaudible, shapes, nonlinear_force: None, air: None, sample_rate }
+    }
+
+    /// The modes and how they are heard.
+    pub fn sound(&self) -> &SoundingBody {
+        &self.sound
+    }
+
+    /// The modes and their motion.
+    pub fn modal(&self) -> &ModalBody {
+        &self.sound.modal
+    }
+
+    /// The modes and their motion, to be pushed.
+    pub fn modal_mut(&mut self) -> &mut ModalBody {
+        &mut self.sound.modal
+    }
+
+    /// How the modes are heard.
+    pub fn receiver(&self) -> &Pickup {
+        &self.sound.receiver
+    }
+
+    /// Shapes of the modes.
+    pub fn shapes(&self) -> &ShapeTable {
+        &self.shapes
+    }
+
+    /// Shapes of the modes, to be changed with them.
+    pub fn shapes_mut(&mut self) -> &mut ShapeTable {
+        &mut self.shapes
+    }
+
+    /// The kernels in use.
+    pub fn kernels(&self) -> Kernels {
+        self.sound.modal.kernels()
+    }
+
+    /// What it does beyond its modes, if it does.
+    pub fn nonlinear_force(&self) -> Option<&NonlinearForce> {
+        self.nonlinear_force.as_ref()
+    }
+
+    /// What it does beyond its modes, to be set.
+    pub fn nonlinear_force_mut(&mut self) -> Option<&mut NonlinearForce> {
+        self.nonlinear_force.as_mut()
+    }
+
+    /// The nonlinear force while it acts.
+    pub fn acting_force(&self) -> Option<&NonlinearForce> {
+        self.nonlinear_force.as_ref().filter(|force| force.is_active())
+    }
+
+    /// Whether the air presses on it at all.
+    pub fn is_in_air(&self) -> bool {
+        self.air.is_some()
+    }
+
+    /// Lets a potential act on the first `modes`, evaluated once in `stride` samples. Allocates.
+    pub(super) fn set_potential(&mut self, potential: Box<dyn Potential>, modes: usize, stride: u32) {
+        let body = (&self.sound.modal, &self.sound.receiver);
+        let force = NonlinearForce::new(potential, modes, stride, body, self.sample_rate);
+        self.nonlinear_force = Some(force);
+        self.update_thresholds();
+    }
+
+    /// Evaluates what the body does beyond its modes once in `stride` samples; for comparisons.
+    pub(super) fn set_stride(&mut self, stride: u32) {
+        if let Some(force) = &mut self.nonlinear_force {
+            force.set_stride(stride);
+            force.follow(&self.sound.modal, &self.sound.receiver);
+        }
+    }
+
+    /// Lets the air press on the body, and be pressed by it. Allocates.
+    pub(super) fn enter_air(&mut self) {
+        self.air = Some(AirLoad::new(self.sound.modal.len()));
+        self.sound.receiver.attend(self.sound.modal.len());
+    }
+
+    /// Volume by which each mode makes the body smaller, m2, and the share of its sound that goes all around.
+    pub(super) fn set_volumes(&mut self, volumes: impl Iterator<Item = (f64, f64)>) {
+        if let Some(air) = &mut self.air {
+            air.set_volumes(volumes);
+        }
+    }
+
+    /// Changes how each mode is heard from near and from far away; the modes have to be followed after.
+    pub(super) fn set_transfers(
+        &mut self,
+        near: impl Iterator<Item = [f64; 2]>,
+        far: impl Iterator<Item = [f64; 2]>,
+    ) {
+        let receiver = &mut self.sound.receiver;
+        receiver.transfer_mut(0).iter_mut().zip(near).for_each(|(place, transfer)| *place = transfer);
+        receiver.transfer_mut(1).iter_mut().zip(far).for_each(|(place, transfer)| *place = transfer);
+        self.air.iter().for_each(|air| air.send(receiver));
+    }
+
+    /// Works out below what modes may sleep: those that neither the air nor what is beyond the modes drives.
+    fn update_thresholds(&mut self) {
+        let coupled = self.nonlinear_force.as_ref().map_or(0, |force| force.front().length());
+        let driven = self.air.as_ref().map(AirLoad::port);
+        self.sound.modal.learn_faint(&mut self.inaudible, &self.sound.receiver, coupled, driven);
+    }
+
+    /// Follows a change of the modes, or of how they are heard.
+    pub(super) fn follow(&mut self) {
+        self.sound.follow();
+        self.update_thresholds();
+        let SoundingBody { modal, receiver } = &self.sound;
+        self.nonlinear_force.iter_mut().for_each(|force| force.follow(modal, receiver));
+        self.air.iter_mut().for_each(|air| air.follow(modal, receiver));
+    }
+
+    /// Steps under nothing but the air and what acts beyond the modes.
+    pub(super) fn step(&mut self, sample: usize, incident: Option<IncidentPressure<'_>>) -> FreeStep {
+        let SoundingBody { modal, receiver } = &mut self.sound;
+        let Some(force) = self.nonlinear_force.as_mut().filter(|force| force.is_active()) else {
+            modal.step();
+            let heard = self.press(incident, sample);
+            return FreeStep { mean: 0.0, divisor: 1.0, recoupled: true, heard };
+        };
+        let recoupled = force.begin(modal, receiver);
+        modal.step();
+        let heard = self.press(incident, sample);
+        let Some(force) = &mut self.nonlinear_force else {
+            return FreeStep { mean: 0.0, divisor: 1.0, recoupled, heard };
+        };
+        FreeStep { mean: force.free(&self.sound.modal), divisor: force.divisor(), recoupled, heard }
+    }
+
+    /// Adds the pressure of a sample to the modes, just stepped; returns what is heard of it at once.
+    fn press(&mut self, incident: Option<IncidentPressure<'_>>, sample: usize) -> Heard {
+        let pressure = incident.map_or(0.0, |incident| incident[sample]);
+        match &self.air {
+            Some(air) if pressure != 0.0 => {
+                self.sound.modal.push(air.port(), pressure);
+                air.echo(pressure)
+            }
+            _ => Heard::default(),
+        }
+    }
+
+    /// Adds what is beyond the modes, given what contacts press it with; what is heard of it at once, Pa.
+    pub(super) fn finish(&mut self, pressed: f64) -> Heard {
+        match self.nonlinear_force.as_mut().filter(|force| force.is_active()) {
+            Some(force) => force.finish(&mut self.sound.modal, pressed),
+            None => Heard::default(),
+        }
+    }
+
+    /// Renders while nothing touches, from sample `from` of what arrives on.
+    pub(super) fn ring(
+        &mut self,
+        mut out: [&mut [f32]; EARS],
+        incident: Option<IncidentPressure<'_>>,
+        from: usize,
+    ) {
+        let SoundingBody { modal, receiver } = &mut self.sound;
+        let pressed = self.air.as_ref().zip(incident);
+        let drive = pressed.and_then(|(air, incident)| air.drive(incident, from));
+        match &mut self.nonlinear_force {
+            Some(force) if force.is_active() => {
+                let first = force.front().length();
+                modal.ring_driven(first, drive.into_iter(), receiver, out.each_mut().map(|out| &mut **out));
+                force.ring(modal, receiver, drive, &mut out);
+            }
+            _ => modal.ring_driven(0, drive.into_iter(), receiver, out.each_mut().map(|out| &mut **out)),
+        }
+        if let Some((air, incident)) = pressed {
+            for (i, &pressure) in incident[from..].iter().enumerate() {
+                out.iter_mut().zip(air.echo(pressure)).for_each(|(out, echo)| out[i] += echo);
+            }
+        }
+    }
+
+    /// Coupling of a place with the nonlinear force; 0 without one.
+    pub(super) fn coupling(&self, port: &Port) -> f64 {
+        self.nonlinear_force.as_ref().map_or(0.0, |force| force.coupling(&self.sound.modal, port))
+    }
+
+    /// Energy of the modes and beyond them, J.
+    pub(super) fn energy(&self) -> f64 {
+        self.sound.modal.energy() + self.nonlinear_force.as_ref().map_or(0.0, NonlinearForce::energy)
+    }
+
+    /// Energy of the motion, J; what the nonlinear force holds counts as motion.
+    pub(super) fn motion(&self) -> f64 {
+        self.sound.modal.motion() + self.nonlinear_force.as_ref().map_or(0.0, |force| force.energy().abs())
+    }
+
+    /// True energy beyond the modes, J, and the relative error of the variable that stands for it.
+    pub(super) fn true_potential(&mut self) -> (f64, f64) {
+        self.nonlinear_force.as_mut().map_or((0.0, 0.0), |force| force.true_energy(&self.sound.modal))
+    }
+
+    /// Zeroes what has decayed: modes that nobody hears, if nothing but the air drives them, else only what is next to
+    /// nothing.
+    pub(super) fn settle(&mut self, left_alone: bool) {
+        match left_alone {
+            true => self.sound.modal.flush_faint(&self.inaudible),
+            false => self.sound.modal.flush_quiet(),
+        }
+        self.nonlinear_force.iter_mut().for_each(NonlinearForce::settle);
+    }
+
+    /// Whether it has come to lie inside out.
+    pub(super) fn is_inside_out(&self) -> bool {
+        self.nonlinear_force.as_ref().is_some_and(NonlinearForce::is_inside_out)
+    }
+
+    /// Puts it to rest.
+    pub fn reset(&mut self) {
+        self.sound.modal.reset();
+        self.nonlinear_force.iter_mut().for_each(NonlinearForce::reset);
+    }
+}

@@ -1,0 +1,299 @@
+//! The contact system of a struck body: what touches it, where, and the forces that all agree on.
+//!
+//! Whatever touches is an [exciter](Exciter), a few oscillators with one or two points. Both exciters and modes integrate
+//! a force held over the sample exactly, so a contact is one scalar equation, and several at once a small system of
+//! them, which the [solver](crate::contact::solver) solves.
+//!
+//! Strikers come first; exciters of attachments follow, with one point each.
+
+use crate::contact::ContactStep;
+use crate::contact::solver::hertz::Hertz;
+use crate::contact::solver::{self, Compliances, ContactProblem};
+use crate::modal::simd::Kernels;
+
+use super::body::{FreeStep, StruckBody};
+use super::exciter::{ContactPoint, Exciter, Ground};
+
+/// Strikers that can be about one body at a time; the one that has been away longest gives way.
+pub const MAX_STRIKERS: usize = 4;
+
+/// Points a striker has: its tip and its shaft.
+pub(super) const STRIKER_POINTS: usize = 2;
+
+/// Points of all strikers, which come before all others.
+pub const STRIKER_PLACES: usize = STRIKER_POINTS * MAX_STRIKERS;
+
+/// Points there are at most.
+const MAX_POINTS: usize = solver::MAX_CONTACTS;
+
+/// Whose point it is.
+pub(super) const fn owner(point: usize) -> usize {
+    if point < STRIKER_PLACES { point / STRIKER_POINTS } else { MAX_STRIKERS + point - STRIKER_PLACES }
+}
+
+/// The points of an exciter.
+pub(super) const fn points_of(exciter: usize) -> std::ops::Range<usize> {
+    if exciter < MAX_STRIKERS {
+        STRIKER_POINTS * exciter..STRIKER_POINTS * (exciter + 1)
+    } else {
+        let point = STRIKER_PLACES + exciter - MAX_STRIKERS;
+        point..point + 1
+    }
+}
+
+/// All that touches one body.
+pub struct Contacts {
+    /// Strikers, then those of attachments.
+    pub(super) exciters: Vec<Exciter>,
+    /// Tip and shaft of every striker, then one point of every other exciter.
+    pub(super) points: Vec<ContactPoint>,
+    /// Points present.
+    present: [usize; MAX_POINTS],
+    count: usize,
+    /// Between present points: one-sample compliance of the modes and of what touches, m/N.
+    pub(super) compliance: Compliances,
+    /// Each point's coupling with the nonlinear force.
+    pub(super) coupling: [f64; MAX_POINTS],
+    /// The compliance the points meet: the modes', stiffened by the nonlinear force, m/N.
+    stiffened: Compliances,
+    /// Whether contacts give back all they take.
+    lossless: bool,
+    /// Length of a sample, s.
+    dt: f64,
+}
+
+impl Contacts {
+    /// Nothing touches a body of so many modes; a sample lasts `dt` s. Allocates.
+    pub fn new(modes: usize, lossless: bool, dt: f64) -> Contacts {
+        Contacts {
+            exciters: (0..MAX_STRIKERS).map(|_| Exciter::absent(dt)).collect(),
+            points: (0..STRIKER_PLACES).map(|_| ContactPoint::absent(modes, dt)).collect(),
+            present: [0; MAX_POINTS],
+            count: 0,
+            compliance: [[0.0; MAX_POINTS]; MAX_POINTS],
+            coupling: [0.0; MAX_POINTS],
+            stiffened: [[0.0; MAX_POINTS]; MAX_POINTS],
+            lossless,
+            dt,
+        }
+    }
+
+    /// Whether contacts give back all they take.
+    pub fn is_lossless(&self) -> bool {
+        self.lossless
+    }
+
+    /// Length of a sample, s.
+    pub fn dt(&self) -> f64 {
+        self.dt
+    }
+
+    /// Adds an exciter with a point of its own; returns the point's place. Allocates.
+    ///
+    /// # Panics
+    /// If there are as many points as the solver takes (debug builds).
+    pub fn add(&mut self, exciter: Exciter, point: ContactPoint) -> usize {
+        debug_assert!(self.points.len() < MAX_POINTS);
+        self.exciters.push(exciter);
+        self.points.push(point);
+        self.points.len() - 1
+    }
+
+    /// Lets the shafts of strikers meet another body, of so many modes. Allocates.
+    pub fn set_shaft_modes(&mut self, modes: usize) {
+        for shaft in self.points[..STRIKER_PLACES].iter_mut().skip(1).step_by(STRIKER_POINTS) {
+            *shaft = ContactPoint::absent(modes, self.dt);
+        }
+    }
+
+    /// The points present.
+    pub fn present(&self) -> &[usize] {
+        &self.present[..self.count]
+    }
+
+    /// Whether nothing touches or is about.
+    pub fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+
+    /// Lists the points present, after some have come or gone.
+    pub fn list(&mut self) {
+        self.count = 0;
+        for (i, _) in self.points.iter().enumerate().filter(|(_, point)| point.present) {
+            self.present[self.count] = i;
+            self.count += 1;
+        }
+    }
+
+    /// A point.
+    pub fn point(&self, i: usize) -> &ContactPoint {
+        &self.points[i]
+    }
+
+    /// A point, to be set.
+    pub fn point_mut(&mut self, i: usize) -> &mut ContactPoint {
+        &mut self.points[i]
+    }
+
+    /// The exciter that a point belongs to.
+    pub fn exciter(&self, point: usize) -> &Exciter {
+        &self.exciters[owner(point)]
+    }
+
+    /// The exciter that a point belongs to, to be set.
+    pub fn exciter_mut(&mut self, point: usize) -> &mut Exciter {
+        &mut self.exciters[owner(point)]
+    }
+
+    /// Compliance between two present points in this sample, m/N.
+    pub fn stiffened(&self, i: usize, j: usize) -> f64 {
+        self.stiffened[i][j]
+    }
+
+    /// A point's coupling with the nonlinear force, as [`NonlinearForce::coupling`] has it.
+    ///
+    /// [`NonlinearForce::coupling`]: crate::potential::NonlinearForce::coupling
+    pub fn coupling(&self, i: usize) -> f64 {
+        self.coupling[i]
+    }
+
+    /// Whether strikers are about.
+    pub fn is_struck(&self) -> bool {
+        self.exciters[..MAX_STRIKERS].iter().any(|striker| striker.present)
+    }
+
+    /// Speed (m/s) with which the fastest of the strikers about has come, if there are any.
+    pub fn fastest_striker(&self) -> Option<f64> {
+        let about = self.exciters[..MAX_STRIKERS].iter().filter(|striker| striker.present);
+        self.is_struck().then(|| about.map(|striker| striker.speed).fold(0.0, f64::max))
+    }
+
+    /// Energy of an exciter and its contacts, J.
+    pub(super) fn energy_of(&self, exciter: usize) -> f64 {
+        let points = self.points[points_of(exciter)].iter().filter(|point| point.present);
+        self.exciters[exciter].energy() + points.map(ContactPoint::energy).sum::<f64>()
+    }
+
+    /// Energy of those exciters that are there and of their contacts, J.
+    pub(super) fn energy(&self, which: std::ops::Range<usize>) -> f64 {
+        which.filter(|&i| self.exciters[i].present).map(|i| self.energy_of(i)).sum()
+    }
+
+    /// Energy of the motion of those exciters that are there, J.
+    pub(super) fn motion(&self, which: std::ops::Range<usize>) -> f64 {
+        self.exciters[which].iter().filter(|exciter| exciter.present).map(Exciter::motion).sum()
+    }
+
+    /// Whether every present compression is a finite number.
+    pub(super) fn is_finite(&self) -> bool {
+        self.present().iter().all(|&i| self.points[i].compression.is_finite())
+    }
+
+    /// Removes all.
+    pub(super) fn reset(&mut self) {
+        for exciter in &mut self.exciters {
+            // Which place the next stroke takes hangs on all of these.
+            (exciter.present, exciter.age) = (false, 0);
+        }
+        for point in &mut self.points {
+            (point.present, point.touching) = (false, false);
+        }
+        self.list();
+    }
+
+    /// Works out what compliance the points meet in a sample: the nonlinear force takes a matrix of rank one away.
+    pub(super) fn stiffen(&mut self, body: &StruckBody, free: &FreeStep) {
+        if self.count == 0 {
+            return;
+        }
+        self.stiffened = self.compliance;
+        if body.acting_force().is_none() {
+            return;
+        }
+        let present = &self.present[..self.count];
+        if free.recoupled {
+            for &i in present.iter().filter(|&&i| self.points[i].ground == Ground::Body) {
+                self.coupling[i] = body.coupling(&self.points[i].port);
+            }
+        }
+        for &i in present {
+            for &j in present {
+                self.stiffened[i][j] -= self.coupling[i] * self.coupling[j] / free.divisor;
+            }
+        }
+    }
+
+    /// Lets all exciters step without force.
+    pub(super) fn step(&mut self) {
+        self.exciters.iter_mut().filter(|exciter| exciter.present).for_each(Exciter::step);
+    }
+
+    /// How far the forces of all other points have brought point `i` out of the body, m.
+    pub(super) fn moved_by_others(&self, i: usize) -> f64 {
+        let others = self.present().iter().filter(|&&j| j != i);
+        others.map(|&j| self.stiffened[i][j] * self.points[j].pressing()).sum()
+    }
+
+    /// Finds the forces of all points for this sample.
+    ///
+    /// # Real-time
+    /// See [`solver::solve`].
+    pub fn solve(&mut self, kernels: Kernels) {
+        let present = self.present();
+        let hertz = present.iter().all(|&i| Hertz::<MAX_POINTS>::knows(&self.points[i].law));
+        let solved = match present.len() {
+            2..=8 if hertz => self.solve_hertz::<8>(kernels),
+            9..=MAX_POINTS if hertz => self.solve_hertz::<MAX_POINTS>(kernels),
+            _ => false,
+        };
+        if !solved {
+            self.solve_any();
+        }
+    }
+
+    /// [`solve`](Self::solve) of at most `N` contacts of Hertz's law; false if they were not found.
+    fn solve_hertz<const N: usize>(&mut self, kernels: Kernels) -> bool {
+        let present = &self.present[..self.count];
+        let mut hertz = Hertz::<N>::APART;
+        for (n, &i) in present.iter().enumerate() {
+            let point = &self.points[i];
+            // The preloads of the others are part of equilibrium: what they would push is put back.
+            let mut free = point.step.free - self.stiffened[i][i] * point.preload;
+            for (compliance, &j) in hertz.compliance[n].iter_mut().zip(present) {
+                *compliance = self.stiffened[i][j];
+                free += *compliance * self.points[j].preload;
+            }
+            hertz.compliance[n][n] = point.step.compliance;
+            (hertz.stiffness[n], hertz.before[n]) = (point.law.stiffness, point.step.before);
+            (hertz.free[n], hertz.loss[n]) = (free, point.step.lambda / point.step.dt);
+            hertz.force[n] = point.force;
+        }
+        let solved = hertz.solve(kernels);
+        if solved {
+            present.iter().zip(hertz.force).for_each(|(&i, force)| self.points[i].force = force);
+        }
+        solved
+    }
+
+    /// [`solve`](Self::solve) of contacts of any law.
+    fn solve_any(&mut self) {
+        let present = &self.present[..self.count];
+        let absent = ContactProblem { law: self.points[0].law, step: self.points[0].step, force: 0.0 };
+        let (mut problems, mut compliances) = ([absent; MAX_POINTS], [[0.0; MAX_POINTS]; MAX_POINTS]);
+        for (n, &i) in present.iter().enumerate() {
+            let point = &self.points[i];
+            // The preloads of the others are part of equilibrium: what they would push is put back.
+            let mut free = point.step.free;
+            for (k, &j) in present.iter().enumerate().filter(|&(k, _)| k != n) {
+                compliances[n][k] = self.stiffened[i][j];
+                free += self.stiffened[i][j] * self.points[j].preload;
+            }
+            let step = ContactStep { free, ..point.step };
+            problems[n] = ContactProblem { law: point.law, step, force: point.force };
+        }
+        solver::solve(&mut problems[..present.len()], &compliances);
+        for (problem, &i) in problems.iter().zip(present) {
+            self.points[i].force = problem.force;
+        }
+    }
+}
