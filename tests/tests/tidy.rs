@@ -176,17 +176,8 @@ fn every_link_in_a_document_leads_somewhere() {
 
 #[test]
 fn every_path_a_document_names_exists() {
-    let tops = [
-        "engine/",
-        "player/",
-        "plugin/",
-        "standalone/",
-        "lab/",
-        "xtask/",
-        "tests/",
-        "docs/",
-        "assets/",
-    ];
+    let tops =
+        ["engine/", "player/", "plugin/", "standalone/", "lab/", "xtask/", "tests/", "docs/", "assets/"];
     let (mut wrong, mut seen) = (Vec::new(), 0);
     for (document, text) in documents() {
         let prose: String = text.split("```").step_by(2).collect();
