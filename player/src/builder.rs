@@ -40,6 +40,7 @@ use crate::building::{BuildPlan, Staff};
 use crate::cache;
 use crate::kit_document::KitDocument;
 use crate::performer::Setup;
+use crate::workers::Deadline;
 
 use delivery::{Hired, Passing, Queues, Sent, make_room};
 
@@ -96,6 +97,8 @@ struct Shared {
     latest: AtomicU32,
     queues: Arc<Queues>,
     shapes: Mutex<[Option<Arc<FieldShapes>>; SLOTS]>,
+    /// How long the audio thread waits for workers.
+    deadline: Arc<dyn Deadline>,
 }
 
 /// What the main thread and the builder thread tell each other.
@@ -129,24 +132,27 @@ struct Job {
 }
 
 impl Builder {
-    /// A builder that follows a plan. Has no thread until something is ordered.
-    pub fn new(wanted: Wanted) -> Builder {
+    /// A builder that follows a plan, whose workers are waited for as long as a deadline allows. Has no thread until
+    /// something is ordered.
+    pub fn new(wanted: Wanted, deadline: Arc<dyn Deadline>) -> Builder {
         Builder::with(
             |slot, build, options| {
                 cache::provide();
                 Piece::new(slot, build, options)
             },
             wanted,
+            deadline,
         )
     }
 
-    fn with(make: Make, wanted: Wanted) -> Builder {
+    fn with(make: Make, wanted: Wanted, deadline: Arc<dyn Deadline>) -> Builder {
         let shared = Shared {
             desk: Mutex::default(),
             changed: Condvar::new(),
             latest: AtomicU32::new(NO_ORDER),
             queues: Arc::new(Queues::new()),
             shapes: Mutex::default(),
+            deadline,
         };
         Builder { shared: Arc::new(shared), make, wanted, thread: None }
     }
@@ -272,7 +278,7 @@ impl Shared {
     fn build(&self, job: &Job, make: Make) -> Result<(), String> {
         if job.former.as_ref().map_or(Staff::NOBODY, BuildPlan::staff) != job.plan.staff() {
             // A kit without workers plays as well: no reason to fail.
-            let crew = job.plan.staff().hire().unwrap_or_default();
+            let crew = job.plan.staff().hire_until(self.deadline.clone()).unwrap_or_default();
             self.deliver(&self.queues.hired, Hired { order: job.order, crew }, job.order);
         }
         let kit = &job.plan.kit().kit;

@@ -10,7 +10,7 @@ use overhear_engine::slot::Slot;
 use crate::kit_document::KitDocument;
 use crate::parameters::{Construction, Drives, parameters};
 use crate::performer::flushed;
-use crate::workers::{Patience, Workers};
+use crate::workers::{Deadline, Patience, Workers};
 
 /// Whether somebody waits for every buffer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -55,6 +55,18 @@ impl Staff {
     /// # Errors
     /// If the system starts no more threads.
     pub fn hire(self) -> std::io::Result<Option<Box<dyn Crew>>> {
+        Ok(self.workers()?.map(|workers| -> Box<dyn Crew> { Box::new(workers) }))
+    }
+
+    /// Starts the threads, for which the audio thread waits no longer than a deadline allows; none if nobody is wanted.
+    ///
+    /// # Errors
+    /// If the system starts no more threads.
+    pub fn hire_until(self, deadline: Arc<dyn Deadline>) -> std::io::Result<Option<Box<dyn Crew>>> {
+        Ok(self.workers()?.map(|workers| -> Box<dyn Crew> { Box::new(workers.until(deadline)) }))
+    }
+
+    fn workers(self) -> std::io::Result<Option<Workers>> {
         if self.workers == 0 {
             return Ok(None);
         }
@@ -64,7 +76,7 @@ impl Staff {
         };
         // In the floating point mode of the audio thread, or the bits would differ.
         let render = |post: &mut Post| flushed(|| post.render());
-        Ok(Some(Box::new(Workers::new(self.workers, patience, render)?)))
+        Ok(Some(Workers::new(self.workers, patience, render)?))
     }
 }
 

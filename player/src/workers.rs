@@ -1,24 +1,24 @@
 //! Worker threads that render the pieces of a kit beside the audio thread.
 //!
-//! Hand-off: two bounded queues without locks. For every run the audio thread puts the [`Post`]s that have something to do
-//! on one; whoever takes a post owns it, renders it, and puts it on the other. The audio thread takes from the first queue
-//! like everybody else until it is empty, so that work which no worker has claimed is done in any case, and
-//! then waits for what has been claimed. Nothing is shared but the queues: the compiler proves that no post is
-//! ever in two hands, and there is no unsafe code here or in the engine. What the queues do inside
-//! (crossbeam's `ArrayQueue`) is taken on trust; docs/kit.md has the argument.
+//! Hand-off: two bounded queues without locks. For every run the audio thread puts the jobs ([`Post`]) that have something to
+//! do on one queue; whoever takes a job owns it, renders it, and puts it on the other. The audio thread takes jobs from the
+//! first queue until it is empty, as a worker does. So a job that no worker has claimed is done in any case. Then it waits for
+//! the claimed ones. Nothing is shared but the queues: the compiler proves that no job is ever in two hands, and there is no
+//! unsafe code here or in the engine. What the queues do inside (crossbeam's `ArrayQueue`) is taken on trust; docs/kit.md has
+//! the argument.
 //!
-//! Which thread renders a post does not change a bit of it, nor does the order: within a run no piece hears
-//! another.
+//! Which thread renders a job does not change a bit of it, nor does the order: within a run no piece hears another.
 //!
-//! A worker that stalls, because the system has taken its core away, holds one post at most. After a bounded
-//! wait that piece is silent for the run, which the kit counts, and plays on when it is back. A worker that panics gives its
-//! post back all the same.
+//! The wait: a worker that stalls, because the system has taken its core away, holds one job at most. While the host plays, the
+//! audio thread waits for the jobs of the present run, and no longer than the [`Deadline`] of the present buffer allows. It
+//! cannot render a claimed job itself, as the worker owns the piece. A job that is not back by then is lost for the run: its
+//! piece is silent, which the kit counts, the next runs do not wait for it, and the piece plays on once it is back. If every
+//! job comes back in time, the sound is the same to the bit. A worker that panics gives its job back all the same.
 //!
 //! Waking: a parked thread is woken by a system call, which the audio thread must not make. So workers are not woken; they
 //! look for work: without pause for a millisecond after they had some, then with short naps, and with longer ones once
 //! the kit has been idle. Until they notice, the audio thread does the work itself.
 #![forbid(unsafe_code)]
-#![warn(missing_docs)]
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -41,10 +41,10 @@ const NAP: Duration = Duration::from_micros(200);
 const LONG_NAP: Duration = Duration::from_millis(5);
 const IDLE: Duration = Duration::from_secs(1);
 
-/// How long the audio thread waits for a post that a worker has claimed.
+/// How long the audio thread waits for a job that a worker has claimed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Patience {
-    /// Some milliseconds, then the piece is silent for the run: while somebody listens.
+    /// Until the [`Deadline`], or some milliseconds where nobody knows one; then the piece is silent for the run.
     RealTime,
     /// Until it is done, or half a minute has passed: while a file is rendered.
     Offline,
@@ -60,59 +60,97 @@ impl Patience {
     }
 }
 
-/// A post on its way, and where it belongs.
-struct Errand {
+/// Knows how long the audio thread may wait in the present buffer.
+pub trait Deadline: Send + Sync {
+    /// Whether the audio thread must wait no longer.
+    ///
+    /// # Real-time
+    /// Asked in a loop by the audio thread: must not allocate, lock or call the system.
+    fn is_over(&self) -> bool;
+}
+
+/// A job on its way, where it belongs, and the run it is for.
+struct JobSlot {
     slot: usize,
+    run: u64,
     post: Box<Post>,
 }
 
 /// What the threads share.
-struct Hall {
-    waiting: ArrayQueue<Errand>,
-    done: ArrayQueue<Errand>,
+struct Shared {
+    waiting: ArrayQueue<JobSlot>,
+    done: ArrayQueue<JobSlot>,
     closing: AtomicBool,
     render: fn(&mut Post),
 }
 
 /// Some workers. Dropping them waits until they have left: not for the audio thread.
 pub struct Workers {
-    hall: Arc<Hall>,
+    shared: Arc<Shared>,
     threads: Vec<JoinHandle<()>>,
     patience: Patience,
-    /// Posts that others have.
+    deadline: Option<Arc<dyn Deadline>>,
+    /// Counts runs.
+    run: u64,
+    /// Jobs of the present run that others have.
     away: usize,
 }
 
 impl Workers {
-    /// So many workers, at most [`MOST`], who render posts by `render`: [`Post::render`], perhaps with the floating point
+    /// So many workers, at most [`MOST`], who render jobs by `render`: [`Post::render`], perhaps with the floating point
     /// mode of the audio thread, which they must share to get the same bits. Allocates and starts threads.
     ///
     /// # Errors
     /// If the system starts no more threads.
     pub fn new(count: usize, patience: Patience, render: fn(&mut Post)) -> std::io::Result<Workers> {
-        let hall = Arc::new(Hall {
+        let shared = Arc::new(Shared {
             waiting: ArrayQueue::new(SLOTS),
             done: ArrayQueue::new(SLOTS),
             closing: AtomicBool::new(false),
             render,
         });
-        let mut workers = Workers { hall, threads: Vec::new(), patience, away: 0 };
+        let mut workers = Workers { shared, threads: Vec::new(), patience, deadline: None, run: 0, away: 0 };
         for number in 1..=count.min(MOST) {
-            let hall = Arc::clone(&workers.hall);
+            let shared = Arc::clone(&workers.shared);
             let thread = thread::Builder::new().name(format!("overhear worker {number}"));
-            workers.threads.push(thread.spawn(move || work(&hall))?);
+            workers.threads.push(thread.spawn(move || work(&shared))?);
         }
         Ok(workers)
     }
 
-    /// Takes back one post that is done, if there is one.
+    /// Workers for whom the audio thread waits no longer than a deadline allows, unless it renders a file.
+    pub fn until(mut self, deadline: Arc<dyn Deadline>) -> Workers {
+        self.deadline = Some(deadline);
+        self
+    }
+
+    /// Takes back one job that is done, if there is one.
     fn take_back(&mut self, posts: &mut [Option<Box<Post>>]) -> bool {
-        let Some(Errand { slot, post }) = self.hall.done.pop() else {
+        let Some(JobSlot { slot, run, post }) = self.shared.done.pop() else {
             return false;
         };
-        self.away -= 1;
+        // One of an earlier run is not waited for any more.
+        self.away -= usize::from(run == self.run);
         posts[slot] = Some(post);
         true
+    }
+
+    /// Waits for the jobs of this run that others have, as long as the deadline and the patience allow.
+    fn wait(&mut self, posts: &mut [Option<Box<Post>>]) {
+        let mut looks = 0;
+        loop {
+            while self.take_back(posts) {}
+            if self.away == 0 || looks == self.patience.looks() || self.is_late() {
+                return;
+            }
+            looks += 1;
+            std::hint::spin_loop();
+        }
+    }
+
+    fn is_late(&self) -> bool {
+        let awaited = self.patience == Patience::RealTime;
+        awaited && self.deadline.as_ref().is_some_and(|deadline| deadline.is_over())
     }
 }
 
@@ -120,42 +158,39 @@ impl Crew for Workers {
     fn render(&mut self, posts: &mut [Option<Box<Post>>]) {
         let busy = |post: &Option<Box<Post>>| post.as_ref().is_some_and(|post| post.is_busy());
         let share = posts.iter().filter(|&post| busy(post)).count() > 1;
+        self.run = self.run.wrapping_add(1);
+        self.away = 0;
         for (slot, place) in posts.iter_mut().enumerate() {
             let shared = share && busy(place);
             match place.take() {
-                Some(post) if shared => match self.hall.waiting.push(Errand { slot, post }) {
+                Some(post) if shared => match self.shared.waiting.push(JobSlot { slot, run: self.run, post })
+                {
                     Ok(()) => self.away += 1,
-                    // There is room for every post; if there were not, it would be done here.
-                    Err(Errand { mut post, .. }) => {
-                        (self.hall.render)(&mut post);
+                    // There is room for every job; if there were not, it would be done here.
+                    Err(JobSlot { mut post, .. }) => {
+                        (self.shared.render)(&mut post);
                         *place = Some(post);
                     }
                 },
                 Some(mut post) => {
-                    (self.hall.render)(&mut post);
+                    (self.shared.render)(&mut post);
                     *place = Some(post);
                 }
                 None => {}
             }
         }
-        while let Some(Errand { slot, mut post }) = self.hall.waiting.pop() {
-            (self.hall.render)(&mut post);
+        while let Some(JobSlot { slot, mut post, .. }) = self.shared.waiting.pop() {
+            (self.shared.render)(&mut post);
             posts[slot] = Some(post);
             self.away -= 1;
         }
-        let mut looks = 0;
-        while self.away > 0 && looks < self.patience.looks() {
-            if !self.take_back(posts) {
-                looks += 1;
-                std::hint::spin_loop();
-            }
-        }
+        self.wait(posts);
     }
 }
 
 impl Drop for Workers {
     fn drop(&mut self) {
-        self.hall.closing.store(true, Ordering::Relaxed);
+        self.shared.closing.store(true, Ordering::Relaxed);
         for thread in self.threads.drain(..) {
             // A worker that has panicked is gone as well.
             let _ = thread.join();
@@ -163,17 +198,17 @@ impl Drop for Workers {
     }
 }
 
-/// What a worker does until the hall closes.
-fn work(hall: &Hall) {
+/// What a worker does until it is told to end.
+fn work(shared: &Shared) {
     let (mut looks, mut latest) = (0, Instant::now());
-    while !hall.closing.load(Ordering::Relaxed) {
-        if let Some(mut errand) = hall.waiting.pop() {
-            // The post goes back whatever happens: without it its piece would be gone.
-            if catch_unwind(AssertUnwindSafe(|| (hall.render)(&mut errand.post))).is_err() {
-                errand.post.give_up();
+    while !shared.closing.load(Ordering::Relaxed) {
+        if let Some(mut job) = shared.waiting.pop() {
+            // The job goes back whatever happens: without it its piece would be gone.
+            if catch_unwind(AssertUnwindSafe(|| (shared.render)(&mut job.post))).is_err() {
+                job.post.give_up();
             }
-            // There is room for every post.
-            let _ = hall.done.push(errand);
+            // There is room for every job.
+            let _ = shared.done.push(job);
             (looks, latest) = (0, Instant::now());
         } else if looks < LOOKS {
             looks += 1;
@@ -183,3 +218,6 @@ fn work(hall: &Hall) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -23,6 +23,7 @@ use nice_plug_egui::{
 };
 use overhear_engine::slot::Slot;
 
+use crate::guard::caught;
 use crate::host_parameters::{HostParameters, SMALLEST_WINDOW};
 use crate::monitor::{AUDIBLE, Viewer};
 use overhear_player::NAME;
@@ -131,25 +132,34 @@ impl Editor for OverhearEditor {
         gui_context: GuiContext,
         host: Option<HostMethods>,
     ) -> Result<SpawnedEditor<window::Handle>, Box<dyn Error>> {
-        window::keep_driver();
-        let (farewell, ended) = Farewell::new();
-        let editor = self.egui_editor(self.window(), farewell).ok_or("no editor")?;
-        editor
-            .spawn(parent, wait_for_parent, fallback_scale_factor, gui_context, host)
-            .map(|spawned| window::closing_whole(spawned, ended))
-            .inspect_err(|error| nice_error!("The window cannot open, but the kit still plays: {error}"))
+        caught("Editor::spawn", Err("the window broke".into()), || {
+            window::keep_driver();
+            let (farewell, ended) = Farewell::new();
+            let editor = self.egui_editor(self.window(), farewell).ok_or("no editor")?;
+            editor
+                .spawn(parent, wait_for_parent, fallback_scale_factor, gui_context, host)
+                .map(|spawned| window::closing_whole(spawned, ended))
+                .inspect_err(|error| nice_error!("The window cannot open, but the kit still plays: {error}"))
+        })
     }
 
     fn size(&self) -> NativeSize<u32> {
+        caught("Editor::size", NativeSize::new(0, 0), || self.present_size())
+    }
+
+    fn resize_hint(&self) -> ResizeHint {
+        resize_hint()
+    }
+}
+
+impl OverhearEditor {
+    /// Size of the window with its zoom, physical pixels.
+    fn present_size(&self) -> NativeSize<u32> {
         let window = self.window();
         let (size, zoom) = (window.physical_size(), window.user_scale_factor());
         let zoomed = |points: u32| (points as f32 * zoom).round() as u32;
         let size = PhysicalSize::new(zoomed(size.width), zoomed(size.height));
         NativeSize::from_size(size.into(), 1.0)
-    }
-
-    fn resize_hint(&self) -> ResizeHint {
-        resize_hint()
     }
 }
 
@@ -164,6 +174,8 @@ struct App {
     pace: Pace,
     /// What the thread that draws had taken when the latest frame began.
     taken: Option<Duration>,
+    /// Set by a panic while it was drawn: blank from then on.
+    broken: bool,
 }
 
 impl App {
@@ -177,6 +189,7 @@ impl App {
             watch: None,
             pace: Pace::default(),
             taken: None,
+            broken: false,
         }
     }
 }
@@ -189,6 +202,33 @@ impl NiceEguiApp for App {
         frame: &mut Frame,
     ) -> Result<(), HandlerError> {
         self.farewell.carry();
+        self.guarded("the window's beginning", |app| app.begin(context, gui, frame));
+        Ok(())
+    }
+
+    fn ui(&mut self, ui: &mut egui::Ui, frame: &mut Frame) {
+        self.guarded("the window's frame", |app| app.draw(ui, frame));
+    }
+
+    fn resized(&mut self, size: WindowSize) {
+        self.guarded("the window's size", |app| {
+            let size = size.logical;
+            app.sources.parameters.set_window((size.width.round() as u32, size.height.round() as u32));
+        });
+    }
+}
+
+impl App {
+    /// Calls what draws unless it broke. A panic must not reach the host.
+    fn guarded(&mut self, entry: &'static str, draw: impl FnOnce(&mut App)) {
+        self.broken = self.broken
+            || caught(entry, true, || {
+                draw(self);
+                false
+            });
+    }
+
+    fn begin(&mut self, context: egui::Context, gui: GuiContext, frame: &mut Frame) {
         theme::apply(&context);
         let light = self.sources.parameters.view().light;
         theme::choose(&context, light);
@@ -199,10 +239,9 @@ impl NiceEguiApp for App {
         // Peaks and strokes from while no window was open are old news.
         drop(self.sources.viewer.since());
         self.panels.forget(&self.sources.viewer.latest());
-        Ok(())
     }
 
-    fn ui(&mut self, ui: &mut egui::Ui, frame: &mut Frame) {
+    fn draw(&mut self, ui: &mut egui::Ui, frame: &mut Frame) {
         let Some(gui) = &self.gui else { return };
         frame.set_clear_color(as_written(theme::of(ui).background));
         let watch = self.watch.get_or_insert_with(|| {
@@ -235,11 +274,6 @@ impl NiceEguiApp for App {
             // Not through egui, which passes on no request while it has a sooner one of its own.
             frame.baseview_window().request_redraw_after(wait);
         }
-    }
-
-    fn resized(&mut self, size: WindowSize) {
-        let size = size.logical;
-        self.sources.parameters.set_window((size.width.round() as u32, size.height.round() as u32));
     }
 }
 

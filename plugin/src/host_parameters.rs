@@ -12,6 +12,7 @@ use nice_plug::params::persist::{deserialize_field, serialize_field};
 use nice_plug::prelude::*;
 use overhear_engine::error::SpecError;
 
+use crate::guard::caught;
 use crate::view::View;
 use overhear_player::deadline::Deadlines;
 use overhear_player::kit_document::KitDocument;
@@ -52,7 +53,7 @@ pub struct HostParameters {
     /// for as long as it takes to put two words in their place, and the audio thread does not wait for it.
     programs: Mutex<Option<Programs>>,
     /// No parameter, but what host, editor and audio thread share is here.
-    deadlines: Deadlines,
+    deadlines: Arc<Deadlines>,
 }
 
 impl Default for HostParameters {
@@ -67,7 +68,7 @@ impl Default for HostParameters {
             assignments: Arc::default(),
             document,
             programs: Mutex::new(None),
-            deadlines: Deadlines::default(),
+            deadlines: Arc::default(),
         }
     }
 }
@@ -195,7 +196,7 @@ impl HostParameters {
     }
 
     /// Whether buffers are ready in time.
-    pub fn deadlines(&self) -> &Deadlines {
+    pub fn deadlines(&self) -> &Arc<Deadlines> {
         &self.deadlines
     }
 
@@ -233,15 +234,27 @@ fn host_parameter(index: usize, parameter: &'static Parameter, document: &Shared
         // What a slot's value means depends on the piece there, its unit included.
         let (shown, typed) = (document.clone(), document.clone());
         value
-            .with_value_to_string(Arc::new(move |value| text(index, value, &present(&shown).kit)))
-            .with_string_to_value(Arc::new(move |text| from_text(index, text, &present(&typed).kit)))
+            .with_value_to_string(told(move |value| text(index, value, &present(&shown).kit)))
+            .with_string_to_value(typed_in(move |text| from_text(index, text, &present(&typed).kit)))
     } else {
         value
             .with_unit(unit)
-            .with_value_to_string(Arc::new(|value| parameter.text(value)))
-            .with_string_to_value(Arc::new(|text| parameter.from_text(text)))
+            .with_value_to_string(told(|value| parameter.text(value)))
+            .with_string_to_value(typed_in(|text| parameter.from_text(text)))
     };
     if parameter.is_automatable() { value } else { value.non_automatable() }
+}
+
+/// A value's text, for whoever asks.
+fn told(text: impl Fn(f32) -> String + Send + Sync + 'static) -> Arc<dyn Fn(f32) -> String + Send + Sync> {
+    Arc::new(move |value| caught("value_to_text", String::new(), || text(value)))
+}
+
+/// The value that a text stands for, for whoever asks.
+fn typed_in(
+    value: impl Fn(&str) -> Option<f32> + Send + Sync + 'static,
+) -> Arc<dyn Fn(&str) -> Option<f32> + Send + Sync> {
+    Arc::new(move |text| caught("text_to_value", None, || value(text)))
 }
 
 /// The present kit.
@@ -265,6 +278,17 @@ unsafe impl Params for HostParameters {
     }
 
     fn serialize_fields(&self) -> BTreeMap<String, String> {
+        caught("serialize_fields", BTreeMap::new(), || self.fields())
+    }
+
+    fn deserialize_fields(&self, fields: &BTreeMap<String, String>) {
+        caught("deserialize_fields", (), || self.take_fields(fields));
+    }
+}
+
+impl HostParameters {
+    /// Everything that a project stores but the parameters.
+    fn fields(&self) -> BTreeMap<String, String> {
         let mut fields = BTreeMap::new();
         fields.insert(state::SCHEMA_FIELD.to_owned(), state::SCHEMA.to_string());
         if let Ok(window) = serialize_field(&self.window()) {
@@ -278,7 +302,8 @@ unsafe impl Params for HostParameters {
         fields
     }
 
-    fn deserialize_fields(&self, fields: &BTreeMap<String, String>) {
+    /// Takes over what [`fields`](Self::fields) has written.
+    fn take_fields(&self, fields: &BTreeMap<String, String>) {
         // Every state that was not refused as a whole has a schema by now.
         if !fields.contains_key(state::SCHEMA_FIELD) {
             return;

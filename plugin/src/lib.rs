@@ -2,11 +2,13 @@
 //!
 //! [`plugin`] is the instance a host holds, [`outputs`] what it plays into; [`host_parameters`] are the player's parameters as
 //! the framework wants them, and [`view`] and [`state`] what a project stores besides; [`monitor`] is what the [`editor`] may
-//! know, [`sound`] what it may hear. The entry points that hosts look for, and the guard before the framework, are private.
+//! know, [`sound`] what it may hear. [`guard`] keeps panics from
+//! the host. The entry points that hosts look for are private.
 #![deny(unsafe_code)]
 
 pub mod bypass;
 pub mod editor;
+pub mod guard;
 pub mod host_parameters;
 pub mod monitor;
 pub mod outputs;

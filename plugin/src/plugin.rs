@@ -9,7 +9,6 @@
 //! sample; one may lie right behind the slice.
 
 use std::marker::PhantomData;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
@@ -18,6 +17,7 @@ use nice_plug::prelude::*;
 
 use crate::bypass::Bypass;
 use crate::editor::OverhearEditor;
+use crate::guard::caught;
 use crate::host_parameters::{self, HostParameters};
 use crate::monitor::{self, Publisher, Viewer};
 use crate::outputs::{Apart, Buffers, Mix, Outputs};
@@ -79,7 +79,8 @@ impl<O> Default for Instrument<O> {
         let (parameters, offline) = (host_parameters::for_new_instance(), Arc::<AtomicBool>::default());
         let builder = {
             let (parameters, offline) = (parameters.clone(), offline.clone());
-            Builder::new(Arc::new(move || plan(&parameters, &offline)))
+            let deadlines = parameters.deadlines().clone();
+            Builder::new(Arc::new(move || plan(&parameters, &offline)), deadlines)
         };
         Instrument {
             parameters,
@@ -129,12 +130,22 @@ impl<O: Outputs> Plugin for Instrument<O> {
     }
 
     fn editor(&mut self, _executor: AsyncExecutor<Self>) -> Option<OverhearEditor> {
-        let (parameters, viewer) = (self.parameters.clone(), self.viewer.clone());
-        Some(OverhearEditor::new(parameters, viewer, self.builder.shapes(), self.strokes.clone()))
+        caught("editor", None, || {
+            let (parameters, viewer) = (self.parameters.clone(), self.viewer.clone());
+            Some(OverhearEditor::new(parameters, viewer, self.builder.shapes(), self.strokes.clone()))
+        })
     }
 
     fn filter_state(state: &mut PluginState) {
-        state::put_in_order(state);
+        let sound = caught("filter_state", false, || {
+            state::put_in_order(state);
+            true
+        });
+        // A state that has no fields changes nothing.
+        if !sound {
+            state.params.clear();
+            state.fields.clear();
+        }
     }
 
     fn activate(
@@ -143,22 +154,26 @@ impl<O: Outputs> Plugin for Instrument<O> {
         config: &BufferConfig,
         _context: &mut impl ActivateContext<Self>,
     ) -> bool {
-        let offline = config.process_mode == ProcessMode::Offline;
-        let awaited = (!offline).then_some(f64::from(config.sample_rate));
-        self.parameters.deadlines().expect(awaited);
-        self.parameters.read_programs();
-        self.prepare(config.sample_rate, offline);
+        caught("Plugin::activate", (), || {
+            let offline = config.process_mode == ProcessMode::Offline;
+            let awaited = (!offline).then_some(f64::from(config.sample_rate));
+            self.parameters.deadlines().expect(awaited);
+            self.parameters.read_programs();
+            self.prepare(config.sample_rate, offline);
+        });
         // A rate that the engine does not know is no reason to lose the project: it stays silent.
         true
     }
 
     fn reset(&mut self) {
-        self.waiting.clear();
-        let bypassed = self.parameters.is_bypassed();
-        if let Some(stage) = &mut self.stage {
-            stage.bypass.settle(bypassed);
-            stage.guarded(|stage| stage.performer.reset());
-        }
+        caught("Plugin::reset", (), || {
+            self.waiting.clear();
+            let bypassed = self.parameters.is_bypassed();
+            if let Some(stage) = &mut self.stage {
+                stage.bypass.settle(bypassed);
+                stage.guarded(|stage| stage.performer.reset());
+            }
+        });
     }
 
     fn process(
@@ -167,26 +182,31 @@ impl<O: Outputs> Plugin for Instrument<O> {
         aux: &mut AuxiliaryBuffers,
         context: &mut impl ProcessContext<Self>,
     ) -> ProcessStatus {
-        let Some(mut buffers) = Buffers::new(buffer.as_slice(), aux.outputs) else {
-            return ProcessStatus::Error("Overhear plays in stereo only");
-        };
-        let bypassed = self.parameters.is_bypassed();
-        let played = self.stage.as_mut().is_some_and(|stage| {
-            stage.guarded(|stage| {
-                stage.follow(&self.parameters);
-                self.waiting.deliver(&mut stage.performer);
-                play(&mut stage.performer, &mut buffers, &self.parameters, || context.next_event());
-                stage.bypass.apply(bypassed, buffers.channels());
-                let (heard, _) = buffers.stretch(0, buffers.len());
-                self.publisher.heard(heard[0], heard[1]);
-                self.publisher.rendered(buffers.len(), &mut stage.performer);
-            })
-        });
-        if !played {
-            buffers.silence();
-        }
-        // A cymbal may ring for a minute after the last note.
-        ProcessStatus::KeepAlive
+        caught("Plugin::process", ProcessStatus::Error("Overhear broke"), || {
+            let Some(mut buffers) = Buffers::new(buffer.as_slice(), aux.outputs) else {
+                return ProcessStatus::Error("Overhear plays in stereo only");
+            };
+            let bypassed = self.parameters.is_bypassed();
+            let played = self.stage.as_mut().is_some_and(|stage| {
+                stage.guarded(|stage| {
+                    stage.follow(&self.parameters);
+                    self.waiting.deliver(&mut stage.performer);
+                    // A program of its own has nobody who times whole buffers.
+                    self.parameters.deadlines().bounded(buffers.len(), || {
+                        play(&mut stage.performer, &mut buffers, &self.parameters, || context.next_event());
+                    });
+                    stage.bypass.apply(bypassed, buffers.channels());
+                    let (heard, _) = buffers.stretch(0, buffers.len());
+                    self.publisher.heard(heard[0], heard[1]);
+                    self.publisher.rendered(buffers.len(), &mut stage.performer);
+                })
+            });
+            if !played {
+                buffers.silence();
+            }
+            // A cymbal may ring for a minute after the last note.
+            ProcessStatus::KeepAlive
+        })
     }
 }
 
@@ -261,8 +281,13 @@ impl Stage {
     /// Runs the engine unless it broke, and says whether it ran well. A panic must not reach the
     /// host: it would take the whole project down.
     fn guarded(&mut self, engine: impl FnOnce(&mut Stage)) -> bool {
-        self.broken = self.broken || catch_unwind(AssertUnwindSafe(|| engine(self))).is_err();
-        !self.broken
+        let whole = !self.broken
+            && caught("the engine", false, || {
+                engine(self);
+                true
+            });
+        self.broken = !whole;
+        whole
     }
 }
 
@@ -276,22 +301,24 @@ impl<O: Outputs> ClapPlugin for Instrument<O> {
 
     /// One page for each group of parameters; longer ones are divided by the framework.
     fn remote_controls(&self, context: &mut impl RemoteControlsContext) {
-        context.add_section("Kit", |section| {
-            let mut groups: Vec<&str> = Vec::new();
-            for parameter in parameters() {
-                if !groups.contains(&parameter.group) {
-                    groups.push(parameter.group);
-                }
-            }
-            for group in groups {
-                section.add_page(group, |page| {
-                    for (parameter, value) in parameters().iter().zip(self.parameters.values()) {
-                        if parameter.group == group {
-                            page.add_param(value);
-                        }
+        caught("remote_controls", (), || {
+            context.add_section("Kit", |section| {
+                let mut groups: Vec<&str> = Vec::new();
+                for parameter in parameters() {
+                    if !groups.contains(&parameter.group) {
+                        groups.push(parameter.group);
                     }
-                });
-            }
+                }
+                for group in groups {
+                    section.add_page(group, |page| {
+                        for (parameter, value) in parameters().iter().zip(self.parameters.values()) {
+                            if parameter.group == group {
+                                page.add_param(value);
+                            }
+                        }
+                    });
+                }
+            });
         });
     }
 }

@@ -2,6 +2,7 @@ use std::sync::atomic::AtomicBool;
 
 use super::*;
 use crate::building::Pace;
+use crate::deadline::Deadlines;
 use crate::kit_document::standard_slot;
 use crate::midi_map::NoteTable;
 use crate::parameters::parameters;
@@ -25,9 +26,14 @@ fn plan_of(document: KitDocument) -> BuildPlan {
     BuildPlan::of(Arc::new(document), |index| parameters()[index].default, Pace::RealTime)
 }
 
+/// A builder whose workers nobody waits for.
+fn with(make: Make, wanted: Wanted) -> Builder {
+    Builder::with(make, wanted, Arc::new(Deadlines::default()))
+}
+
 /// A builder of the default plan.
 fn builder(make: Make) -> Builder {
-    Builder::with(make, Arc::new(|| plan_of(KitDocument::standard())))
+    with(make, Arc::new(|| plan_of(KitDocument::standard())))
 }
 
 /// The standard kit with another ratio for the snare if `moved`.
@@ -108,7 +114,7 @@ fn pieces_of_an_earlier_order_are_sent_back() {
 
 #[test]
 fn what_nobody_has_taken_holds_up_no_later_order() {
-    let mut builder = Builder::with(quick, Arc::new(|| staffed(2)));
+    let mut builder = with(quick, Arc::new(|| staffed(2)));
     for _ in 0..3 {
         let _ = ordered(&mut builder, RATE);
         assert_eq!(builder.wait(LONG), Outcome::Finished);
@@ -125,7 +131,7 @@ fn what_nobody_has_taken_holds_up_no_later_order() {
 fn a_change_of_plan_is_not_held_up_by_pieces_that_nobody_has_taken() {
     let moved = Arc::new(AtomicBool::new(false));
     let seen = moved.clone();
-    let mut builder = Builder::with(quick, Arc::new(move || plan_of(kit(seen.load(Ordering::Relaxed)))));
+    let mut builder = with(quick, Arc::new(move || plan_of(kit(seen.load(Ordering::Relaxed)))));
     let mut delivery = ordered(&mut builder, RATE);
     assert_eq!(builder.wait(LONG), Outcome::Finished);
     moved.store(true, Ordering::Relaxed);
@@ -139,7 +145,7 @@ fn a_change_of_plan_is_not_held_up_by_pieces_that_nobody_has_taken() {
 fn who_waits_waits_for_a_change_that_the_thread_has_noticed_by_itself() {
     let moved = Arc::new(AtomicBool::new(false));
     let wanted = moved.clone();
-    let mut builder = Builder::with(slow, Arc::new(move || plan_of(kit(wanted.load(Ordering::Acquire)))));
+    let mut builder = with(slow, Arc::new(move || plan_of(kit(wanted.load(Ordering::Acquire)))));
     let mut delivery = ordered(&mut builder, RATE);
     assert_eq!(builder.wait(LONG), Outcome::Finished);
     assert_eq!(taken(&mut delivery), ALL);
@@ -213,7 +219,7 @@ fn builders_dropped_at_any_time_stop_after_the_piece_at_hand() {
 fn a_change_of_plan_builds_what_it_concerns_and_nothing_else() {
     let moved = Arc::new(AtomicBool::new(false));
     let wanted = moved.clone();
-    let mut builder = Builder::with(quick, Arc::new(move || plan_of(kit(wanted.load(Ordering::Acquire)))));
+    let mut builder = with(quick, Arc::new(move || plan_of(kit(wanted.load(Ordering::Acquire)))));
     let mut delivery = ordered(&mut builder, RATE);
     assert_eq!(builder.wait(LONG), Outcome::Finished);
     assert_eq!(taken(&mut delivery), ALL);
@@ -248,7 +254,7 @@ fn a_change_of_quality_builds_cymbals_and_drums_anew_without_a_setup() {
         };
         BuildPlan::of(Arc::default(), value, Pace::RealTime)
     };
-    let mut builder = Builder::with(quick, Arc::new(plan));
+    let mut builder = with(quick, Arc::new(plan));
     let mut delivery = ordered(&mut builder, RATE);
     assert_eq!(builder.wait(LONG), Outcome::Finished);
     assert_eq!(taken(&mut delivery), ALL);
@@ -276,7 +282,7 @@ fn sized(pieces: usize) -> KitDocument {
 fn another_kit_is_announced_before_its_pieces_and_nothing_of_vacated_slots_arrives() {
     let pieces = Arc::new(AtomicUsize::new(9));
     let wanted = pieces.clone();
-    let mut builder = Builder::with(quick, Arc::new(move || plan_of(sized(wanted.load(Ordering::Acquire)))));
+    let mut builder = with(quick, Arc::new(move || plan_of(sized(wanted.load(Ordering::Acquire)))));
     let mut delivery = ordered(&mut builder, RATE);
     assert_eq!(builder.wait(LONG), Outcome::Finished);
     // Nobody takes anything while the kit grows to its largest and shrinks.
@@ -307,7 +313,7 @@ fn another_kit_is_announced_before_its_pieces_and_nothing_of_vacated_slots_arriv
 
 #[test]
 fn an_order_for_a_performer_at_another_kit_brings_a_setup_first() {
-    let mut builder = Builder::with(quick, Arc::new(|| plan_of(sized(2))));
+    let mut builder = with(quick, Arc::new(|| plan_of(sized(2))));
     let mut delivery = ordered(&mut builder, RATE);
     assert_eq!(builder.wait(LONG), Outcome::Finished);
     let mut first = None;
@@ -322,7 +328,7 @@ fn an_order_for_a_performer_at_another_kit_brings_a_setup_first() {
 fn workers_come_when_they_are_wanted_and_go_when_not() {
     static WANTED: AtomicBool = AtomicBool::new(false);
     let wanted = || staffed(usize::from(WANTED.load(Ordering::Relaxed)));
-    let mut builder = Builder::with(quick, Arc::new(wanted));
+    let mut builder = with(quick, Arc::new(wanted));
     let mut delivery = ordered(&mut builder, RATE);
     assert_eq!(builder.wait(LONG), Outcome::Finished);
     delivery.take_crew(|_| unreachable!("nobody was wanted"));

@@ -14,6 +14,8 @@ use nice_plug::editor::dpi::NativeSize;
 use nice_plug::editor::{EditorHandle, Modifiers, ParentWindowHandle, SpawnedEditor, VirtualKeyCode};
 use nice_plug_egui::{EguiEditorHandle, baseview};
 
+use crate::guard::caught;
+
 /// Longest wait for the thread of a closed window. *By ear*, of patience: a host that closes a window should not hang.
 const LONGEST_FAREWELL: Duration = Duration::from_secs(2);
 
@@ -73,7 +75,7 @@ impl Window {
 
 impl Drop for Window {
     fn drop(&mut self) {
-        drop(self.shown.take());
+        caught("the window's end", (), || drop(self.shown.take()));
         // Nothing is ever sent; an error is the end or, after the wait, a thread that hangs in its graphics driver.
         let _ = self.ended.recv_timeout(LONGEST_FAREWELL);
     }
@@ -96,47 +98,53 @@ impl EditorHandle for Handle {
     }
 
     fn set_parent(&self, parent: ParentWindowHandle, window: &Window) -> Result<(), baseview::Error> {
-        self.0.set_parent(parent, window.shown())
+        caught("EditorHandle::set_parent", Ok(()), || self.0.set_parent(parent, window.shown()))
     }
 
     fn show(&self, window: &Window) -> Result<(), baseview::Error> {
-        self.0.show(window.shown())
+        caught("EditorHandle::show", Ok(()), || self.0.show(window.shown()))
     }
 
     fn hide(&self, window: &Window) -> Result<(), baseview::Error> {
-        self.0.hide(window.shown())
+        caught("EditorHandle::hide", Ok(()), || self.0.hide(window.shown()))
     }
 
     fn set_size(&self, size: NativeSize<u32>, window: &Window) -> Result<(), baseview::Error> {
-        self.0.set_size(size, window.shown())
+        caught("EditorHandle::set_size", Ok(()), || self.0.set_size(size, window.shown()))
     }
 
     fn host_main_thread_callback(&self, window: &Window) {
-        self.0.host_main_thread_callback(window.shown());
+        caught("EditorHandle::host_main_thread_callback", (), || {
+            self.0.host_main_thread_callback(window.shown())
+        });
     }
 
     fn adjust_size(&self, size: NativeSize<u32>, window: &Window) -> Option<NativeSize<u32>> {
-        self.0.adjust_size(size, window.shown())
+        caught("EditorHandle::adjust_size", None, || self.0.adjust_size(size, window.shown()))
     }
 
     fn set_fallback_scale_factor(&self, factor: f64, window: &Window) -> Result<(), baseview::Error> {
-        self.0.set_fallback_scale_factor(factor, window.shown())
+        caught("EditorHandle::set_fallback_scale_factor", Ok(()), || {
+            self.0.set_fallback_scale_factor(factor, window.shown())
+        })
     }
 
     fn on_virtual_key_from_host(&self, key: VirtualKeyCode, is_down: bool, modifiers: Modifiers) -> bool {
-        self.0.on_virtual_key_from_host(key, is_down, modifiers)
+        caught("EditorHandle::on_virtual_key_from_host", false, || {
+            self.0.on_virtual_key_from_host(key, is_down, modifiers)
+        })
     }
 
     fn state_changed(&self) {
-        self.0.state_changed();
+        caught("EditorHandle::state_changed", (), || self.0.state_changed());
     }
 
     fn param_value_changed(&self, id: &str, normalized: f32) {
-        self.0.param_value_changed(id, normalized);
+        caught("EditorHandle::param_value_changed", (), || self.0.param_value_changed(id, normalized));
     }
 
     fn param_modulation_changed(&self, id: &str, offset: f32) {
-        self.0.param_modulation_changed(id, offset);
+        caught("EditorHandle::param_modulation_changed", (), || self.0.param_modulation_changed(id, offset));
     }
 }
 

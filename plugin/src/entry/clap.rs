@@ -7,12 +7,12 @@
 
 use std::cell::UnsafeCell;
 use std::ffi::{CStr, c_char, c_void};
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr;
 use std::sync::{Arc, OnceLock};
 
 use clap_sys::audio_buffer::clap_audio_buffer;
 use clap_sys::entry::clap_plugin_entry;
+use clap_sys::ext::gui::CLAP_EXT_GUI;
 use clap_sys::ext::note_name::{CLAP_EXT_NOTE_NAME, clap_note_name, clap_plugin_note_name};
 use clap_sys::ext::params::{CLAP_EXT_PARAMS, clap_plugin_params};
 use clap_sys::factory::plugin_factory::{CLAP_PLUGIN_FACTORY_ID, clap_plugin_factory};
@@ -27,6 +27,7 @@ use nice_plug::wrapper::setup_logger;
 
 use self::programs::ProgramChanges;
 use super::scratch::{CHANNELS, Scratch};
+use crate::guard::caught;
 use crate::host_parameters::{self, HostParameters};
 use crate::plugin::{Overhear, OverhearMulti};
 
@@ -53,8 +54,10 @@ static NOTE_NAMES: clap_plugin_note_name =
     clap_plugin_note_name { count: Some(note_count), get: Some(note_name) };
 
 unsafe extern "C" fn init(_path: *const c_char) -> bool {
-    setup_logger::<Overhear>();
-    true
+    caught("init", false, || {
+        setup_logger::<Overhear>();
+        true
+    })
 }
 
 unsafe extern "C" fn deinit() {}
@@ -79,14 +82,16 @@ fn descriptors() -> &'static [PluginDescriptor; 2] {
 }
 
 unsafe extern "C" fn plugin_count(_factory: *const clap_plugin_factory) -> u32 {
-    descriptors().len() as u32
+    caught("get_plugin_count", 0, || descriptors().len() as u32)
 }
 
 unsafe extern "C" fn descriptor(
     _factory: *const clap_plugin_factory,
     index: u32,
 ) -> *const clap_plugin_descriptor {
-    descriptors().get(index as usize).map_or(ptr::null(), |found| found.clap_plugin_descriptor())
+    caught("get_plugin_descriptor", ptr::null(), || {
+        descriptors().get(index as usize).map_or(ptr::null(), |found| found.clap_plugin_descriptor())
+    })
 }
 
 /// # Safety
@@ -99,15 +104,15 @@ unsafe extern "C" fn create(
     if id.is_null() {
         return ptr::null();
     }
-    let [stereo, multi] = descriptors();
     // SAFETY: as promised; the framework takes the host as it comes.
-    unsafe {
+    caught("create_plugin", ptr::null(), || unsafe {
+        let [stereo, multi] = descriptors();
         match CStr::from_ptr(id) {
             id if id == stereo.clap_id() => guarded::<Overhear>(host),
             id if id == multi.clap_id() => guarded::<OverhearMulti>(host),
             _ => ptr::null(),
         }
-    }
+    })
 }
 
 /// The framework's table with the guard's functions, and what they need.
@@ -117,6 +122,8 @@ struct Guard {
     table: clap_plugin,
     /// The framework's own table.
     framework: clap_plugin,
+    /// Lives as long as the plugin.
+    host: *const clap_host,
     parameters: Option<Arc<HostParameters>>,
     /// The framework's table of parameters, but for their values.
     values: OnceLock<clap_plugin_params>,
@@ -130,6 +137,8 @@ struct Outputs {
     scratch: Scratch,
     /// `[port]`, filled in for a call that needs completing.
     ports: Vec<clap_audio_buffer>,
+    /// Whether the plugin has been activated.
+    active: bool,
 }
 
 /// # Safety
@@ -149,10 +158,10 @@ unsafe fn guarded<P: ClapPlugin>(host: *const clap_host) -> *const clap_plugin {
         ..framework
     };
     let (programs, scratch) = (ProgramChanges::new(), Scratch::new(ports));
-    let outputs = Outputs { programs, scratch, ports: Vec::with_capacity(ports) };
+    let outputs = Outputs { programs, scratch, ports: Vec::with_capacity(ports), active: false };
     let parameters = host_parameters::take_latest();
     let (values, outputs) = (OnceLock::new(), UnsafeCell::new(outputs));
-    let guard = Guard { table, framework, parameters, values, outputs };
+    let guard = Guard { table, framework, host, parameters, values, outputs };
     Box::into_raw(Box::new(guard)).cast()
 }
 
@@ -175,11 +184,13 @@ unsafe extern "C" fn destroy(plugin: *const clap_plugin) {
 
 unsafe extern "C" fn activate(plugin: *const clap_plugin, rate: f64, least: u32, most: u32) -> bool {
     // SAFETY: `activate` never overlaps with `process`, so that nobody else holds the outputs.
-    unsafe {
+    caught("activate", false, || unsafe {
         let guard = guard(plugin);
-        (*guard.outputs.get()).scratch.prepare(most as usize);
-        guard.framework.activate.is_some_and(|activate| activate(plugin, rate, least, most))
-    }
+        let outputs = &mut *guard.outputs.get();
+        outputs.scratch.prepare(most as usize);
+        outputs.active = guard.framework.activate.is_some_and(|activate| activate(plugin, rate, least, most));
+        outputs.active
+    })
 }
 
 /// # Real-time
@@ -189,13 +200,13 @@ unsafe extern "C" fn timed_process(
     call: *const clap_process,
 ) -> clap_process_status {
     // SAFETY: as for `process`.
-    unsafe {
+    caught("process", CLAP_PROCESS_ERROR, || unsafe {
         let frames = call.as_ref().map_or(0, |call| call.frames_count as usize);
         match &guard(plugin).parameters {
             Some(parameters) => parameters.deadlines().timed(frames, || process(plugin, call)),
             None => process(plugin, call),
         }
-    }
+    })
 }
 
 /// # Real-time
@@ -207,7 +218,11 @@ unsafe extern "C" fn process(plugin: *const clap_plugin, call: *const clap_proce
         let guard = guard(plugin);
         let Some(framework) = guard.framework.process else { return CLAP_PROCESS_ERROR };
         let Some(&(mut given)) = call.as_ref() else { return CLAP_PROCESS_ERROR };
-        let Outputs { programs, scratch, ports } = &mut *guard.outputs.get();
+        let Outputs { programs, scratch, ports, active } = &mut *guard.outputs.get();
+        // The framework panics when it processes before it was activated, where that cannot be caught.
+        if !*active {
+            return CLAP_PROCESS_ERROR;
+        }
         let events = given.in_events.as_ref().zip(guard.parameters.as_deref());
         let written = events.and_then(|(events, parameters)| programs.written_out(events, parameters));
         if let Some(events) = &written {
@@ -286,11 +301,15 @@ unsafe fn is_complete(call: &clap_process, ports: usize) -> bool {
 
 unsafe extern "C" fn get_extension(plugin: *const clap_plugin, id: *const c_char) -> *const c_void {
     // SAFETY: `id` is null or a string.
-    unsafe {
+    caught("get_extension", ptr::null(), || unsafe {
         if !id.is_null() && CStr::from_ptr(id) == CLAP_EXT_NOTE_NAME {
             return ptr::from_ref(&NOTE_NAMES).cast();
         }
         let guard = guard(plugin);
+        // The framework panics when it opens a window in a host that knows nothing of windows, where that cannot be caught.
+        if !id.is_null() && CStr::from_ptr(id) == CLAP_EXT_GUI && !has_windows(guard.host) {
+            return ptr::null();
+        }
         let found = guard.framework.get_extension.map_or(ptr::null(), |get| get(plugin, id));
         if found.is_null() || id.is_null() || CStr::from_ptr(id) != CLAP_EXT_PARAMS {
             return found;
@@ -298,13 +317,25 @@ unsafe extern "C" fn get_extension(plugin: *const clap_plugin, id: *const c_char
         let framework = &*found.cast::<clap_plugin_params>();
         let own = || clap_plugin_params { get_value: Some(value), ..*framework };
         ptr::from_ref(guard.values.get_or_init(own)).cast()
+    })
+}
+
+/// Whether a host has the extension for windows.
+///
+/// # Safety
+/// `host` is null or as the format says, and the plugin has been initialized.
+unsafe fn has_windows(host: *const clap_host) -> bool {
+    // SAFETY: as promised.
+    unsafe {
+        let ask = host.as_ref().and_then(|host| host.get_extension);
+        ask.is_some_and(|ask| !ask(host, CLAP_EXT_GUI.as_ptr()).is_null())
     }
 }
 
 /// A parameter's value without modulation, which the framework would add and hosts do not expect.
 unsafe extern "C" fn value(plugin: *const clap_plugin, id: clap_id, into: *mut f64) -> bool {
     // SAFETY: see `guard`; `into` is null or valid, and tables are what `get_extension` has made them.
-    unsafe {
+    caught("get_value", false, || unsafe {
         let guard = guard(plugin);
         let base = guard.parameters.as_ref().and_then(|parameters| parameters.unmodulated(id));
         match (base, into.as_mut()) {
@@ -319,13 +350,13 @@ unsafe extern "C" fn value(plugin: *const clap_plugin, id: clap_id, into: *mut f
                 table.and_then(|table| table.get_value).is_some_and(|value| value(plugin, id, into))
             }
         }
-    }
+    })
 }
 
 /// Notes with names, as the parameters and the user have them now.
 fn names(guard: &Guard) -> Vec<(u8, String)> {
     let named = || guard.parameters.as_ref().map(|parameters| parameters.note_names()).unwrap_or_default();
-    catch_unwind(AssertUnwindSafe(named)).unwrap_or_default()
+    caught("note_names", Vec::new(), named)
 }
 
 unsafe extern "C" fn note_count(plugin: *const clap_plugin) -> u32 {

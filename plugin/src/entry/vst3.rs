@@ -7,7 +7,6 @@
 
 use std::cell::UnsafeCell;
 use std::ffi::c_void;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
 use nice_plug::prelude::*;
@@ -24,13 +23,14 @@ use nice_plug::wrapper::vst3::vst3::Steinberg::Vst::{
 use nice_plug::wrapper::vst3::vst3::Steinberg::{
     FIDString, FUnknown, IBStream, IPlugView, IPluginBaseTrait, IPluginFactory, IPluginFactory2,
     IPluginFactory2Trait, IPluginFactory3, IPluginFactory3Trait, IPluginFactoryTrait, PClassInfo,
-    PClassInfo2, PClassInfoW, PFactoryInfo, TBool, TUID, int16, int32, kInvalidArgument, kResultOk, tresult,
-    uint32,
+    PClassInfo2, PClassInfoW, PFactoryInfo, TBool, TUID, int16, int32, kInternalError, kInvalidArgument,
+    kNotInitialized, kResultOk, tresult, uint32,
 };
 use nice_plug::wrapper::vst3::vst3::{Class, ComWrapper};
 use nice_plug::wrapper::vst3::{PluginInfo, Wrapper};
 
 use super::scratch::{CHANNELS, Scratch};
+use crate::guard::caught;
 use crate::host_parameters::{self, HostParameters};
 use crate::plugin::{Overhear, OverhearMulti};
 
@@ -45,12 +45,15 @@ struct Guard<P: Vst3Plugin> {
 struct Outputs {
     scratch: Scratch,
     buses: Vec<AudioBusBuffers>,
+    /// Whether processing has been set up.
+    ready: bool,
 }
 
 impl<P: Vst3Plugin> Guard<P> {
     fn new() -> Guard<P> {
         let ports = P::AUDIO_IO_LAYOUTS.first().map_or(0, |layout| 1 + layout.aux_output_ports.len());
-        let outputs = Outputs { scratch: Scratch::new(ports), buses: Vec::with_capacity(ports) };
+        let outputs =
+            Outputs { scratch: Scratch::new(ports), buses: Vec::with_capacity(ports), ready: false };
         let framework = Wrapper::new();
         let parameters = host_parameters::take_latest();
         Guard { framework, outputs: UnsafeCell::new(outputs), parameters }
@@ -70,21 +73,39 @@ impl<P: Vst3Plugin> Class for Guard<P> {
     );
 }
 
-/// Passes the calls of an interface on. Whoever calls has promised the format's contract, which is all that the
-/// framework asks.
+/// What a host gets to hear of a call that panicked.
+macro_rules! failed {
+    (tresult) => {
+        kInternalError
+    };
+    (ViewPointer) => {
+        std::ptr::null_mut()
+    };
+    ($number:ident) => {
+        $number::default()
+    };
+}
+
+/// Passes the calls of an interface on, and keeps panics from the host. Whoever calls has promised the format's contract,
+/// which is all that the framework asks.
 macro_rules! pass_on {
-    ($interface:ident { $($method:ident($($argument:ident: $type:ty),*) $(-> $result:ty)?;)* }) => {
+    ($interface:ident { $($method:ident($($argument:ident: $type:ty),*) -> $result:ident;)* }) => {
         impl<P: Vst3Plugin> $interface for Guard<P> {
-            $(pass_on!(@ $interface $method($($argument: $type),*) $(-> $result)?);)*
+            $(pass_on!(@ $interface $method($($argument: $type),*) -> $result);)*
         }
     };
-    (@ $interface:ident $method:ident($($argument:ident: $type:ty),*) $(-> $result:ty)?) => {
-        unsafe fn $method(&self, $($argument: $type),*) $(-> $result)? {
-            // SAFETY: see above.
-            unsafe { <Wrapper<P> as $interface>::$method(&self.framework, $($argument),*) }
+    (@ $interface:ident $method:ident($($argument:ident: $type:ty),*) -> $result:ident) => {
+        unsafe fn $method(&self, $($argument: $type),*) -> $result {
+            caught(concat!(stringify!($interface), "::", stringify!($method)), failed!($result), || {
+                // SAFETY: see above.
+                unsafe { <Wrapper<P> as $interface>::$method(&self.framework, $($argument),*) }
+            })
         }
     };
 }
+
+/// A window in the host's hands.
+type ViewPointer = *mut IPlugView;
 
 pass_on!(IPluginBaseTrait {
     initialize(context: *mut FUnknown) -> tresult;
@@ -116,7 +137,7 @@ pass_on!(IEditControllerTrait {
     getParamNormalized(id: ParamID) -> ParamValue;
     setParamNormalized(id: ParamID, value: ParamValue) -> tresult;
     setComponentHandler(handler: *mut IComponentHandler) -> tresult;
-    createView(name: FIDString) -> *mut IPlugView;
+    createView(name: FIDString) -> ViewPointer;
 });
 
 impl<P: Vst3Plugin> IAudioProcessorTrait for Guard<P> {
@@ -134,23 +155,25 @@ impl<P: Vst3Plugin> IAudioProcessorTrait for Guard<P> {
     unsafe fn setupProcessing(&self, setup: *mut ProcessSetup) -> tresult {
         // SAFETY: `setup` is null or valid; processing is set up only while nothing is processed, so that nobody
         // else holds the outputs.
-        unsafe {
+        caught("IAudioProcessorTrait::setupProcessing", kInternalError, || unsafe {
             if let Some(setup) = setup.as_ref() {
                 (*self.outputs.get()).scratch.prepare(setup.maxSamplesPerBlock.max(0) as usize);
             }
-            self.framework.setupProcessing(setup)
-        }
+            let result = self.framework.setupProcessing(setup);
+            (*self.outputs.get()).ready |= result == kResultOk;
+            result
+        })
     }
 
     unsafe fn process(&self, data: *mut ProcessData) -> tresult {
         // SAFETY: as `complete` wants it.
-        unsafe {
+        caught("IAudioProcessorTrait::process", kInternalError, || unsafe {
             let frames = data.as_ref().map_or(0, |data| data.numSamples.max(0) as usize);
             match &self.parameters {
                 Some(parameters) => parameters.deadlines().timed(frames, || self.complete(data)),
                 None => self.complete(data),
             }
-        }
+        })
     }
 }
 
@@ -164,7 +187,11 @@ impl<P: Vst3Plugin> Guard<P> {
         // `setupProcessing`, so that nobody else holds the outputs.
         unsafe {
             let Some(given) = data.as_mut() else { return kInvalidArgument };
-            let Outputs { scratch, buses } = &mut *self.outputs.get();
+            let Outputs { scratch, buses, ready } = &mut *self.outputs.get();
+            // The framework panics when it processes before that.
+            if !*ready {
+                return kNotInitialized;
+            }
             // A call without samples only brings parameters.
             if given.numSamples <= 0 || is_complete(given, scratch.ports()) {
                 return self.framework.process(data);
@@ -182,8 +209,8 @@ impl<P: Vst3Plugin> Guard<P> {
             }));
             let (outputs, count) = (given.outputs, given.numOutputs);
             (given.outputs, given.numOutputs) = (buses.as_mut_ptr(), buses.len() as int32);
-            let result = self.framework.process(data);
-            // The host's again: it may keep the structure from call to call.
+            let result = caught("process", kInternalError, || self.framework.process(data));
+            // The host's again, even after a panic: it may keep the structure from call to call.
             (given.outputs, given.numOutputs) = (outputs, count);
             result
         }
@@ -260,15 +287,17 @@ impl Factory {
     /// # Safety
     /// `into` is null or valid.
     unsafe fn describe<T>(&self, index: int32, into: *mut T, describe: fn(&PluginInfo) -> T) -> tresult {
-        let plugin = usize::try_from(index).ok().and_then(|index| self.plugins.get(index));
-        // SAFETY: as promised.
-        match (plugin, unsafe { into.as_mut() }) {
-            (Some(plugin), Some(into)) => {
-                *into = describe(plugin);
-                kResultOk
+        caught("IPluginFactory", kInternalError, || {
+            let plugin = usize::try_from(index).ok().and_then(|index| self.plugins.get(index));
+            // SAFETY: as promised.
+            match (plugin, unsafe { into.as_mut() }) {
+                (Some(plugin), Some(into)) => {
+                    *into = describe(plugin);
+                    kResultOk
+                }
+                _ => kInvalidArgument,
             }
-            _ => kInvalidArgument,
-        }
+        })
     }
 }
 
@@ -297,13 +326,13 @@ impl IPluginFactoryTrait for Factory {
             return kInvalidArgument;
         }
         // SAFETY: both ids are 16 bytes, and `into` is valid, by the format's contract.
-        unsafe {
+        caught("IPluginFactory::createInstance", kInternalError, || unsafe {
             match &*class.cast::<[u8; 16]>() {
                 class if class == self.plugins[0].cid => made(Guard::<Overhear>::new(), interface, into),
                 class if class == self.plugins[1].cid => made(Guard::<OverhearMulti>::new(), interface, into),
                 _ => kInvalidArgument,
             }
-        }
+        })
     }
 }
 
@@ -339,15 +368,24 @@ impl IPluginFactory3Trait for Factory {
 
 #[unsafe(no_mangle)]
 extern "system" fn GetPluginFactory() -> *mut c_void {
-    let factory = ComWrapper::new(Factory::new()).to_com_ptr::<IPluginFactory>();
-    factory.map_or(std::ptr::null_mut(), |factory| factory.into_raw().cast())
+    caught("GetPluginFactory", std::ptr::null_mut(), || {
+        let factory = ComWrapper::new(Factory::new()).to_com_ptr::<IPluginFactory>();
+        factory.map_or(std::ptr::null_mut(), |factory| factory.into_raw().cast())
+    })
+}
+
+/// What every system's entry does.
+fn loaded() -> bool {
+    caught("module entry", false, || {
+        setup_logger::<Overhear>();
+        true
+    })
 }
 
 #[cfg(all(target_family = "unix", not(target_os = "macos")))]
 #[unsafe(no_mangle)]
 extern "C" fn ModuleEntry(_library: *mut c_void) -> bool {
-    setup_logger::<Overhear>();
-    true
+    loaded()
 }
 
 #[cfg(all(target_family = "unix", not(target_os = "macos")))]
@@ -359,8 +397,7 @@ extern "C" fn ModuleExit() -> bool {
 #[cfg(target_os = "macos")]
 #[unsafe(no_mangle)]
 extern "C" fn bundleEntry(_bundle: *mut c_void) -> bool {
-    setup_logger::<Overhear>();
-    true
+    loaded()
 }
 
 #[cfg(target_os = "macos")]
@@ -372,8 +409,7 @@ extern "C" fn bundleExit() -> bool {
 #[cfg(target_os = "windows")]
 #[unsafe(no_mangle)]
 extern "system" fn InitDll() -> bool {
-    setup_logger::<Overhear>();
-    true
+    loaded()
 }
 
 #[cfg(target_os = "windows")]

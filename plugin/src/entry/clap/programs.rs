@@ -2,14 +2,15 @@
 //!
 //! The framework lets an instrument hear of a program change but not move its own parameters. So what it hears is
 //! written anew: before each program change stand the values of its preset, as if the host had sent them, and
-//! the host is told of the same values.
+//! the host is told of the same values. System exclusive messages without bytes are left out on the way.
 
 use std::ffi::c_void;
 use std::ptr;
 
 use clap_sys::events::{
-    CLAP_CORE_EVENT_SPACE_ID, CLAP_EVENT_MIDI, CLAP_EVENT_PARAM_VALUE, clap_event_header, clap_event_midi,
-    clap_event_param_value, clap_input_events, clap_output_events,
+    CLAP_CORE_EVENT_SPACE_ID, CLAP_EVENT_MIDI, CLAP_EVENT_MIDI_SYSEX, CLAP_EVENT_PARAM_VALUE,
+    clap_event_header, clap_event_midi, clap_event_midi_sysex, clap_event_param_value, clap_input_events,
+    clap_output_events,
 };
 
 use crate::host_parameters::HostParameters;
@@ -63,11 +64,14 @@ impl ProgramChanges {
                     parameters.with_program(number, channel, |_| ()).is_some()
                 })
             };
-            if !(0..count).any(|index| calls(event(index))) {
+            if !(0..count).any(|index| calls(event(index)) || is_empty_message(event(index))) {
                 return None;
             }
             for index in 0..count {
                 let header = event(index);
+                if is_empty_message(header) {
+                    continue;
+                }
                 if let Some((number, channel)) = program_of(header) {
                     let time = (*header).time;
                     parameters
@@ -127,6 +131,21 @@ impl ProgramChanges {
             unsafe { push(output, &raw const value.header) };
         }
         self.values.clear();
+    }
+}
+
+/// Whether an event is a system exclusive message without bytes, on which the framework panics where that cannot be caught.
+///
+/// # Safety
+/// `header` is null or valid.
+unsafe fn is_empty_message(header: *const clap_event_header) -> bool {
+    // SAFETY: as promised; an event of this type is of this form.
+    unsafe {
+        header.as_ref().is_some_and(|known| {
+            known.space_id == CLAP_CORE_EVENT_SPACE_ID
+                && known.type_ == CLAP_EVENT_MIDI_SYSEX
+                && (*header.cast::<clap_event_midi_sysex>()).buffer.is_null()
+        })
     }
 }
 

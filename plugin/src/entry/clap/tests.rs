@@ -12,6 +12,8 @@ use overhear_engine::kit::OUTPUTS;
 use super::*;
 use overhear_player::kit_document::standard_slot;
 
+mod panics;
+
 pub(in crate::entry) const FRAMES: usize = 512;
 const PORTS: usize = 1 + OUTPUTS;
 
@@ -71,11 +73,16 @@ impl Instance {
             key: 38,
             velocity: 0.8,
         };
+        self.play(&note.header, ports)
+    }
+
+    /// One buffer with an event, into these ports.
+    fn play(&mut self, event: &clap_event_header, ports: &mut [clap_audio_buffer]) -> clap_process_status {
         unsafe extern "C" fn one(_list: *const clap_input_events) -> u32 {
             1
         }
         unsafe extern "C" fn get(list: *const clap_input_events, _index: u32) -> *const clap_event_header {
-            // SAFETY: the list's context is the note below.
+            // SAFETY: the list's context is the event.
             unsafe { (*list).ctx.cast_const().cast() }
         }
         unsafe extern "C" fn refuse(
@@ -85,7 +92,7 @@ impl Instance {
             false
         }
         let input = clap_input_events {
-            ctx: ptr::from_ref(&note).cast_mut().cast(),
+            ctx: ptr::from_ref(event).cast_mut().cast(),
             size: Some(one),
             get: Some(get),
         };

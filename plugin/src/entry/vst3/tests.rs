@@ -13,6 +13,8 @@ use super::*;
 use crate::entry::clap::tests::{FRAMES, Instance, struck};
 use overhear_player::kit_document::standard_slot;
 
+mod panics;
+
 const BUSES: usize = 1 + OUTPUTS;
 
 /// Processing instance of the instrument with an output for every piece.

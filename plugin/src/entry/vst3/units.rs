@@ -20,13 +20,15 @@ const LIST: ProgramListID = 1;
 impl<P: Vst3Plugin> IUnitInfoTrait for Guard<P> {
     unsafe fn getUnitCount(&self) -> int32 {
         // SAFETY: passed on.
-        1 + unsafe { self.framework.getUnitCount() }
+        1 + caught("IUnitInfoTrait::getUnitCount", 0, || unsafe { self.framework.getUnitCount() })
     }
 
     unsafe fn getUnitInfo(&self, index: int32, info: *mut UnitInfo) -> tresult {
         if index != 0 {
             // SAFETY: passed on, behind the root.
-            return unsafe { self.framework.getUnitInfo(index - 1, info) };
+            return caught("IUnitInfoTrait::getUnitInfo", kInternalError, || unsafe {
+                self.framework.getUnitInfo(index - 1, info)
+            });
         }
         // SAFETY: `info` is null or valid.
         let Some(info) = (unsafe { info.as_mut() }) else { return kInvalidArgument };
@@ -76,7 +78,9 @@ impl<P: Vst3Plugin> IUnitInfoTrait for Guard<P> {
         let (LIST, 0, Some(name)) = (list, index, unsafe { name.as_mut() }) else { return kInvalidArgument };
         let named =
             || self.parameters.as_ref()?.note_names().into_iter().find(|(note, _)| i16::from(*note) == pitch);
-        let Ok(Some((_, title))) = catch_unwind(AssertUnwindSafe(named)) else { return kInvalidArgument };
+        let Some((_, title)) = caught("IUnitInfoTrait::getProgramPitchName", None, named) else {
+            return kInvalidArgument;
+        };
         write(&title, name);
         kResultOk
     }
