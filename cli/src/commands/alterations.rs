@@ -15,25 +15,25 @@ pub struct Alterations {
     /// Switch all damping and radiation off
     #[arg(long)]
     pub lossless: bool,
-    /// Switch tension modulation and the coupling of the modes off
+    /// Switch tension modulation and mode coupling off
     #[arg(long)]
     pub linear: bool,
     /// Build perfectly round bodies, whose pairs of modes share one frequency
     #[arg(long)]
     pub unsplit: bool,
-    /// Take off what closes a drum: the resonant head, or the timpani's kettle
+    /// Remove the resonant head, or the timpani's kettle
     #[arg(long)]
     pub open: bool,
-    /// Tune a drum's other head to the struck one's pitch times a ratio
+    /// Tune a drum's resonant head to the batter head's pitch times this ratio, 0.5 to 2.5
     #[arg(long, value_name = "RATIO", value_parser = ratio)]
     pub resonant_ratio: Option<f64>,
-    /// Make a drum's tension so uneven: mean relative difference of the two members of a pair, up to .05
+    /// Uneven tension of a drum: mean relative difference between the two modes of a pair, up to .05
     #[arg(long, value_name = "SHARE", value_parser = unevenness)]
     pub uneven: Option<f64>,
-    /// What muffles a drum: pillow, gel, ring, or gel@R,DEG at a place
+    /// Muffling of a drum: pillow, gel, ring, or gel@R,DEG at a position
     #[arg(long, value_name = "MUFFLER", value_parser = muffler)]
     pub muffler: Option<Muffler>,
-    /// Leave out what drum heads do above their complete sets of modes
+    /// Leave out the drum heads' sound above their complete sets of modes
     #[arg(long)]
     pub no_high_band: bool,
 }

@@ -69,13 +69,13 @@ pub enum Command {
 /// What to do with kits.
 #[derive(Debug, Subcommand)]
 pub enum KitTask {
-    /// Print the complete file of a kit: the standard one if nothing is named
+    /// Print the complete file of a kit, by default the standard kit
     Show {
-        /// A preset, whose kit is meant, or a kit file
+        /// The name of a preset, whose kit is printed, or a kit file
         #[arg(value_name = "NAME|FILE")]
         what: Option<String>,
     },
-    /// Begin a kit file: the standard kit, with remarks on how to change it
+    /// Start a kit file: the standard kit, with comments on how to change it
     New {
         /// The file to write
         file: PathBuf,
@@ -86,9 +86,9 @@ pub enum KitTask {
         #[arg(required = true, value_name = "FILE")]
         files: Vec<PathBuf>,
     },
-    /// List every constant that was fitted, to what, and what else it moves
+    /// List every fitted constant, what it was fitted to, and what else it affects
     Fitted {
-        /// Print one JSON list (see docs/commands.md)
+        /// Print one JSON list
         #[arg(long)]
         json: bool,
     },
@@ -102,25 +102,25 @@ pub enum PresetTask {
         /// A name
         name: String,
     },
-    /// Save a preset from another one and from values
+    /// Save a preset made from another preset and changed values
     Save {
-        /// Its name
+        /// Name of the new preset
         name: String,
         /// The preset to start from
         #[arg(long, value_name = "NAME", default_value = "default")]
         from: String,
-        /// Move a parameter, as in kick_tune=60; repeatable
+        /// Set a parameter, such as kick_tune=60; can be repeated
         #[arg(long, value_name = "NAME=VALUE")]
         set: Vec<String>,
-        /// What it is for, in a line
+        /// A description of one line
         #[arg(long, default_value = "")]
         about: String,
     },
     /// Give one of your presets another name
     Rename {
-        /// The name it has
+        /// The present name
         from: String,
-        /// The name it gets
+        /// The new name
         to: String,
     },
     /// Delete one of your presets
@@ -128,7 +128,7 @@ pub enum PresetTask {
         /// A name
         name: String,
     },
-    /// Check files, or all presets if none is given
+    /// Check preset files, or all presets if none is given
     Check {
         /// Files
         files: Vec<PathBuf>,
@@ -141,51 +141,51 @@ pub struct RenderArguments {
     /// MIDI files, or folders of them
     #[arg(required = true, value_name = "SONG.mid")]
     songs: Vec<PathBuf>,
-    /// The WAV file to write; a folder for several songs
+    /// The WAV file to write, or a folder if there are several songs
     #[arg(short, long, value_name = "OUT.wav")]
     output: PathBuf,
-    /// Start from a preset: a name that `presets` lists, or a file
+    /// Start from a preset: a name listed by `presets`, or a file
     #[arg(long, value_name = "NAME|FILE.toml", default_value = "default")]
     preset: String,
-    /// Play the kit of a file, in place of the preset's
+    /// Play the kit in this file instead of the preset's
     #[arg(long, value_name = "FILE")]
     kit: Option<PathBuf>,
-    /// Move a parameter before the start, as in kick_tune=60 or ride_level=-6; repeatable
+    /// Set a parameter before the start, such as kick_tune=60 or ride_level=-6; can be repeated
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
     /// Sample rate, Hz
     #[arg(long, value_name = "HZ", default_value = "48000", value_parser = rate)]
     rate: u32,
-    /// Samples rendered at a time, 1 to 8192 or `random`; does not change the sound
+    /// Buffer length in samples, 1 to 8192 or `random`; does not change the sound
     #[arg(long, value_name = "N|random", default_value = "512")]
     block: Blocks,
-    /// Write one more WAV file per microphone into this folder
+    /// Also write one WAV file per microphone into this folder
     #[arg(long, value_name = "DIR")]
     stems: Option<PathBuf>,
     /// Bits per sample
     #[arg(long, default_value = "32f")]
     bits: Bits,
-    /// Play the engine itself (the default)
+    /// Play the built-in engine (the default)
     #[arg(long, conflicts_with = "clap")]
     engine: bool,
     /// Play the plugin in an embedded host: a CLAP bundle, or `installed` for the one in a standard plugin folder; the
     /// samples are the same
     #[arg(long, value_name = "PATH|installed")]
     clap: Option<PathBuf>,
-    /// Put a piece, a pair of microphones or a close microphone somewhere, metres: kick=0,.3,-.2,
-    /// overheads=-1,2,0,1,2,0, snare-mic=-.4,.8,-.3; repeatable
+    /// Move a piece, a pair of microphones or a close microphone to a position in metres: kick=0,.3,-.2,
+    /// overheads=-1,2,0,1,2,0, snare-mic=-.4,.8,-.3; can be repeated
     #[arg(long, value_name = "NAME=X,Y,Z", allow_hyphen_values = true)]
     place: Vec<String>,
-    /// Threads that render pieces beside the first, 0 to 3; does not change the sound
+    /// Additional threads that render pieces, 0 to 3; does not change the sound
     #[arg(long, alias = "workers", value_name = "N", value_parser = clap::value_parser!(u8).range(0..=3))]
     render_threads: Option<u8>,
-    /// Songs rendered at once; as many as there are cores if not given
+    /// Songs rendered at the same time; by default one per processor core
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
-    /// Sound after the last note, s
+    /// Length of the sound after the last note, s
     #[arg(long, value_name = "S", default_value = "5", value_parser = tail)]
     tail: f64,
-    /// Play one MIDI channel only, 1 to 16
+    /// Play only this MIDI channel, 1 to 16
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=16))]
     channel: Option<u8>,
 }
@@ -225,7 +225,7 @@ impl RenderArguments {
     }
 }
 
-/// How far up a cymbal's modes are coupled.
+/// Highest coupled mode of a cymbal.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 pub enum Quality {
     /// To 1 kHz.
@@ -255,23 +255,23 @@ pub struct HearArguments {
     /// Name of a piece of the kit: kick, snare, rack-tom, floor-tom, crash, ride, splash, timpani or hi-hat of the standard
     /// one
     piece: String,
-    /// Take the piece from the kit of a file
+    /// Take the piece from the kit in this file
     #[arg(long, value_name = "FILE")]
     kit: Option<PathBuf>,
     /// Speed of the stroke, m/s, up to 25
     #[arg(long, value_name = "M/S", default_value_t = hear::DEFAULT_SPEED, value_parser = speed)]
     speed: f64,
-    /// Distance of the place from the centre, share of the radius; where it is played if not given
+    /// Distance from the centre, 0 to 1 of the radius; by default where the piece is usually played
     #[arg(long, value_name = "R", value_parser = share)]
     at: Option<f64>,
-    /// Direction of the place, degrees from the player's side
+    /// Direction of the strike position, degrees from the player's side
     #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = angle)]
     angle: Option<f64>,
     /// stick, shoulder, nylon, felt-beater, plastic-beater, timpani-mallet, hard-mallet, yarn-mallet, rimshot or
-    /// cross-stick; what the piece is played with if not given
+    /// cross-stick; by default what the piece is usually played with
     #[arg(long, value_name = "NAME")]
     striker: Option<String>,
-    /// Tune or muffle the piece, as in snare_tune=240 or ride_muffle=.3; repeatable
+    /// Tune or muffle the piece, such as snare_tune=240 or ride_muffle=.3; can be repeated
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
     /// Sample rate, Hz
@@ -280,15 +280,15 @@ pub struct HearArguments {
     /// Length of the sound, s
     #[arg(long, value_name = "S", default_value = "4", value_parser = seconds)]
     seconds: f64,
-    /// Print one JSON object (see docs/commands.md)
+    /// Print one JSON object
     #[arg(long)]
     pub json: bool,
-    /// Write the sound as 32-bit float, 20 Pa being full scale
+    /// Write the sound as 32-bit float; full scale is 20 Pa
     #[arg(long, value_name = "OUT.wav")]
     pub wav: Option<PathBuf>,
     #[command(flatten)]
     alterations: Alterations,
-    /// How far up a cymbal's modes are coupled
+    /// Highest coupled mode of a cymbal
     #[arg(long, default_value = "offline")]
     quality: Quality,
 }
@@ -337,22 +337,22 @@ pub struct ModesArguments {
     /// Name of a piece of the kit: kick, snare, rack-tom, floor-tom, crash, ride, splash, timpani or hi-hat of the standard
     /// one
     piece: String,
-    /// Take the piece from the kit of a file
+    /// Take the piece from the kit in this file
     #[arg(long, value_name = "FILE")]
     kit: Option<PathBuf>,
-    /// Print one JSON object (see docs/commands.md)
+    /// Print one JSON object
     #[arg(long)]
     pub json: bool,
-    /// Tune or muffle the piece, as in snare_tune=240 or ride_muffle=.3; repeatable
+    /// Tune or muffle the piece, such as snare_tune=240 or ride_muffle=.3; can be repeated
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
     /// Sample rate, Hz
     #[arg(long, value_name = "HZ", default_value = "48000", value_parser = rate)]
     rate: u32,
-    /// Take off what closes a drum: the resonant head, or the timpani's kettle
+    /// Remove the resonant head, or the timpani's kettle
     #[arg(long)]
     open: bool,
-    /// Perfectly round bodies, whose pairs of modes share one frequency
+    /// Build perfectly round bodies, whose pairs of modes share one frequency
     #[arg(long)]
     unsplit: bool,
 }
@@ -373,28 +373,28 @@ impl ModesArguments {
 /// Arguments of `bench`.
 #[derive(Debug, Args)]
 pub struct BenchArguments {
-    /// Print one JSON object (see docs/commands.md)
+    /// Print one JSON object
     #[arg(long)]
     pub json: bool,
-    /// Measure the kit of a file
+    /// Measure the kit in this file
     #[arg(long, value_name = "FILE")]
     kit: Option<PathBuf>,
-    /// Times that everything is measured
+    /// Number of measurements of everything
     #[arg(long, value_name = "N", default_value_t = bench::RUNS as u16, value_parser = clap::value_parser!(u16).range(1..))]
     runs: u16,
-    /// How far up the modes of the kit's cymbals are coupled
+    /// Highest coupled mode of the kit's cymbals
     #[arg(long, default_value = "standard")]
     quality: Quality,
     /// Sample rate, Hz
     #[arg(long, value_name = "HZ", default_value_t = bench::RATE as u32, value_parser = clap::value_parser!(u32).range(RATES))]
     rate: u32,
-    /// Use no wider instruction set
+    /// Widest instruction set to use
     #[arg(long)]
     simd: Option<Simd>,
-    /// Set the costs beside those of an older report, written with --json
+    /// Compare with an older report, written with --json
     #[arg(long, value_name = "OLD.json")]
     compare: Option<PathBuf>,
-    /// Count instructions, too (needs valgrind)
+    /// Also count instructions (needs valgrind)
     #[arg(long)]
     callgrind: bool,
 }
