@@ -172,7 +172,7 @@ fn a_piece_reset_plays_as_a_new_one() {
         used.reset();
         assert_eq!(total_energy(&used), 0.0);
         let roll = |piece: &mut Piece| -> Vec<f32> {
-            let mut chance = Chance::new(5);
+            let mut chance = Chance::new(6);
             let stroke = |_| {
                 piece.strike(&chance.stroke(6.0));
                 render(piece, 0.003, RATES[0])

@@ -15,25 +15,25 @@ pub struct Alterations {
     /// Turn all damping and radiation off
     #[arg(long)]
     pub lossless: bool,
-    /// Turn tension modulation and mode coupling off
+    /// Switch tension modulation and mode coupling off
     #[arg(long)]
     pub linear: bool,
     /// Build perfectly round bodies, whose pairs of modes share one frequency
     #[arg(long)]
     pub unsplit: bool,
-    /// Remove the resonant head of a drum, or the kettle of a timpani
+    /// Remove the resonant head, or the timpani's kettle
     #[arg(long)]
     pub open: bool,
-    /// Pitch of a drum's resonant head relative to the struck head
+    /// Tune a drum's resonant head to the batter head's pitch times this ratio, 0.5 to 2.5
     #[arg(long, value_name = "RATIO", value_parser = ratio)]
     pub resonant_ratio: Option<f64>,
-    /// Mean relative frequency difference of the two modes of each pair of a drum, up to .05
+    /// Uneven tension of a drum: mean relative difference between the two modes of a pair, up to .05
     #[arg(long, value_name = "SHARE", value_parser = unevenness)]
     pub uneven: Option<f64>,
-    /// Muffler of a drum: pillow, gel, ring, or gel@R,DEG at a position
+    /// Muffling of a drum: pillow, gel, ring, or gel@R,DEG at a position
     #[arg(long, value_name = "MUFFLER", value_parser = muffler)]
     pub muffler: Option<Muffler>,
-    /// Leave out the sound of drum heads above their complete sets of modes
+    /// Leave out the drum heads' sound above their complete sets of modes
     #[arg(long)]
     pub no_high_band: bool,
 }

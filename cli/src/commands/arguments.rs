@@ -69,13 +69,13 @@ pub enum Command {
 /// Tasks for kits.
 #[derive(Debug, Subcommand)]
 pub enum KitTask {
-    /// Print the complete file of a kit; default: the standard kit
+    /// Print the complete file of a kit, by default the standard kit
     Show {
-        /// A preset with a kit, or a kit file
+        /// The name of a preset, whose kit is printed, or a kit file
         #[arg(value_name = "NAME|FILE")]
         what: Option<String>,
     },
-    /// Create a kit file: the standard kit, with comments on how to change it
+    /// Start a kit file: the standard kit, with comments on how to change it
     New {
         /// The file to write
         file: PathBuf,
@@ -88,7 +88,7 @@ pub enum KitTask {
     },
     /// List every fitted constant, what it was fitted to, and what else it affects
     Fitted {
-        /// Print one JSON list (see docs/commands.md)
+        /// Print one JSON list
         #[arg(long)]
         json: bool,
     },
@@ -102,25 +102,25 @@ pub enum PresetTask {
         /// A name
         name: String,
     },
-    /// Save a preset from another one and from values
+    /// Save a preset made from another preset and changed values
     Save {
-        /// Its name
+        /// Name of the new preset
         name: String,
         /// The preset to start from
         #[arg(long, value_name = "NAME", default_value = "default")]
         from: String,
-        /// Set a parameter, as in kick_tune=60; repeatable
+        /// Set a parameter, such as kick_tune=60; can be repeated
         #[arg(long, value_name = "NAME=VALUE")]
         set: Vec<String>,
-        /// A description in one line
+        /// A description of one line
         #[arg(long, default_value = "")]
         about: String,
     },
     /// Rename one of your presets
     Rename {
-        /// Its present name
+        /// The present name
         from: String,
-        /// Its new name
+        /// The new name
         to: String,
     },
     /// Delete one of your presets
@@ -128,7 +128,7 @@ pub enum PresetTask {
         /// A name
         name: String,
     },
-    /// Check preset files; default: all presets
+    /// Check preset files, or all presets if none is given
     Check {
         /// Files
         files: Vec<PathBuf>,
@@ -141,22 +141,22 @@ pub struct RenderArguments {
     /// MIDI files, or folders of them
     #[arg(required = true, value_name = "SONG.mid")]
     songs: Vec<PathBuf>,
-    /// The WAV file to write; a folder for several songs
+    /// The WAV file to write, or a folder if there are several songs
     #[arg(short, long, value_name = "OUT.wav")]
     output: PathBuf,
-    /// Start from a preset: a name that `presets` lists, or a file
+    /// Start from a preset: a name listed by `presets`, or a file
     #[arg(long, value_name = "NAME|FILE.toml", default_value = "default")]
     preset: String,
-    /// Play the kit of a file instead of a kit in the preset
+    /// Play the kit in this file instead of the preset's
     #[arg(long, value_name = "FILE")]
     kit: Option<PathBuf>,
-    /// Set a parameter before the start, as in kick_tune=60 or ride_level=-6; repeatable
+    /// Set a parameter before the start, such as kick_tune=60 or ride_level=-6; can be repeated
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
     /// Sample rate, Hz
     #[arg(long, value_name = "HZ", default_value = "48000", value_parser = rate)]
     rate: u32,
-    /// Samples rendered at a time, 1 to 8192 or `random`; does not change the sound
+    /// Buffer length in samples, 1 to 8192 or `random`; does not change the sound
     #[arg(long, value_name = "N|random", default_value = "512")]
     block: Blocks,
     /// Also write one WAV file per microphone into this folder
@@ -165,27 +165,27 @@ pub struct RenderArguments {
     /// Bits per sample
     #[arg(long, default_value = "32f")]
     bits: Bits,
-    /// Play through the engine directly (the default)
+    /// Play the built-in engine (the default)
     #[arg(long, conflicts_with = "clap")]
     engine: bool,
     /// Play the plugin in an embedded host: a CLAP bundle, or `installed` for the one in a standard plugin folder; the
     /// samples are the same
     #[arg(long, value_name = "PATH|installed")]
     clap: Option<PathBuf>,
-    /// Position of a piece, a pair of microphones or a close microphone, metres: kick=0,.3,-.2,
-    /// overheads=-1,2,0,1,2,0, snare-mic=-.4,.8,-.3; repeatable
+    /// Move a piece, a pair of microphones or a close microphone to a position in metres: kick=0,.3,-.2,
+    /// overheads=-1,2,0,1,2,0, snare-mic=-.4,.8,-.3; can be repeated
     #[arg(long, value_name = "NAME=X,Y,Z", allow_hyphen_values = true)]
     place: Vec<String>,
     /// Additional threads that render pieces, 0 to 3; does not change the sound
     #[arg(long, alias = "workers", value_name = "N", value_parser = clap::value_parser!(u8).range(0..=3))]
     render_threads: Option<u8>,
-    /// Songs rendered at the same time; default: the number of cores
+    /// Songs rendered at the same time; by default one per processor core
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
-    /// Sound after the last note, s
+    /// Length of the sound after the last note, s
     #[arg(long, value_name = "S", default_value = "5", value_parser = tail)]
     tail: f64,
-    /// Play one MIDI channel only, 1 to 16
+    /// Play only this MIDI channel, 1 to 16
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=16))]
     channel: Option<u8>,
 }
@@ -225,7 +225,7 @@ impl RenderArguments {
     }
 }
 
-/// Highest coupled cymbal mode.
+/// Highest coupled mode of a cymbal.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 pub enum Quality {
     /// To 1 kHz.
@@ -255,23 +255,23 @@ pub struct HearArguments {
     /// Name of a piece of the kit: kick, snare, rack-tom, floor-tom, crash, ride, splash, timpani or hi-hat of the standard
     /// one
     piece: String,
-    /// Take the piece from the kit of a file
+    /// Take the piece from the kit in this file
     #[arg(long, value_name = "FILE")]
     kit: Option<PathBuf>,
     /// Speed of the stroke, m/s, up to 25
     #[arg(long, value_name = "M/S", default_value_t = hear::DEFAULT_SPEED, value_parser = speed)]
     speed: f64,
-    /// Distance from the centre, relative to the radius; default: that of the piece's ordinary note
+    /// Distance from the centre, 0 to 1 of the radius; by default where the piece is usually played
     #[arg(long, value_name = "R", value_parser = share)]
     at: Option<f64>,
     /// Direction of the strike position, degrees from the player's side
     #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = angle)]
     angle: Option<f64>,
     /// stick, shoulder, nylon, felt-beater, plastic-beater, timpani-mallet, hard-mallet, yarn-mallet, rimshot or
-    /// cross-stick; default: that of the piece's ordinary note
+    /// cross-stick; by default what the piece is usually played with
     #[arg(long, value_name = "NAME")]
     striker: Option<String>,
-    /// Tune or muffle the piece, as in snare_tune=240 or ride_muffle=.3; repeatable
+    /// Tune or muffle the piece, such as snare_tune=240 or ride_muffle=.3; can be repeated
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
     /// Sample rate, Hz
@@ -280,7 +280,7 @@ pub struct HearArguments {
     /// Length of the sound, s
     #[arg(long, value_name = "S", default_value = "4", value_parser = seconds)]
     seconds: f64,
-    /// Print one JSON object (see docs/commands.md)
+    /// Print one JSON object
     #[arg(long)]
     pub json: bool,
     /// Write the sound as 32-bit float; full scale is 20 Pa
@@ -288,7 +288,7 @@ pub struct HearArguments {
     pub wav: Option<PathBuf>,
     #[command(flatten)]
     alterations: Alterations,
-    /// Highest coupled cymbal mode
+    /// Highest coupled mode of a cymbal
     #[arg(long, default_value = "offline")]
     quality: Quality,
 }
@@ -337,22 +337,22 @@ pub struct ModesArguments {
     /// Name of a piece of the kit: kick, snare, rack-tom, floor-tom, crash, ride, splash, timpani or hi-hat of the standard
     /// one
     piece: String,
-    /// Take the piece from the kit of a file
+    /// Take the piece from the kit in this file
     #[arg(long, value_name = "FILE")]
     kit: Option<PathBuf>,
-    /// Print one JSON object (see docs/commands.md)
+    /// Print one JSON object
     #[arg(long)]
     pub json: bool,
-    /// Tune or muffle the piece, as in snare_tune=240 or ride_muffle=.3; repeatable
+    /// Tune or muffle the piece, such as snare_tune=240 or ride_muffle=.3; can be repeated
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
     /// Sample rate, Hz
     #[arg(long, value_name = "HZ", default_value = "48000", value_parser = rate)]
     rate: u32,
-    /// Remove the resonant head of a drum, or the kettle of a timpani
+    /// Remove the resonant head, or the timpani's kettle
     #[arg(long)]
     open: bool,
-    /// Perfectly round bodies, whose pairs of modes share one frequency
+    /// Build perfectly round bodies, whose pairs of modes share one frequency
     #[arg(long)]
     unsplit: bool,
 }
@@ -373,13 +373,13 @@ impl ModesArguments {
 /// Arguments of `bench`.
 #[derive(Debug, Args)]
 pub struct BenchArguments {
-    /// Print one JSON object (see docs/commands.md)
+    /// Print one JSON object
     #[arg(long)]
     pub json: bool,
-    /// Measure the kit of a file
+    /// Measure the kit in this file
     #[arg(long, value_name = "FILE")]
     kit: Option<PathBuf>,
-    /// Number of runs
+    /// Number of measurements of everything
     #[arg(long, value_name = "N", default_value_t = bench::RUNS as u16, value_parser = clap::value_parser!(u16).range(1..))]
     runs: u16,
     /// Highest coupled mode of the kit's cymbals
@@ -391,7 +391,7 @@ pub struct BenchArguments {
     /// Widest instruction set to use
     #[arg(long)]
     simd: Option<Simd>,
-    /// Print the costs of an older report, written with --json, beside the new ones
+    /// Compare with an older report, written with --json
     #[arg(long, value_name = "OLD.json")]
     compare: Option<PathBuf>,
     /// Also count instructions (needs valgrind)

@@ -216,7 +216,7 @@ pub fn fine_strokes() -> [(&'static str, [PieceSpec; 2], Strike); 2] {
 
 /// Where and how hard the lossless piece of a slot is struck.
 pub fn trial(slot: usize, striker: Striker) -> Strike {
-    let mut chance = Chance::new(slot as u64 * 100 + striker as u64);
+    let mut chance = Chance::new(1000 + slot as u64 * 100 + striker as u64);
     stroke(striker, chance.between(1.0, 6.0), chance.between(0.05, 0.98), chance.between(0.0, 6.0))
 }
 

@@ -19,11 +19,18 @@ const PYTHON_PACKAGES: [&str; 3] = ["dawdreamer>=0.8.3", "numpy", "pedalboard>=0
 /// Naming what is missing.
 pub fn run(target: &Path) -> Result<PathBuf> {
     heading("set-up");
-    system::ensure(&[LINKER, XVFB, WINDOW_LIBRARIES, SOUND_HEADERS, PYTHON, HOST_LIBRARIES])?;
-    for component in ["fmt", "clippy"] {
-        rust_component(component)?;
-    }
+    system::ensure(&[XVFB, WINDOW_LIBRARIES, PYTHON, HOST_LIBRARIES])?;
+    run_for_lints()?;
     python(&target.join("python-hosts"))
+}
+
+/// Sets up what formatting, lints and tests without hosts and windows need.
+///
+/// # Errors
+/// Naming what is missing.
+pub fn run_for_lints() -> Result<()> {
+    system::ensure(&[LINKER, SOUND_HEADERS])?;
+    ["fmt", "clippy"].into_iter().try_for_each(rust_component)
 }
 
 /// Makes sure that cargo has a subcommand which small installations of Rust leave out.
