@@ -45,8 +45,7 @@ use crate::glide::Glide;
 use crate::instrument::{Instrument, Pedal};
 use crate::math::roots;
 use crate::modal::Mode;
-use crate::mode::ModeInfo;
-use crate::mode::ModeKind;
+use crate::mode::{ModeInfo, ModeKind};
 use crate::surface::Surface;
 
 pub use points::POINTS;

@@ -9,9 +9,7 @@ mod standard;
 
 use serde::{Deserialize, Serialize};
 
-use crate::build_context::BuildContext;
-use crate::build_context::BuildOptions;
-use crate::build_context::Idealization;
+use crate::build_context::{BuildContext, BuildOptions, Idealization};
 use crate::cymbal::spec::CymbalSpec;
 use crate::drum::spec::DrumSpec;
 use crate::error::SpecError;
@@ -19,8 +17,7 @@ use crate::hi_hat::spec::HiHatSpec;
 use crate::layout::{FARTHEST, Layout, Pair, Placement, Point};
 use crate::microphones::CloseSpec;
 use crate::numbers::{self, Numbers, Visitor};
-use crate::receiver::ListeningPoint;
-use crate::receiver::Receivers;
+use crate::receiver::{ListeningPoint, Receivers};
 use crate::slot::{SLOTS, Slot};
 use crate::surface::wires;
 
