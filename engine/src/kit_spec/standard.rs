@@ -18,8 +18,9 @@ use crate::rim::HoopSpec;
 use crate::split::Splitting;
 use crate::surface::wires::WiresSpec;
 
+use super::piece::{Defaults, InstrumentSpec, PieceSpec, PlaceSpec};
 use super::room::RoomSpec;
-use super::{Defaults, InstrumentSpec, KitSpec, MicrophonesSpec, PieceSpec, PlaceSpec};
+use super::{KitSpec, MicrophonesSpec};
 
 /// So many inches, m: the number nearest to the exact one.
 const fn inches(inches: f64) -> f64 {
