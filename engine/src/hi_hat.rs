@@ -44,8 +44,7 @@ use crate::fitted;
 use crate::glide::Glide;
 use crate::instrument::{Instrument, Pedal};
 use crate::math::roots;
-use crate::mode::ModeInfo;
-use crate::mode::ModeKind;
+use crate::mode::{ModeInfo, ModeKind};
 use crate::surface::Surface;
 
 pub use rim_points::POINTS;

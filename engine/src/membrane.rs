@@ -82,6 +82,31 @@ pub struct Ringing {
 }
 
 /// A head and its modes, lowest first.
+///
+/// ```
+/// use overhear_engine::contact::Material;
+/// use overhear_engine::damping::LossLaw;
+/// use overhear_engine::membrane::{Membrane, MembraneSpec, ModeRange, Surroundings};
+///
+/// // A timpani head: 26 in of film at 2729 N/m.
+/// let spec = MembraneSpec {
+///     radius: 0.3302,
+///     thickness: 0.19e-3,
+///     plies: 1,
+///     material: Material::FILM,
+///     loss: LossLaw::NONE,
+/// };
+/// let range = ModeRange { reference_tension: 2729.0, limit_hz: 600.0 };
+/// let head = Membrane::new(spec, Surroundings::Air, &range)?;
+/// let hz = |m, n| {
+///     let mode = head.modes().iter().find(|mode| (mode.m, mode.n) == (m, n)).expect("a low mode");
+///     head.ringing(mode, 2729.0).omega / std::f64::consts::TAU
+/// };
+/// // The air makes a fifth of what is 1.34 in vacuum.
+/// assert!((hz(2, 1) / hz(1, 1) - 1.47).abs() < 0.01);
+/// assert!((head.tension_for(1, 1, hz(1, 1)).expect("a mode") / 2729.0 - 1.0).abs() < 1e-9);
+/// # Ok::<(), overhear_engine::error::SpecError>(())
+/// ```
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Membrane {
     spec: MembraneSpec,

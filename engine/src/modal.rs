@@ -20,30 +20,25 @@
 //!
 //! Modes at or above half the sample rate are silent: they neither move nor yield.
 
+mod direct;
+mod energy;
 pub mod faint;
 pub mod folded;
 pub mod front;
+mod pickup;
+mod port;
+mod row;
 pub mod simd;
 
-use std::f64::consts::TAU;
-
-use aligned_vec::{AVec, ConstAlign};
-
+use simd::Kernels;
 use simd::ring::Drive;
-use simd::{Kernels, LANES};
 
-use crate::snapshot::{OCTAVES, octave_of};
-
+pub use pickup::{Heard, Pickup};
+pub use port::Port;
+pub use row::{Row, zero_row};
 pub use simd::{EARS, MAX_DRIVES};
 
-/// A row of one `f32` per mode, in the unit of what it is, aligned and padded with zeros to whole SIMD lanes.
-pub type Row = AVec<f32, ConstAlign<64>>;
-
-/// A row of zeros for `modes` modes.
-pub fn zero_row(modes: usize) -> Row {
-    let padded = modes.div_ceil(LANES) * LANES;
-    AVec::from_iter(64, std::iter::repeat_n(0.0, padded))
-}
+use pickup::Ear;
 
 /// One mode: what the equation of motion needs.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -80,107 +75,29 @@ struct ModalState {
     im: Row,
 }
 
-/// A place on the body where a force may act: mode shapes there, and what follows from them.
-pub struct Port {
-    /// Mode shapes at the place, `[mode]`.
-    shape: Row,
-    /// `b` times the shape.
-    gain_re: Row,
-    gain_im: Row,
-}
-
-impl Port {
-    /// A port with all shapes zero. Allocates.
-    pub fn new(modes: usize) -> Port {
-        Port { shape: zero_row(modes), gain_re: zero_row(modes), gain_im: zero_row(modes) }
-    }
-
-    /// Mode shapes at the place, `[mode]`, relative to the modal displacement; call [`ModalBody::connect`] after a
-    /// change.
-    pub fn shape_mut(&mut self) -> &mut [f32] {
-        &mut self.shape
-    }
-
-    /// Mode shapes at the place, `[mode]`, relative to the modal displacement, padded.
-    pub fn shape(&self) -> &[f32] {
-        &self.shape
-    }
-}
-
-/// What is heard of a body at each of its ears, Pa.
-pub type Heard = [f32; EARS];
-
-/// Where the body is heard: weighted sums over the modes' states, plus a part that follows the force at once. The last
-/// ear hears the first modes alone: see [`attend`](Pickup::attend).
-pub struct Pickup {
-    ears: [Ear; EARS],
-}
-
-/// One point where the body is heard.
-struct Ear {
-    /// Transfer from each mode's acceleration to the pressure: real part, imaginary part, `[mode]`.
-    transfer: Vec<[f64; 2]>,
-    weight_re: Row,
-    weight_im: Row,
-    direct: Row,
-    slow: Row,
-}
-
-impl Pickup {
-    /// A pickup from the complex transfer `[mode]`, pressure over modal acceleration (Pa s2/m) at
-    /// the mode's frequency, for time going as `e^(i omega t)`. The other ears hear nothing, until
-    /// [told](Self::transfer_mut). Allocates.
-    pub fn new(transfer: Vec<[f64; 2]>) -> Pickup {
-        let far = vec![[0.0; 2]; transfer.len()];
-        Pickup { ears: [Ear::new(transfer), Ear::new(far), Ear::new(Vec::new())] }
-    }
-
-    /// Lets the last ear hear so many modes. Allocates.
-    pub fn attend(&mut self, modes: usize) {
-        self.ears[EARS - 1] = Ear::new(vec![[0.0; 2]; modes]);
-    }
-
-    /// The transfer from each mode's acceleration to an ear, Pa s2/m, `[mode]`; call [`ModalBody::tune`] after a
-    /// change.
-    pub fn transfer_mut(&mut self, ear: usize) -> &mut [[f64; 2]] {
-        &mut self.ears[ear].transfer
-    }
-
-    /// Pressure at once per unit force at a port, Pa/N.
-    ///
-    /// # Real-time
-    /// Linear in the number of modes.
-    pub fn direct_at(&self, body: &ModalBody, port: &Port) -> Heard {
-        self.ears.each_ref().map(|ear| body.kernels.dot(&ear.direct, &port.shape))
-    }
-
-    /// Pressure per unit rate of change of a force at a port, Pa s/N.
-    ///
-    /// The imaginary part of a transfer is heard through the velocity, a quarter of a period off. Of a
-    /// body that a slow force bends, that is a first power of the frequency too many: this much times
-    /// the force's rate takes it out, and only the acceleration is left.
-    ///
-    /// # Real-time
-    /// Linear in the number of modes.
-    pub fn slow_at(&self, body: &ModalBody, port: &Port) -> Heard {
-        self.ears.each_ref().map(|ear| body.kernels.dot(&ear.slow, &port.shape))
-    }
-}
-
-impl Ear {
-    fn new(transfer: Vec<[f64; 2]>) -> Ear {
-        let row = || zero_row(transfer.len() + simd::REST);
-        Ear { weight_re: row(), weight_im: row(), direct: row(), slow: row(), transfer }
-    }
-
-    /// For [`ModalBody::ring`], from mode `first` on.
-    fn from<'a>(&'a self, first: usize, out: &'a mut [f32]) -> simd::ring::Heard<'a> {
-        let from = |row: &'a [f32]| row.get(first..).unwrap_or_default();
-        simd::ring::Heard { weight_re: from(&self.weight_re), weight_im: from(&self.weight_im), out }
-    }
-}
-
 /// `N` modes and their motion.
+///
+/// ```
+/// use overhear_engine::modal::{ModalBody, Mode, Port};
+///
+/// let mode = Mode { omega: std::f64::consts::TAU * 200.0, sigma: 5.0, mass: 0.1 };
+/// let mut body = ModalBody::new(vec![mode], 48_000.0);
+/// // A place where the mode moves as much as its displacement says.
+/// let mut place = Port::new(body.len());
+/// place.shape_mut()[0] = 1.0;
+/// body.connect(&mut place);
+///
+/// // A blow: 10 N for a millisecond.
+/// for _ in 0..48 {
+///     body.step();
+///     body.push(&place, 10.0);
+/// }
+/// let struck = body.energy();
+/// // Half a second later e^(-2 sigma t) of its energy is left.
+/// (0..24_000).for_each(|_| body.step());
+/// let left = body.energy() / struck;
+/// assert!((left / (-2.0 * 5.0 * 0.5_f64).exp() - 1.0).abs() < 0.02, "{left}");
+/// ```
 pub struct ModalBody {
     modes: Vec<Mode>,
     dt: f64,
@@ -411,33 +328,6 @@ impl ModalBody {
             0 => self.kernels.ring(&mut ring),
             _ => self.kernels.ring_driven(&mut ring, &held[..count]),
         }
-    }
-
-    /// Vibration energy, J.
-    pub fn energy(&self) -> f64 {
-        (0..self.modes.len()).map(|k| self.mode_energy(k)).sum()
-    }
-
-    /// Vibration energy of the modes of each octave, J.
-    ///
-    /// # Real-time
-    /// Linear in the number of modes.
-    pub fn energy_by_octave(&self) -> [f32; OCTAVES] {
-        let mut octaves = [0.0; OCTAVES];
-        for k in 0..self.modes.len() {
-            octaves[octave_of(self.modes[k].omega / TAU)] += self.mode_energy(k) as f32;
-        }
-        octaves
-    }
-
-    /// Energy of its motion alone, J: nothing of a body that something holds bent.
-    pub fn motion(&self) -> f64 {
-        (0..self.modes.len()).map(|k| 0.5 * self.modes[k].mass * self.velocity(k).powi(2)).sum()
-    }
-
-    fn mode_energy(&self, k: usize) -> f64 {
-        let (mode, q) = (&self.modes[k], f64::from(self.state.im[k]));
-        0.5 * mode.mass * (self.velocity(k).powi(2) + (mode.omega * q).powi(2))
     }
 
     /// Sets modes too quiet to matter to exactly zero, so that no denormal number arises.

@@ -21,8 +21,7 @@ use serde::{Deserialize, Serialize};
 use crate::air::{DENSITY, SPEED_OF_SOUND};
 use crate::contact::Material;
 use crate::modal::Mode;
-use crate::mode::Member;
-use crate::mode::ModeKind;
+use crate::mode::{Member, ModeKind};
 use crate::numbers::{Numbers, Visitor};
 use crate::receiver::ListeningPoint;
 

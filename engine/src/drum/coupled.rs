@@ -35,8 +35,7 @@ use crate::air::{self, DENSITY, HankelShape, SPEED_OF_SOUND};
 use crate::cavity::CavityOrder;
 use crate::drum::shadow;
 use crate::math::bessel::JTable;
-use crate::math::eigen;
-use crate::math::quadrature;
+use crate::math::{eigen, quadrature};
 use crate::membrane::{Membrane, MembraneMode};
 
 /// What surrounds the drum.

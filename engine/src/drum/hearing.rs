@@ -18,8 +18,8 @@ use std::f64::consts::TAU;
 use serde::{Deserialize, Serialize};
 
 use crate::air::SPEED_OF_SOUND;
-use crate::drum::build::Blueprint;
 use crate::drum::coupled::Outside;
+use crate::drum::modes::DrumModes;
 use crate::drum::shadow;
 use crate::drum::spec::DrumSpec;
 use crate::drum::tuned::{Place, TunedMode};
@@ -60,28 +60,23 @@ pub struct Hearing {
 
 impl Hearing {
     /// Works it out for a point. Allocates; takes hundredths of a second.
-    pub fn new(blueprint: &Blueprint, spec: &DrumSpec, point: ListeningPoint) -> Hearing {
-        Hearing::with(blueprint, spec, point, None)
+    pub fn new(drum: &DrumModes, spec: &DrumSpec, point: ListeningPoint) -> Hearing {
+        Hearing::with(drum, spec, point, None)
     }
 
     /// The same for another point, where modes among many change with the pitch as they do here: three times as fast.
-    pub fn from(&self, blueprint: &Blueprint, spec: &DrumSpec, point: ListeningPoint) -> Hearing {
-        Hearing::with(blueprint, spec, point, Some(self))
+    pub fn from(&self, drum: &DrumModes, spec: &DrumSpec, point: ListeningPoint) -> Hearing {
+        Hearing::with(drum, spec, point, Some(self))
     }
 
-    fn with(
-        blueprint: &Blueprint,
-        spec: &DrumSpec,
-        point: ListeningPoint,
-        near: Option<&Hearing>,
-    ) -> Hearing {
+    fn with(drum: &DrumModes, spec: &DrumSpec, point: ListeningPoint, near: Option<&Hearing>) -> Hearing {
         let [lowest, default, highest] = spec.pitches();
-        let place = blueprint.scale.place(default);
-        let ends = [lowest, highest].map(|pitch| blueprint.scale.place(pitch));
+        let place = drum.heads.scale.place(default);
+        let ends = [lowest, highest].map(|pitch| drum.heads.scale.place(pitch));
         let limit = TAU * SINGLY * default;
-        let few = Ears::new(blueprint, spec, point, 2.5 * limit);
-        let all = Ears::new(blueprint, spec, point, TAU * spec.batter.modes_to_hz);
-        let pitches = blueprint.scale.pitches();
+        let few = Ears::new(drum, spec, point, 2.5 * limit);
+        let all = Ears::new(drum, spec, point, TAU * spec.batter.modes_to_hz);
+        let pitches = drum.heads.scale.pitches();
         let hear = |(pair, mode): (usize, &TunedMode)| {
             if mode.at(&place).omega > limit {
                 let default = all.transfer(mode, &place);
@@ -94,12 +89,12 @@ impl Hearing {
                 let ends = [end(&ends[0]), end(&ends[1])].map(|x| if x.is_finite() { x } else { 0.0 });
                 return PairHearing::Together { default, ends };
             }
-            let at = |pitch: usize| few.transfer(mode, &blueprint.scale.place(pitches[pitch]));
+            let at = |pitch: usize| few.transfer(mode, &drum.heads.scale.place(pitches[pitch]));
             PairHearing::Singly(mode.grid().pitches().map(at).collect())
         };
-        let pairs = blueprint.modes.iter().enumerate().map(hear).collect();
+        let pairs = drum.modes.iter().enumerate().map(hear).collect();
         let mut members = Vec::new();
-        for (pair, mode) in blueprint.modes.iter().enumerate() {
+        for (pair, mode) in drum.modes.iter().enumerate() {
             let axis = spec.evenness.axis(mode.m, 0);
             for (member, _) in Splitting::ROUND.members(mode.m, 0) {
                 members.push((pair as u32, point.toward(mode.m, member, axis) as f32));
@@ -142,7 +137,7 @@ impl Hearing {
 
 /// The listening point as each head sees it.
 struct Ears<'a> {
-    blueprint: &'a Blueprint,
+    drum: &'a DrumModes,
     spec: &'a DrumSpec,
     near: Rayleigh,
     far: Rayleigh,
@@ -157,20 +152,20 @@ struct Ears<'a> {
 
 impl<'a> Ears<'a> {
     /// For modes up to an angular frequency `top` (rad/s) at any pitch.
-    fn new(blueprint: &'a Blueprint, spec: &'a DrumSpec, point: ListeningPoint, top: f64) -> Ears<'a> {
+    fn new(drum: &'a DrumModes, spec: &'a DrumSpec, point: ListeningPoint, top: f64) -> Ears<'a> {
         let radius = spec.radius();
-        let head = &blueprint.batter.membrane;
-        let slackest = blueprint.batter.tensions.iter().copied().fold(f64::INFINITY, f64::min);
+        let head = &drum.heads.batter.membrane;
+        let slackest = drum.heads.batter.tensions.iter().copied().fold(f64::INFINITY, f64::min);
         let reached = head.modes().iter().filter(|mode| head.ringing(mode, slackest).omega <= top);
         let finest = reached.map(|mode| mode.zero).fold(0.0, f64::max);
         let nodes = 12 + (0.7 * (finest + top * radius / SPEED_OF_SOUND)) as usize;
         let behind = point.from_behind(spec.cavity().map_or(0.0, |cavity| cavity.depth));
         let (near, far) = (Rayleigh::new(radius, point, nodes), Rayleigh::new(radius, behind, nodes));
         let near_shapes = head.radial_shapes(near.radii());
-        let far_shapes = blueprint.resonant.as_ref().map(|head| head.membrane.radial_shapes(far.radii()));
+        let far_shapes = drum.heads.resonant.as_ref().map(|head| head.membrane.radial_shapes(far.radii()));
         let lag = (behind.distance - point.distance) / SPEED_OF_SOUND;
         let fills = point.fills(radius);
-        Ears { blueprint, spec, near, far, near_shapes, far_shapes, lag, fills }
+        Ears { drum, spec, near, far, near_shapes, far_shapes, lag, fills }
     }
 
     /// A head's motion in a mode, along the radius: head modes `first..first + count` of the head, `skip..` of the
@@ -190,7 +185,7 @@ impl<'a> Ears<'a> {
     /// Transfer of a member of a pair that points at the listener.
     fn transfer(&self, mode: &TunedMode, place: &Place) -> [f32; 2] {
         let omega = mode.at(place).omega;
-        let (first, count) = self.blueprint.batter.order(mode.m);
+        let (first, count) = self.drum.heads.batter.order(mode.m);
         let radial = self.radial(mode, place, &self.near_shapes, [first, count, 0]);
         let [mut re, mut im] = self.near.transfer(&Radiator { m: mode.m, radial: &radial, omega });
         if let Outside::Free { .. } = self.spec.outside() {
@@ -199,7 +194,7 @@ impl<'a> Ears<'a> {
             let space = 0.5 * shadow::baffling(ka);
             let gain = shadow::near_gain(ka, self.fills);
             (re, im) = (re * gain, im * gain);
-            let radial = match (&self.blueprint.resonant, &self.far_shapes) {
+            let radial = match (&self.drum.heads.resonant, &self.far_shapes) {
                 (Some(head), Some(shapes)) => {
                     let (far_first, far_count) = head.order(mode.m);
                     Some(self.radial(mode, place, shapes, [far_first, far_count, count]))

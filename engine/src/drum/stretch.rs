@@ -17,7 +17,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::drum::build::Blueprint;
+use crate::drum::modes::DrumModes;
 use crate::membrane::MembraneSpec;
 use crate::modal::simd::blocks::{Block, BlockProduct};
 use crate::modal::simd::{Kernels, LANES};
@@ -66,15 +66,15 @@ pub struct Stretch {
 impl Stretch {
     /// The stretch of a drum's batter; the modes of the body are the drum's below the limit at that
     /// pitch (Hz), pairs as two. Returns it with their number. Allocates.
-    pub fn new(spec: &MembraneSpec, blueprint: &Blueprint, pitch_hz: f64) -> (Stretch, usize) {
-        let place = blueprint.scale.place(pitch_hz);
+    pub fn new(spec: &MembraneSpec, drum: &DrumModes, pitch_hz: f64) -> (Stretch, usize) {
+        let place = drum.heads.scale.place(pitch_hz);
         let limit = std::f64::consts::TAU * LIMIT_HZ;
         // Modes with their shares times the wavenumbers, by order.
         let mut sorted: BTreeMap<u32, Vec<BentMode>> = BTreeMap::new();
         let mut count = 0;
-        for mode in blueprint.modes.iter().take_while(|mode| mode.at(&place).omega < limit) {
-            let (first, heads) = blueprint.batter.order(mode.m);
-            let wave = |i: usize| blueprint.batter.membrane.modes()[first + i].zero / spec.radius;
+        for mode in drum.modes.iter().take_while(|mode| mode.at(&place).omega < limit) {
+            let (first, heads) = drum.heads.batter.order(mode.m);
+            let wave = |i: usize| drum.heads.batter.membrane.modes()[first + i].zero / spec.radius;
             let bent: Vec<f64> = (0..heads).map(|i| wave(i) * mode.share(i, &place)).collect();
             let members = count..count + Splitting::ROUND.members(mode.m, 0).count() as u32;
             count = members.end;
@@ -153,8 +153,8 @@ mod tests {
     #[test]
     fn the_gradient_is_that_of_the_energy_below_and_beyond_yield() {
         let spec = reference::drum("rack-tom");
-        let blueprint = Blueprint::new(&spec).unwrap();
-        let (mut stretch, modes) = Stretch::new(&spec.membrane(&spec.batter), &blueprint, spec.pitch_hz);
+        let drum = DrumModes::new(&spec).unwrap();
+        let (mut stretch, modes) = Stretch::new(&spec.membrane(&spec.batter), &drum, spec.pitch_hz);
         let mut gradient = zero_row(modes);
         let mut scratch = zero_row(modes);
         for size in [1e-4_f32, 3e-3, 3e-2] {

@@ -1,22 +1,22 @@
 use super::slices::*;
 use super::*;
 use crate::build_context::BuildOptions;
-use crate::drum::build::Blueprint;
 use crate::drum::hearing::Hearing;
+use crate::drum::modes::DrumModes;
 use crate::drum::spec::DrumSpec;
 use crate::kit_spec::PieceBuild;
 use crate::reference;
 
 const RATE: f64 = 44_100.0;
 
-fn band(blueprint: &Blueprint, build: &PieceBuild) -> HighBand {
+fn band(blueprint: &DrumModes, build: &PieceBuild) -> HighBand {
     let context = build.context(BuildOptions::new(RATE));
     HighBand::new(&blueprint.high_band(build.spec.drum().unwrap(), &context))
 }
 
-fn rack_tom() -> (Blueprint, PieceBuild) {
+fn rack_tom() -> (DrumModes, PieceBuild) {
     let build = reference::standard("rack-tom");
-    (Blueprint::new(build.spec.drum().unwrap()).unwrap(), build)
+    (DrumModes::new(build.spec.drum().unwrap()).unwrap(), build)
 }
 
 #[test]
@@ -25,7 +25,7 @@ fn slices_follow_on_the_complete_set_in_frequency_mass_count_and_loudness() {
     let band = band(&blueprint, &build);
     let spec = *build.spec.drum().unwrap();
     let middle = (spec.lowest_pitch_hz * spec.highest_pitch_hz).sqrt();
-    let place = blueprint.scale.place(middle);
+    let place = blueprint.heads.scale.place(middle);
     let top: Vec<_> = blueprint.modes.iter().rev().filter(|mode| mode.at(&place).batter > 0.5).collect();
     let highest = top[0].at(&place);
     let first = band.slices().next().unwrap();
@@ -60,7 +60,7 @@ fn it_reaches_16_khz_and_no_farther() {
     let (blueprint, build) = rack_tom();
     for pitch in build.spec.instrument.tunings() {
         let mut band = band(&blueprint, &build);
-        band.retune(blueprint.batter.tension(&blueprint.scale.place(pitch)), &HighMuffling::NONE);
+        band.retune(blueprint.heads.batter.tension(&blueprint.heads.scale.place(pitch)), &HighMuffling::NONE);
         let last = band.slices().last().unwrap().omega / TAU;
         assert!((15_500.0..=16_000.0).contains(&last), "{pitch}: {last}");
     }

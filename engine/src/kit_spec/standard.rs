@@ -4,15 +4,9 @@
 
 use crate::build_context::Idealization;
 use crate::contact::Material;
-use crate::cymbal::spec::CymbalSpec;
-use crate::cymbal::spec::Stand;
+use crate::cymbal::spec::{CymbalSpec, Stand};
 use crate::damping::{LossLaw, Muffler};
-use crate::drum::spec::DrumSpec;
-use crate::drum::spec::HeadContact;
-use crate::drum::spec::HeadSpec;
-use crate::drum::spec::PitchOf;
-use crate::drum::spec::ResonantSpec;
-use crate::drum::spec::ShellSpec;
+use crate::drum::spec::{DrumSpec, HeadContact, HeadSpec, PitchOf, ResonantSpec, ShellSpec};
 use crate::fitted;
 use crate::hi_hat::rigid::Mount;
 use crate::hi_hat::spec::HiHatSpec;
@@ -24,8 +18,9 @@ use crate::rim::HoopSpec;
 use crate::split::Splitting;
 use crate::surface::wires::WiresSpec;
 
+use super::piece::{Defaults, InstrumentSpec, PieceSpec, PlaceSpec};
 use super::room::RoomSpec;
-use super::{Defaults, InstrumentSpec, KitSpec, MicrophonesSpec, PieceSpec, PlaceSpec};
+use super::{KitSpec, MicrophonesSpec};
 
 /// So many inches, m: the number nearest to the exact one.
 const fn inches(inches: f64) -> f64 {

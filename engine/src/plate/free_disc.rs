@@ -39,10 +39,9 @@ use crate::air::{DENSITY, SPEED_OF_SOUND};
 use crate::cache::Shared;
 use crate::listening::Radiator;
 use crate::listening::rings::Rings;
-use crate::math::bessel;
 use crate::math::bessel::lanes::LANES;
-use crate::math::jacobi;
 use crate::math::quadrature::{self, GaussLegendre};
+use crate::math::{bessel, jacobi};
 use crate::receiver::ListeningPoint;
 
 /// What a mode does to the air.

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use crate::spectra::PowerSpectrum;
 use crate::{build, decibels, drum, reference, render, render_into, spec, stroke};
 use anyhow::{Context, Result};
-use overhear_engine::drum::build::Blueprint;
+use overhear_engine::drum::modes::DrumModes;
 use overhear_engine::kit::BLOCK;
 use overhear_engine::kit_spec::PieceSpec;
 use overhear_engine::piece::{BuildOptions, Piece};
@@ -216,7 +216,7 @@ fn air(sheet: &mut Sheet, snares: [(&PieceSpec, &'static str); 2]) -> Result<()>
 /// If the piece is no drum, or cannot be built.
 pub fn transverse_share(snare: &PieceSpec) -> Result<f64> {
     let drum = snare.drum().with_context(|| format!("the {} is no drum", snare.name))?;
-    let blueprint = Blueprint::new(drum).map_err(|error| bad_input!("{error}"))?;
+    let blueprint = DrumModes::new(drum).map_err(|error| bad_input!("{error}"))?;
     let mut snare = build(snare, &BuildOptions::new(RATE));
     snare.strike(&stroke(Striker::Stick, 4.0, 0.3, 0.3));
     render(&mut snare, 0.05, RATE);

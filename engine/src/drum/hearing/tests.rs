@@ -3,17 +3,17 @@ use crate::reference;
 
 /// How loud the lowest modes of the batter with so many nodal diameters are at a point, over the loudest without.
 fn shares(spec: &DrumSpec, point: ListeningPoint) -> [f64; 4] {
-    let blueprint = Blueprint::new(spec).unwrap();
-    let place = blueprint.scale.place(spec.pitch_hz);
-    let ears = Ears::new(&blueprint, spec, point, TAU * spec.batter.modes_to_hz);
+    let drum = DrumModes::new(spec).unwrap();
+    let place = drum.heads.scale.place(spec.pitch_hz);
+    let ears = Ears::new(&drum, spec, point, TAU * spec.batter.modes_to_hz);
     let size = |mode: &TunedMode| {
         let [re, im] = ears.transfer(mode, &place).map(f64::from);
         re.hypot(im) / mode.at(&place).mass.sqrt()
     };
-    let round = blueprint.modes.iter().filter(|mode| mode.m == 0);
+    let round = drum.modes.iter().filter(|mode| mode.m == 0);
     let loudest = round.take(4).map(size).fold(0.0, f64::max);
     [1, 2, 3, 4].map(|m| {
-        let lowest = blueprint.modes.iter().find(|mode| mode.m == m && mode.name == 0).unwrap();
+        let lowest = drum.modes.iter().find(|mode| mode.m == m && mode.name == 0).unwrap();
         size(lowest) / loudest
     })
 }

@@ -7,7 +7,7 @@
 use pulp::Simd;
 
 use super::dispatch::{Kernel, Kernels, LANES};
-use crate::modal::{Row, zero_row};
+use crate::modal::row::{Row, zero_row};
 
 /// Most classes there can be.
 pub const MAX_CLASSES: usize = 9;

@@ -11,6 +11,7 @@
 use pulp::Simd;
 
 use super::dispatch::{Kernel, Kernels};
+use crate::modal::row::{Row, zero_row};
 
 /// Radial functions of one order, at most.
 pub const SLOTS: usize = 16;
@@ -84,7 +85,7 @@ impl Circle {
 pub struct Radials {
     /// First function of each row, and the end.
     starts: Vec<usize>,
-    table: super::super::Row,
+    table: Row,
     lanes: usize,
     /// Lanes from here on belong to the field turned by a quarter: cosine amplitudes drive its
     /// negative sine, sine ones its cosine.
@@ -100,7 +101,7 @@ impl Radials {
             *sum += row.len();
             Some(*sum)
         }));
-        let mut table = super::super::zero_row(starts[rows.len()] * lanes);
+        let mut table = zero_row(starts[rows.len()] * lanes);
         for (to, from) in table.iter_mut().zip(rows.iter().flatten().flatten()) {
             *to = *from as f32;
         }

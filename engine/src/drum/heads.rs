@@ -1,7 +1,6 @@
-//! From a drum's description to its modes: heads stretched, orders solved at every pitch, all laid
-//! out as one modal body.
+//! A drum's heads, stretched over its range of pitches, and the drum's modes at one of them.
 
-use std::f64::consts::{SQRT_2, TAU};
+use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
@@ -10,34 +9,23 @@ use crate::build_context::BuildContext;
 use crate::cavity::{CavityOrder, HeadShape};
 use crate::drum::coupled::{CoupledMode, OrderProblem, Stretched};
 use crate::drum::spec::{DrumSpec, PitchOf};
-use crate::drum::tuned::{self, Grid, PITCHES, PitchScale, Place, TunedMode};
+use crate::drum::tuned::{PITCHES, PitchScale, Place};
 use crate::error::SpecError;
 use crate::high_band::{Ear, HighBandSpec};
 use crate::math::bessel::{self, JTable};
 use crate::membrane::{self, Membrane, MembraneMode, MembraneSpec, ModeRange, Surroundings};
-use crate::receiver::Receivers;
-use crate::shapes::{ShapeIndex, ShapeTable};
-use crate::split::Splitting;
-use crate::surface::contacts::STRIKER_PLACES;
 use crate::surface::patch::Film;
-use crate::surface::wires;
 
 /// Modes of the enclosed air up to this are kept as modes, Hz; above, air only rides along.
 const CAVITY_LIMIT_HZ: f64 = 2500.0;
 
 /// The pitch at which modes are chosen: the middle of the range, whatever the default, so that a drum tuned
 /// live and one built at that pitch are made of the same.
-const MIDDLE: usize = PITCHES / 2;
-
-/// Up to so many times a drum's pitch its modes are heard one by one. *By ear*.
-const HEARD_SINGLY: f64 = 10.0;
+pub(super) const MIDDLE: usize = PITCHES / 2;
 
 /// Modes of the heads that enter, over those that are kept. *Converged*: the highest kept have neighbours that
 /// are left out; without some of them they would be off by up to 9 cents, by an amount that depends on the pitch.
 const BASIS: f64 = 1.15;
-
-/// A mode with less of its energy than this in the heads is never heard.
-const HEARD_SHARE: f64 = 1e-3;
 
 /// A head with its modes, and its tension at every pitch of the scale.
 #[derive(Serialize, Deserialize)]
@@ -48,19 +36,6 @@ pub struct TunedHead {
     pub tensions: [f64; PITCHES],
     /// Its modes up to this are kept, at the middle pitch, Hz.
     limit_hz: f64,
-}
-
-/// Everything a drum is made from.
-#[derive(Serialize, Deserialize)]
-pub struct Blueprint {
-    /// The pitches worked out.
-    pub scale: PitchScale,
-    /// The struck head; its modes in ascending order of diameters, then circles.
-    pub batter: TunedHead,
-    /// The other head.
-    pub resonant: Option<TunedHead>,
-    /// The drum's modes, pairs once, lowest first at the default pitch.
-    pub modes: Vec<TunedMode>,
 }
 
 impl TunedHead {
@@ -136,13 +111,27 @@ impl TunedHead {
     }
 }
 
-impl Blueprint {
-    /// Works a drum out. Tenths of a second.
+/// The heads with their tensions at every pitch.
+#[derive(Serialize, Deserialize)]
+pub struct TunedHeads {
+    /// The pitches worked out.
+    pub scale: PitchScale,
+    /// The struck head; its modes in ascending order of diameters, then circles.
+    pub batter: TunedHead,
+    /// The other head.
+    pub resonant: Option<TunedHead>,
+}
+
+/// The heads, each stretched by itself: what the drum makes of their pitches is not known yet.
+pub struct BareHeads(TunedHeads);
+
+impl BareHeads {
+    /// Stretches the heads of a drum. Allocates; takes tenths of a second.
     ///
     /// # Errors
     /// [`SpecError`] if the spec is out of range.
-    pub fn new(spec: &DrumSpec) -> Result<Blueprint, SpecError> {
-        let [low, default, high] = spec.pitches();
+    pub fn new(spec: &DrumSpec) -> Result<BareHeads, SpecError> {
+        let [low, _, high] = spec.pitches();
         let named = spec.pitch_of.mode();
         let scale = PitchScale::new(low, high);
         let pitches = scale.pitches();
@@ -163,24 +152,34 @@ impl Blueprint {
                 TunedHead::new(&spec.membrane(&head), head.modes_to_hz, named, &pitches, &mut curves)
             })
             .transpose()?;
-        let mut blueprint = Blueprint { scale, batter, resonant, modes: Vec::new() };
-        let orders = blueprint.batter.membrane.modes().iter().map(|mode| mode.m).max().unwrap_or(0);
-        let reach = [Some(&blueprint.batter), blueprint.resonant.as_ref()]
+        Ok(BareHeads(TunedHeads { scale, batter, resonant }))
+    }
+
+    /// The Bessel functions of their modes, `[order]`.
+    pub fn tables(&self) -> Vec<JTable> {
+        let TunedHeads { batter, resonant, .. } = &self.0;
+        let reach = [Some(batter), resonant.as_ref()]
             .into_iter()
             .flatten()
             .flat_map(|head| head.membrane.modes().iter().map(|mode| mode.zero))
             .fold(0.0, f64::max);
-        let tables = JTable::orders(orders, reach + 1.0);
+        JTable::orders(self.0.orders(), reach + 1.0)
+    }
+
+    /// The heads as the drum needs them, its batter tuned by itself or as heard, as the spec says.
+    pub fn tuned(self, spec: &DrumSpec, tables: &[JTable]) -> TunedHeads {
+        let BareHeads(mut heads) = self;
         if spec.pitch_of == PitchOf::PrincipalHeard {
-            blueprint.tune_as_heard(spec, &tables);
+            heads.tune_as_heard(spec, tables);
         }
-        for (m, table) in (0..=orders).zip(&tables) {
-            let modes = blueprint.order(spec, m, table);
-            blueprint.modes.extend(modes);
-        }
-        let place = blueprint.scale.place(default);
-        blueprint.modes.sort_by(|a, b| a.at(&place).omega.total_cmp(&b.at(&place).omega));
-        Ok(blueprint)
+        heads
+    }
+}
+
+impl TunedHeads {
+    /// The highest order of the batter's modes.
+    pub fn orders(&self) -> u32 {
+        self.batter.membrane.modes().iter().map(|mode| mode.m).max().unwrap_or(0)
     }
 
     /// Stretches the batter so that its named mode has the pitches in the drum, not by itself.
@@ -200,12 +199,12 @@ impl Blueprint {
     }
 
     /// The enclosed air against the heads' modes of one order.
-    fn air(&self, spec: &DrumSpec, m: u32) -> Option<CavityOrder> {
+    pub fn air(&self, spec: &DrumSpec, m: u32) -> Option<CavityOrder> {
         spec.cavity().map(|cavity| cavity.order(m, &self.head_shapes(m), TAU * CAVITY_LIMIT_HZ))
     }
 
     /// The drum's modes of one order at one of the pitches.
-    fn solve(
+    pub fn solve(
         &self,
         spec: &DrumSpec,
         m: u32,
@@ -226,7 +225,7 @@ impl Blueprint {
     }
 
     /// The heads' modes of one order as the cavity sees them, batter first.
-    fn head_shapes(&self, m: u32) -> Vec<HeadShape> {
+    pub fn head_shapes(&self, m: u32) -> Vec<HeadShape> {
         let of = |head: &TunedHead, far| {
             let modes = head.membrane.modes().iter().filter(|mode| mode.m == m);
             modes.map(move |mode| HeadShape { zero: mode.zero, norm: mode.norm, far }).collect::<Vec<_>>()
@@ -234,78 +233,5 @@ impl Blueprint {
         let mut shapes = of(&self.batter, false);
         shapes.extend(self.resonant.iter().flat_map(|head| of(head, true)));
         shapes
-    }
-
-    /// The drum's modes of one order, followed through the pitches.
-    fn order(&self, spec: &DrumSpec, m: u32, bessel: &JTable) -> Vec<TunedMode> {
-        let air = self.air(spec, m);
-        let lowest = air.iter().flat_map(|air| &air.modes).map(|mode| mode.omega).find(|&omega| omega > 0.0);
-        let grid = match lowest {
-            Some(omega) if omega < TAU * HEARD_SINGLY * self.scale.pitches()[MIDDLE] => Grid::Fine,
-            Some(_) => Grid::Middle,
-            None => Grid::Coarse,
-        };
-        let solved: Vec<Vec<CoupledMode>> =
-            grid.pitches().map(|pitch| self.solve(spec, m, bessel, air.as_ref(), pitch)).collect();
-        let limit = TAU * spec.batter.modes_to_hz;
-        let keep = |mode: &CoupledMode| mode.omega <= limit && mode.share[0] + mode.share[1] > HEARD_SHARE;
-        tuned::follow(m, &solved, self.head_shapes(m).len(), grid, keep)
-    }
-
-    /// Volume by which a mode without nodal diameters makes the drum smaller, per modal displacement, m2: that of
-    /// the point in free air that loses as much by radiation as the mode does.
-    ///
-    /// # Real-time
-    /// Linear in the head modes it mixes.
-    pub fn volume(&self, mode: &TunedMode, place: &Place) -> f64 {
-        let (first, near) = self.batter.order(0);
-        let volume = |head: &TunedHead, at: usize, skip: usize| -> f64 {
-            let modes = head.membrane.modes()[at..].iter().take_while(|mode| mode.m == 0).enumerate();
-            modes.map(|(i, head_mode)| mode.share(skip + i, place) * head.membrane.volume(head_mode)).sum()
-        };
-        let far = self.resonant.as_ref().map_or(0.0, |head| volume(head, head.order(0).0, near));
-        // Along the stroke is into the drum at the one and out of it at the other.
-        let moved = volume(&self.batter, first, 0) - far;
-        // A point in free air loses half of what it would in a baffle.
-        (SQRT_2 * mode.reference.monopole_area * mode.at(place).mass.sqrt()).copysign(moved)
-    }
-
-    /// Shapes on the batter of every mode of the body, `[mode]`, pairs as two.
-    pub fn batter_shapes(&self, splitting: Splitting) -> ShapeTable {
-        self.shapes(&self.batter, splitting)
-    }
-
-    /// Shapes on the resonant head, if there is one.
-    pub fn resonant_shapes(&self, splitting: Splitting) -> Option<ShapeTable> {
-        self.resonant.as_ref().map(|head| self.shapes(head, splitting))
-    }
-
-    fn shapes(&self, head: &TunedHead, splitting: Splitting) -> ShapeTable {
-        let mut index = Vec::new();
-        for mode in &self.modes {
-            let (radial, rows) = head.order(mode.m);
-            let axis = splitting.axis(mode.m, 0);
-            let members = Splitting::ROUND.members(mode.m, 0);
-            index.extend(members.map(|(member, _)| ShapeIndex { radial, rows, m: mode.m, member, axis }));
-        }
-        let waves = head.membrane.modes().iter().map(|mode| mode.zero);
-        let radial = head.membrane.radial_shapes(&ShapeTable::radii());
-        ShapeTable::new(&radial, index).with_waves(head.membrane.spec().radius, waves)
-    }
-
-    /// What the batter does above its modes.
-    pub fn high_band(&self, spec: &DrumSpec, context: &BuildContext) -> HighBandSpec {
-        let Receivers { near, far } = context.receivers;
-        let ear = Ear { point: near, away: far, outside: spec.outside(), far: false };
-        self.batter.high_band(ear, context, STRIKER_PLACES)
-    }
-
-    /// What the resonant head does above its modes, for wires to set going.
-    pub fn far_high_band(&self, spec: &DrumSpec, context: &BuildContext) -> Option<HighBandSpec> {
-        let behind = spec.cavity().map_or(0.0, |cavity| cavity.depth);
-        let Receivers { near, far } = context.receivers;
-        let ear = Ear { point: near.from_behind(behind), away: far, outside: spec.outside(), far: true };
-        let head = self.resonant.as_ref()?;
-        Some(head.high_band(ear, context, wires::GROUPS))
     }
 }

@@ -1,0 +1,92 @@
+//! A drum's pairs as modes of one body: members, names, and what each sends all around.
+
+use std::f64::consts::TAU;
+
+use crate::air::SPEED_OF_SOUND;
+use crate::damping::{Muffler, SIGMA_T60};
+use crate::mode::{Member, ModeInfo, ModeKind};
+use crate::split::Splitting;
+
+use super::modes::DrumModes;
+use super::spec::DrumSpec;
+use super::tuned::{Place, TunedMode};
+use crate::high_band::SliceInfo;
+
+/// One mode of the body: which of the drum's, and which member of a pair.
+#[derive(Debug, Clone, Copy)]
+pub struct BodyMode {
+    /// Which of the drum's.
+    pub pair: usize,
+    /// Which member.
+    pub member: Member,
+    /// Factor on the pair's frequency.
+    pub detuning: f64,
+    /// How it goes around at the muffler's direction.
+    pub gel_turn: f64,
+}
+
+/// The pairs as modes of a body, `[mode]`.
+pub fn assemble(spec: &DrumSpec, drum: &DrumModes, round: bool) -> Vec<BodyMode> {
+    let splitting = if round { Splitting::ROUND } else { spec.evenness };
+    let angle = match spec.muffler {
+        Muffler::Gel { angle, .. } => angle,
+        Muffler::Pillow { .. } | Muffler::Ring { .. } => 0.0,
+    };
+    let mut modes = Vec::new();
+    for (pair, mode) in drum.modes.iter().enumerate() {
+        let turn = f64::from(mode.m) * (angle - spec.evenness.axis(mode.m, 0));
+        let (body, n, _) = describe(drum, mode);
+        // A pair is split by what it is, not by where it stands, so that a rebuild splits it alike.
+        let which = n + 1000 * body.len() as u32;
+        for (member, detuning) in splitting.members(mode.m, which) {
+            let gel_turn = match member {
+                Member::Cosine => turn.cos(),
+                Member::Sine => turn.sin(),
+            };
+            modes.push(BodyMode { pair, member, detuning, gel_turn });
+        }
+    }
+    modes
+}
+
+/// What a mode mostly is: body, nodal circles, kind.
+pub fn describe(drum: &DrumModes, mode: &TunedMode) -> (&'static str, u32, ModeKind) {
+    let (_, near) = drum.heads.batter.order(mode.m);
+    let name = mode.name;
+    if name < near {
+        ("batter", name as u32 + 1, ModeKind::Complete)
+    } else if name < mode.heads() {
+        ("resonant", (name - near) as u32 + 1, ModeKind::Complete)
+    } else {
+        ("cavity", (name - mode.heads()) as u32, ModeKind::Cavity)
+    }
+}
+
+/// A slice of the high band as a mode of the batter; it has no nodes of its own.
+pub fn sampled(slice: SliceInfo) -> ModeInfo {
+    ModeInfo {
+        body: "batter",
+        m: 0,
+        n: 0,
+        member: Member::Cosine,
+        frequency_hz: slice.omega / TAU,
+        t60: SIGMA_T60 / slice.sigma,
+        modal_mass: slice.mass,
+        radiation: slice.monopole_area,
+        kind: ModeKind::Sampled,
+    }
+}
+
+/// Share of a mode's volume that sends sound all around and feels it: none of modes with nodal diameters, and none where
+/// the wave is shorter than the drum.
+pub fn all_around(drum: &DrumModes, mode: &TunedMode, place: &Place) -> f64 {
+    if mode.m != 0 {
+        return 0.0;
+    }
+    let u = mode.at(place).omega * drum.heads.batter.membrane.spec().radius / SPEED_OF_SOUND;
+    (LONG_WAVE[1] - u).clamp(0.0, LONG_WAVE[1] - LONG_WAVE[0]) / (LONG_WAVE[1] - LONG_WAVE[0])
+}
+
+/// `omega a / c` up to which a drum is felt and heard as a volume, and from which on not at all. *Derived*: at 3 a
+/// disc's own directions differ by 6 dB.
+const LONG_WAVE: [f64; 2] = [2.0, 3.0];

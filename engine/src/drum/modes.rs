@@ -1,0 +1,126 @@
+//! A drum's modes over its range of pitches: heads stretched, orders solved at every pitch, followed from one to the next.
+
+use std::f64::consts::{SQRT_2, TAU};
+
+use serde::{Deserialize, Serialize};
+
+use crate::build_context::BuildContext;
+use crate::drum::coupled::CoupledMode;
+use crate::drum::heads::{BareHeads, MIDDLE, TunedHead, TunedHeads};
+use crate::drum::spec::DrumSpec;
+use crate::drum::tuned::{self, Grid, Place, TunedMode};
+use crate::error::SpecError;
+use crate::high_band::{Ear, HighBandSpec};
+use crate::math::bessel::JTable;
+use crate::receiver::Receivers;
+use crate::shapes::{ShapeIndex, ShapeTable};
+use crate::split::Splitting;
+use crate::surface::contacts::STRIKER_PLACES;
+use crate::surface::wires;
+
+/// Up to so many times a drum's pitch its modes are heard one by one. *By ear*.
+const HEARD_SINGLY: f64 = 10.0;
+
+/// A mode with less of its energy than this in the heads is never heard.
+const HEARD_SHARE: f64 = 1e-3;
+
+/// Everything a drum is made from.
+#[derive(Serialize, Deserialize)]
+pub struct DrumModes {
+    /// The heads.
+    pub heads: TunedHeads,
+    /// The drum's modes, pairs once, lowest first at the default pitch.
+    pub modes: Vec<TunedMode>,
+}
+
+/// The drum's modes of one order, followed through the pitches.
+fn follow_order(heads: &TunedHeads, spec: &DrumSpec, m: u32, bessel: &JTable) -> Vec<TunedMode> {
+    let air = heads.air(spec, m);
+    let lowest = air.iter().flat_map(|air| &air.modes).map(|mode| mode.omega).find(|&omega| omega > 0.0);
+    let grid = match lowest {
+        Some(omega) if omega < TAU * HEARD_SINGLY * heads.scale.pitches()[MIDDLE] => Grid::Fine,
+        Some(_) => Grid::Middle,
+        None => Grid::Coarse,
+    };
+    let solved: Vec<Vec<CoupledMode>> =
+        grid.pitches().map(|pitch| heads.solve(spec, m, bessel, air.as_ref(), pitch)).collect();
+    let limit = TAU * spec.batter.modes_to_hz;
+    let keep = |mode: &CoupledMode| mode.omega <= limit && mode.share[0] + mode.share[1] > HEARD_SHARE;
+    tuned::follow(m, &solved, heads.head_shapes(m).len(), grid, keep)
+}
+
+impl DrumModes {
+    /// Works a drum out. Tenths of a second.
+    ///
+    /// # Errors
+    /// [`SpecError`] if the spec is out of range.
+    pub fn new(spec: &DrumSpec) -> Result<DrumModes, SpecError> {
+        let bare = BareHeads::new(spec)?;
+        let tables = bare.tables();
+        let heads = bare.tuned(spec, &tables);
+        let orders = (0..=heads.orders()).zip(&tables);
+        let mut modes: Vec<TunedMode> =
+            orders.flat_map(|(m, table)| follow_order(&heads, spec, m, table)).collect();
+        let [_, default, _] = spec.pitches();
+        let place = heads.scale.place(default);
+        modes.sort_by(|a, b| a.at(&place).omega.total_cmp(&b.at(&place).omega));
+        Ok(DrumModes { heads, modes })
+    }
+
+    /// Volume by which a mode without nodal diameters makes the drum smaller, per modal displacement, m2: that of
+    /// the point in free air that loses as much by radiation as the mode does.
+    ///
+    /// # Real-time
+    /// Linear in the head modes it mixes.
+    pub fn volume(&self, mode: &TunedMode, place: &Place) -> f64 {
+        let (first, near) = self.heads.batter.order(0);
+        let volume = |head: &TunedHead, at: usize, skip: usize| -> f64 {
+            let modes = head.membrane.modes()[at..].iter().take_while(|mode| mode.m == 0).enumerate();
+            modes.map(|(i, head_mode)| mode.share(skip + i, place) * head.membrane.volume(head_mode)).sum()
+        };
+        let far = self.heads.resonant.as_ref().map_or(0.0, |head| volume(head, head.order(0).0, near));
+        // Along the stroke is into the drum at the one and out of it at the other.
+        let moved = volume(&self.heads.batter, first, 0) - far;
+        // A point in free air loses half of what it would in a baffle.
+        (SQRT_2 * mode.reference.monopole_area * mode.at(place).mass.sqrt()).copysign(moved)
+    }
+
+    /// Shapes on the batter of every mode of the body, `[mode]`, pairs as two.
+    pub fn batter_shapes(&self, splitting: Splitting) -> ShapeTable {
+        self.shapes(&self.heads.batter, splitting)
+    }
+
+    /// Shapes on the resonant head, if there is one.
+    pub fn resonant_shapes(&self, splitting: Splitting) -> Option<ShapeTable> {
+        self.heads.resonant.as_ref().map(|head| self.shapes(head, splitting))
+    }
+
+    fn shapes(&self, head: &TunedHead, splitting: Splitting) -> ShapeTable {
+        let mut index = Vec::new();
+        for mode in &self.modes {
+            let (radial, rows) = head.order(mode.m);
+            let axis = splitting.axis(mode.m, 0);
+            let members = Splitting::ROUND.members(mode.m, 0);
+            index.extend(members.map(|(member, _)| ShapeIndex { radial, rows, m: mode.m, member, axis }));
+        }
+        let waves = head.membrane.modes().iter().map(|mode| mode.zero);
+        let radial = head.membrane.radial_shapes(&ShapeTable::radii());
+        ShapeTable::new(&radial, index).with_waves(head.membrane.spec().radius, waves)
+    }
+
+    /// What the batter does above its modes.
+    pub fn high_band(&self, spec: &DrumSpec, context: &BuildContext) -> HighBandSpec {
+        let Receivers { near, far } = context.receivers;
+        let ear = Ear { point: near, away: far, outside: spec.outside(), far: false };
+        self.heads.batter.high_band(ear, context, STRIKER_PLACES)
+    }
+
+    /// What the resonant head does above its modes, for wires to set going.
+    pub fn far_high_band(&self, spec: &DrumSpec, context: &BuildContext) -> Option<HighBandSpec> {
+        let behind = spec.cavity().map_or(0.0, |cavity| cavity.depth);
+        let Receivers { near, far } = context.receivers;
+        let ear = Ear { point: near.from_behind(behind), away: far, outside: spec.outside(), far: true };
+        let head = self.heads.resonant.as_ref()?;
+        Some(head.high_band(ear, context, wires::GROUPS))
+    }
+}

@@ -1,0 +1,163 @@
+//! What can be asked of a kit while it plays: strokes, controls, pedals, microphones put elsewhere.
+
+use crate::hi_hat::SPLASHING;
+use crate::hi_hat::foot::SPEED;
+use crate::layout::Pair;
+use crate::piece::Piece;
+use crate::slot::Slot;
+use crate::strike::Strike;
+
+use super::Kit;
+use super::control::{Control, Microphone};
+
+impl Kit {
+    /// Puts the overheads or the room pair somewhere, m, not farther than [`FARTHEST`](crate::layout::FARTHEST) from any piece;
+    /// what is heard fades over in some hundredths of a second. A close microphone is where its piece was built to
+    /// be heard.
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn place(&mut self, microphones: Microphone, places: Pair) {
+        if places.iter().flatten().all(|x| x.is_finite()) {
+            match microphones {
+                Microphone::Close(_) => {}
+                Microphone::Overheads => self.air.place_pair(0, places),
+                Microphone::Room => self.air.place_pair(1, places),
+            }
+        }
+    }
+
+    fn mut_piece(&mut self, slot: Slot) -> Option<&mut Box<Piece>> {
+        self.posts[slot.index()].as_mut()?.piece.as_mut()
+    }
+
+    /// Strikes a piece at the next sample. A stroke on a piece not yet built is dropped and counted.
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn strike(&mut self, slot: Slot, strike: &Strike) {
+        match self.mut_piece(slot) {
+            Some(piece) => piece.strike(strike),
+            None => self.dropped_strikes = self.dropped_strikes.saturating_add(1),
+        }
+    }
+
+    /// Lets a hand take hold of a cymbal, from 0 (lets go) to 1 (firmly); see [`Piece::choke`]. A NaN is ignored.
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn choke(&mut self, slot: Slot, strength: f64) {
+        if let Some(piece) = self.mut_piece(slot).filter(|_| !strength.is_nan()) {
+            piece.choke(strength);
+        }
+    }
+
+    /// Moves a control from the next sample on, to the nearest end of its range if beyond it. A NaN
+    /// is ignored, and so is a control that the slot's piece does not have.
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn set(&mut self, control: Control, value: f64) {
+        if value.is_nan() {
+            return;
+        }
+        let on = value >= 0.5;
+        match control {
+            Control::Master => self.desk.set_master(value),
+            Control::Level(slot) => self.desk.set_level(slot, value),
+            Control::Pan(slot) => self.desk.set_balance(Microphone::Close(slot), value),
+            Control::Balance(microphone) => self.desk.set_balance(microphone, value),
+            Control::MicrophoneLevel(microphone) => self.desk.set_strip_level(microphone, value),
+            Control::CloseLevel => self.desk.set_close(value),
+            Control::Mute(microphone) => self.desk.mute(microphone, on),
+            Control::Solo(microphone) => self.desk.solo(microphone, on),
+            Control::SafetyClip => self.desk.set_clip(on),
+            Control::Hearing => self.listen(on, self.sympathy),
+            Control::Sympathy => self.listen(self.hearing, value.clamp(0.0, 1.0) as f32),
+            Control::Pedal(slot) => self.press_pedal(slot, value, SPEED.1),
+            Control::Preload(slot)
+            | Control::Wires(slot)
+            | Control::Tuning(slot)
+            | Control::Muffling(slot) => self.adjust(slot, control, value),
+        }
+    }
+
+    /// Moves a control of a piece, and of whatever takes its place.
+    fn adjust(&mut self, slot: Slot, control: Control, value: f64) {
+        let retained = &mut self.retained[slot.index()];
+        let piece = self.posts[slot.index()].as_mut().and_then(|post| post.piece.as_mut());
+        match control {
+            Control::Preload(_) => {
+                retained.preload = value;
+                piece.into_iter().for_each(|piece| piece.set_preload(value));
+            }
+            Control::Wires(_) => {
+                retained.wires = value >= 0.5;
+                piece.into_iter().for_each(|piece| piece.throw_wires(value >= 0.5));
+            }
+            Control::Muffling(_) => {
+                retained.muffling = value;
+                piece.into_iter().for_each(|piece| piece.set_muffling(value));
+            }
+            _ => {
+                retained.tuning = value;
+                piece.into_iter().for_each(|piece| piece.set_tuning(value));
+            }
+        }
+    }
+
+    fn listen(&mut self, hearing: bool, sympathy: f32) {
+        (self.hearing, self.sympathy) = (hearing, sympathy);
+        self.ears.set(if hearing { sympathy } else { 0.0 });
+    }
+
+    /// Lets somebody step on a slot's pedal, which is then left at a place, 0 to 1, given where it was; on a
+    /// piece that comes later it is there at once.
+    fn step_on(&mut self, slot: Slot, left: impl FnOnce(f64) -> f64, step: impl FnOnce(&mut Piece)) {
+        let retained = &mut self.retained[slot.index()];
+        retained.pedal = left(retained.pedal);
+        if let Some(piece) = self.mut_piece(slot) {
+            step(piece);
+        }
+    }
+
+    /// Brings a hi-hat's pedal to a place, 0 (up) to 1 (down), at up to a speed (m/s); see
+    /// [`Piece::press_pedal`]. A NaN is ignored.
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn press_pedal(&mut self, slot: Slot, pedal: f64, speed: f64) {
+        if !pedal.is_nan() {
+            self.step_on(slot, |_| pedal, |hat| hat.press_pedal(pedal, speed));
+        }
+    }
+
+    /// Stamps on a hi-hat's pedal, at up to a speed (m/s); see [`Piece::stamp_pedal`].
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn stamp_pedal(&mut self, slot: Slot, speed: f64) {
+        self.step_on(slot, |_| 1.0, |hat| hat.stamp_pedal(speed));
+    }
+
+    /// Splashes with a hi-hat's pedal, at up to a speed (m/s); see [`Piece::splash_pedal`].
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn splash_pedal(&mut self, slot: Slot, speed: f64) {
+        self.step_on(slot, |pedal| pedal.min(SPLASHING), |hat| hat.splash_pedal(speed));
+    }
+
+    /// Lets every control arrive at once: for setting the kit up before it sounds.
+    ///
+    /// # Real-time
+    /// No allocation, no lock; linear in the number of modes.
+    pub fn finish_controls(&mut self) {
+        self.desk.jump();
+        self.ears.jump();
+        self.air.jump();
+        for piece in self.posts.iter_mut().flatten().filter_map(|post| post.piece.as_mut()) {
+            piece.finish_controls();
+        }
+    }
+}

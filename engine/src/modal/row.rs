@@ -1,0 +1,14 @@
+//! Rows of numbers about modes, as the kernels want them.
+
+use aligned_vec::{AVec, ConstAlign};
+
+use super::simd::LANES;
+
+/// A row of one `f32` per mode, in the unit of what it is, aligned and padded with zeros to whole SIMD lanes.
+pub type Row = AVec<f32, ConstAlign<64>>;
+
+/// A row of zeros for `modes` modes.
+pub fn zero_row(modes: usize) -> Row {
+    let padded = modes.div_ceil(LANES) * LANES;
+    AVec::from_iter(64, std::iter::repeat_n(0.0, padded))
+}
