@@ -27,6 +27,7 @@
 //! Neglected: adhesion, friction, and the mass of the deformed material.
 
 pub mod solver;
+pub mod static_equilibrium;
 
 use serde::{Deserialize, Serialize};
 

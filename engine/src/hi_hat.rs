@@ -24,11 +24,9 @@ pub mod foot;
 pub mod half;
 pub mod pair;
 pub mod rigid;
-pub mod rim_contact;
 pub mod rim_points;
 mod settling;
 pub mod spec;
-pub mod static_equilibrium;
 mod step;
 
 use std::f64::consts::TAU;

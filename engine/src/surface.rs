@@ -401,3 +401,6 @@ impl Surface {
         (self.log.brought, self.log.departed) = (0.0, 0.0);
     }
 }
+
+#[cfg(test)]
+mod tests;

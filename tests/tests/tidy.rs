@@ -18,13 +18,7 @@ const LONGEST: usize = 600;
 const LONG: usize = 500;
 
 /// Sources of more than [`LONG`] lines, and why each is one.
-const LONG_FOR_A_REASON: [(&str, &str); 2] = [
-    (
-        "engine/src/surface.rs",
-        "one surface's turn of a sample, in the order it happens; its parts are in the folder",
-    ),
-    ("engine/src/potential.rs", "one scheme; a fifth of it are its equations"),
-];
+const LONG_FOR_A_REASON: [(&str, &str); 0] = [];
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("a workspace")

@@ -5,8 +5,13 @@
 //! compression. Newton's method on all of them takes a few steps, as `1 + Y F'` is never singular (`Y` is positive); where
 //! it should wander, at the corner where a contact opens, sweeps over single contacts do it (Gauss-Seidel: they
 //! converge because a place yields more to its own force than to another's).
+//!
+//! Three forms find the same forces: [`solve`] of any law, one contact after the other; [`hertz`] and [`uniform`] of
+//! Hertz's law, in the lanes of registers, the one with a law for each contact, the other with one law for all and
+//! a nonlinear force. Tests hold the law and the forces of each against the general one. They round differently.
 
 pub mod hertz;
+pub mod uniform;
 
 use super::{ContactLaw, ContactStep};
 
@@ -112,6 +117,19 @@ fn newton<const N: usize>(problems: &mut [ContactProblem], compliances: &Complia
         }
     }
     false
+}
+
+/// A symmetric matrix times a vector.
+#[inline(always)]
+pub(crate) fn product<const N: usize>(matrix: &[[f64; N]; N], x: &[f64; N]) -> [f64; N] {
+    let mut sum = [0.0; N];
+    // By columns, which are rows: the sums run side by side.
+    for (row, x) in matrix.iter().zip(x) {
+        for (sum, y) in sum.iter_mut().zip(row) {
+            *sum += y * x;
+        }
+    }
+    sum
 }
 
 /// Solves a system of `n` equations. Without pivots: `1 + Y F'` is, but for a scaling, symmetric and positive.

@@ -10,7 +10,7 @@
 //! upper one while the pedal is up, and presses with `F_j` by the law of every contact.
 //!
 //! Shells are measured from where the clamping has bent them, as snare wires are from where the strainer
-//! holds them: with `P_j` the forces in [static equilibrium](super::static_equilibrium) at the present place of the rod and `bend` what
+//! holds them: with `P_j` the forces in [static equilibrium](crate::contact::static_equilibrium) at the present place of the rod and `bend` what
 //! they bend, a shell moves by `F_j - P_j` only. Clamped cymbals that are still are exactly still, and nothing is
 //! lost of the small in the large. Held by a still pedal, all of this keeps its energy to rounding. `P` and `bend`
 //! follow a moving pedal over a block; what they and the rod change of the energy is the
@@ -209,8 +209,7 @@ impl Pair {
             &self.rims.law,
             &self.rigid,
         );
-        (self.pedal.rest, self.pedal.goal, self.pedal.goal_place, self.pedal.way) =
-            (rest, rest, self.pedal.foot.place(), 0);
+        self.pedal.arrive(rest);
         self.rigid.iter_mut().zip(&places).for_each(|(rigid, place)| rigid.put(place));
         (self.rims.compression, self.rims.force) = (compression, rest.preload);
         self.rims.touching = compression.map(|d| d > 0.0);

@@ -5,7 +5,8 @@
 //! the force beyond the upper cymbal's modes has to do with a contact is counted as that contact presses.
 
 use crate::contact::ContactStep;
-use crate::contact::solver::ContactProblem;
+use crate::contact::solver::uniform::UniformContacts;
+use crate::contact::solver::{ContactProblem, product};
 use crate::fitted;
 use crate::modal::simd::MAX_RUN;
 use crate::modal::simd::folded::Amplitudes;
@@ -14,7 +15,6 @@ use crate::potential::NonlinearForce;
 
 use super::pair::Pair;
 use super::rigid::Rigid;
-use super::rim_contact::{self, RimContacts};
 use super::rim_points;
 use super::rim_points::POINTS;
 
@@ -111,7 +111,7 @@ impl Pair {
     /// Finds the forces at the rims if nothing else touches, `divisor` being the dimensionless `2 + G`; whether
     /// that succeeded.
     pub(super) fn solve_alone(&mut self, divisor: f64) -> bool {
-        let rims = RimContacts {
+        let rims = UniformContacts {
             law: &self.rims.law,
             yields: &self.dynamics.whole,
             coupling: &self.dynamics.coupling,
@@ -195,7 +195,7 @@ impl Pair {
         let (whole, force) = (&self.dynamics.whole, &self.rims.force);
         let mut moved = self.kernels.vectorized(
             #[inline(always)]
-            || rim_contact::product(whole, force),
+            || product(whole, force),
         );
         for (point, force, _) in strikers {
             moved.iter_mut().zip(&self.strikers[point].whole).for_each(|(moved, y)| *moved += y * force);

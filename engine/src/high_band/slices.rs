@@ -49,7 +49,7 @@ pub struct HighBandSpec {
     pub sample_rate: f64,
     /// Tells the chance of one head from another's.
     pub seed: u32,
-    /// Places that forces can act on at once, at most [`MAX_DRIVES`].
+    /// Places that forces can act on at once, at most [`MAX_DRIVES`](crate::modal::MAX_DRIVES).
     pub places: usize,
 }
 

@@ -2,7 +2,7 @@
 //!
 //! Whatever touches is an [exciter](Exciter), a few oscillators with one or two points. Both exciters and modes integrate
 //! a force held over the sample exactly, so a contact is one scalar equation, and several at once a small system of
-//! them, which the [solver](crate::contact::solver) solves.
+//! them, which the [solver] solves.
 //!
 //! Strikers come first; exciters of attachments follow, with one point each.
 

@@ -14,6 +14,8 @@
 use crate::contact::ContactLaw;
 use crate::modal::simd::Kernels;
 
+use super::product;
+
 /// The dimensionless exponent these are solved for.
 pub const EXPONENT: f64 = 1.5;
 
@@ -83,7 +85,7 @@ impl<const N: usize> Hertz<N> {
             let mut change: [f64; N] = std::array::from_fn(|i| left[i] / (1.0 + own[i]));
             for _ in 0..SWEEPS {
                 let pushed: [f64; N] = std::array::from_fn(|i| slope[i] * change[i]);
-                let all = self.yields(&pushed);
+                let all = product(&self.compliance, &pushed);
                 for i in 0..N {
                     change[i] = (left[i] - all[i] + own[i] * change[i]) / (1.0 + own[i]);
                 }
@@ -110,21 +112,8 @@ impl<const N: usize> Hertz<N> {
     /// Compressions under these forces, m.
     #[inline(always)]
     fn moved(&self, force: &[f64; N]) -> [f64; N] {
-        let yields = self.yields(force);
+        let yields = product(&self.compliance, force);
         std::array::from_fn(|i| self.free[i] - yields[i])
-    }
-
-    /// How far forces part all contacts, m.
-    #[inline(always)]
-    fn yields(&self, force: &[f64; N]) -> [f64; N] {
-        let mut sum = [0.0; N];
-        // By columns, which are rows: the sums run side by side.
-        for (row, force) in self.compliance.iter().zip(force) {
-            for i in 0..N {
-                sum[i] += row[i] * force;
-            }
-        }
-        sum
     }
 
     /// Forces of a sample that ends at these compressions, and their slopes; `s0` are the roots of those before.

@@ -48,6 +48,11 @@ impl Pedal {
         (self.goal, self.goal_place, self.way) = (goal, self.foot.place(), FOLLOWING);
     }
 
+    /// Is there: `rest` belongs to the present place of the rod.
+    pub(crate) fn arrive(&mut self, rest: Rest) {
+        (self.rest, self.goal, self.goal_place, self.way) = (rest, rest, self.foot.place(), 0);
+    }
+
     /// A sample passes for the balance; false if it has stayed.
     pub(crate) fn lead(&mut self) -> bool {
         if self.way == 0 {

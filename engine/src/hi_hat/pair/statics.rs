@@ -2,9 +2,9 @@
 
 use crate::contact::ContactLaw;
 use crate::contact::solver::Compliances;
+use crate::contact::static_equilibrium;
 use crate::hi_hat::rigid::{Rigid, Weights};
 use crate::hi_hat::rim_points::{self, POINTS};
-use crate::hi_hat::static_equilibrium;
 use crate::modal::ModalBody;
 use crate::modal::simd::folded::Folded;
 
