@@ -7,9 +7,9 @@ use overhear_engine::kit_spec::{InstrumentSpec, PieceBuild, PieceSpec};
 use overhear_engine::piece::{BuildOptions, Quality};
 use overhear_engine::slot::Slot;
 
+use crate::denormals::flushed;
 use crate::kit_document::KitDocument;
 use crate::parameters::{Construction, Drives, parameters};
-use crate::performer::flushed;
 use crate::workers::{Deadline, Patience, Workers};
 
 /// Whether somebody waits for every buffer.

@@ -27,9 +27,12 @@
 
 mod drafts;
 mod error;
+mod format;
+mod located;
 mod notes;
 mod pieces;
 mod source;
+mod text;
 mod typed;
 mod units;
 mod write;
@@ -50,12 +53,7 @@ use error::{Fault, quoted};
 use source::{Origins, Source};
 
 pub use error::KitFileError;
-
-/// Number of the format that is written and read.
-pub const FORMAT: i64 = 1;
-
-/// Largest file that is read, bytes.
-pub const LARGEST: usize = 1 << 20;
+pub use format::{FORMAT, LARGEST};
 
 /// What a file can start from.
 const STANDARD: &str = "standard";
@@ -129,8 +127,8 @@ fn document(Source { table, origins }: Source) -> Result<KitDocument, Fault> {
     let pieces = drafts.iter().map(|draft| pieces::read(draft, &origins)).collect::<Result<_, _>>()?;
     let kit = KitSpec {
         pieces,
-        microphones: whole(&table, "microphones", kit.map(|kit| write::table(&kit.microphones)), &origins)?,
-        room: whole(&table, "room", kit.map(|kit| write::table(&kit.room)), &origins)?,
+        microphones: whole(&table, "microphones", kit.map(|kit| text::table(&kit.microphones)), &origins)?,
+        room: whole(&table, "room", kit.map(|kit| text::table(&kit.room)), &origins)?,
     };
     kit.check().map_err(|error| Fault::of_spec(&error, &origins))?;
     let reader = notes::Reader { start: start.as_ref(), kit: &kit, drafts: &drafts, origins: &origins };

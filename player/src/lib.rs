@@ -12,6 +12,7 @@ pub mod builder;
 pub mod building;
 pub mod cache;
 pub mod deadline;
+mod denormals;
 pub mod kit_document;
 pub mod kit_file;
 pub mod midi;

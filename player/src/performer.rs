@@ -11,7 +11,6 @@ mod controls;
 
 use std::sync::Arc;
 
-use no_denormals::no_denormals;
 use overhear_engine::error::SpecError;
 use overhear_engine::hi_hat::foot::SPEED;
 use overhear_engine::kit::{Arrangement, Control, Crew, Kit, Microphone, Stereo};
@@ -22,6 +21,7 @@ use overhear_engine::snapshot::KitSnapshot;
 use overhear_engine::strike::Strike;
 
 use crate::building::{BuildPlan, Pace};
+use crate::denormals::flushed;
 use crate::kit_document::KitDocument;
 use crate::midi::assignments::Assignments;
 use crate::midi::playing::{Grip, Playing};
@@ -395,18 +395,6 @@ impl Performer {
     pub fn snapshot(&mut self, into: &mut KitSnapshot) {
         self.kit.snapshot(into);
     }
-}
-
-/// Runs the engine with denormal numbers flushed to zero and puts the thread's mode back.
-///
-/// Hosts call with either mode; a tail that fades through denormals must neither cost a hundred
-/// times as much in one of them nor sound different.
-#[allow(unsafe_code)]
-pub(crate) fn flushed<T>(engine: impl FnOnce() -> T) -> T {
-    // SAFETY: only the flush-to-zero and denormals-are-zero modes change, and only in here; no
-    // code in the engine relies on denormals, and the former mode returns before any other code
-    // runs.
-    unsafe { no_denormals(engine) }
 }
 
 #[cfg(test)]

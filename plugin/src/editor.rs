@@ -32,6 +32,7 @@ use overhear_player::presets::Library;
 use overhear_player::strokes::Strokes;
 
 mod field;
+mod gesture;
 mod history;
 mod kit_view;
 mod knob;
@@ -301,11 +302,11 @@ fn draws_in_software(frame: &Frame) -> bool {
     ["llvmpipe", "softpipe", "swrast", "SwiftShader", "Software"].iter().any(|name| renderer.contains(name))
 }
 
-fn gesture_to_host(setter: &ParamSetter, parameter: &FloatParam, gesture: knob::Gesture) {
+fn gesture_to_host(setter: &ParamSetter, parameter: &FloatParam, gesture: gesture::Gesture) {
     match gesture {
-        knob::Gesture::Begin => setter.begin_set_parameter(parameter),
-        knob::Gesture::Set(value) => setter.set_parameter(parameter, value),
-        knob::Gesture::End => setter.end_set_parameter(parameter),
+        gesture::Gesture::Begin => setter.begin_set_parameter(parameter),
+        gesture::Gesture::Set(value) => setter.set_parameter(parameter, value),
+        gesture::Gesture::End => setter.end_set_parameter(parameter),
     }
 }
 

@@ -8,8 +8,8 @@ use toml::{Table, Value};
 
 use super::error::{Fault, quoted};
 use super::source::Origins;
+use super::text;
 use super::typed;
-use super::write;
 
 /// What a file says about a piece beside what it is: not part of its description.
 pub(super) const BESIDE: [&str; 4] = ["like", "slot", "notes", "position_controller"];
@@ -73,7 +73,7 @@ impl Layers<'_> {
         }
         let fields = self.fields(name, &mut vec![name])?;
         let is_kept =
-            self.kept(name).is_some_and(|piece| write::fields(piece).get("kind") == fields.get("kind"));
+            self.kept(name).is_some_and(|piece| text::fields(piece).get("kind") == fields.get("kind"));
         Ok(Draft { name: name.to_owned(), fields, is_kept, beside })
     }
 
@@ -90,7 +90,7 @@ impl Layers<'_> {
                 let reason = "is given, accepted: only for a new piece";
                 return Err(Fault::of(&format!("{path}.like"), self.origins, reason));
             }
-            (Some(piece), None) => write::fields(piece),
+            (Some(piece), None) => text::fields(piece),
             (None, Some(like)) => self.likeness(name, like, way)?,
             (None, None) => Table::new(),
         };
@@ -119,7 +119,7 @@ impl Layers<'_> {
                 way.pop();
                 fields
             }
-            Some(piece) => write::fields(piece),
+            Some(piece) => text::fields(piece),
             None => {
                 let start = self.start.into_iter().flat_map(|kit| &kit.pieces).map(|piece| &piece.name);
                 let known: BTreeSet<&str> = start

@@ -5,11 +5,10 @@ use std::fmt::Write as _;
 use overhear_engine::kit_spec::KitSpec;
 use overhear_engine::slot::Slot;
 
+use super::in_kit::{default_value, is_live, name, range, text};
+use super::list::{SLOT_COUNT, parameters, slot_index};
+use super::parameter::{Drives, Manner, Parameter, SlotParameter};
 use super::slot::number;
-use super::{
-    Drives, Manner, Parameter, SLOT_COUNT, SlotParameter, default_value, is_live, name, parameters, range,
-    slot_index, text,
-};
 
 /// The page, in Markdown. `cargo xtask docs` writes it; a test compares.
 pub fn document() -> String {
@@ -92,7 +91,7 @@ fn row(index: usize, kit: &KitSpec) -> String {
 
 /// One sentence about what a parameter does.
 pub fn about(parameter: &Parameter) -> &'static str {
-    use super::{Construction::*, Stand::*};
+    use super::parameter::{Construction::*, Stand::*};
     use overhear_engine::kit::Control::*;
     match parameter.drives {
         Drives::Slot(_, what) => of_slot(what),

@@ -5,26 +5,17 @@
 use overhear_engine::kit_spec::{Kind, KitSpec};
 use overhear_engine::slot::Slot;
 
+use super::error::ParameterError;
+use super::list::{COUNT, SLOT_COUNT, parameters, slot_index, slot_parameter};
+use super::parameter::SlotParameter;
 use super::slot::name_in;
 use super::table::{FORMER_NAMES, TABLE};
-use super::{COUNT, ParameterError, SLOT_COUNT, SlotParameter, parameters};
 
 /// What a parameter reads that does nothing.
 const INERT: &str = "-";
 
 /// Unit of a drum's pitch.
 const HERTZ: &str = " Hz";
-
-/// Place in the table of a slot's parameter.
-pub const fn slot_index(slot: Slot, what: SlotParameter) -> usize {
-    slot.index() * SlotParameter::ALL.len() + what as usize
-}
-
-/// Slot and kind of a slot's parameter, by its place in the table; none of one that belongs to no slot.
-pub fn slot_parameter(index: usize) -> Option<(Slot, SlotParameter)> {
-    let slot = Slot::new(index / SlotParameter::ALL.len())?;
-    Some((slot, SlotParameter::ALL[index % SlotParameter::ALL.len()]))
-}
 
 /// Name of a parameter in a kit: `kick_tune`, or `slot_10_tune` of an empty slot; of no parameter nothing.
 pub fn name(index: usize, kit: &KitSpec) -> String {

@@ -5,33 +5,7 @@ use overhear_engine::kit_spec::{Kind, KitSpec, PieceSpec};
 use overhear_engine::slot::Slot;
 use overhear_engine::surface::wires::PRELOAD;
 
-use super::{Drives, Parameter};
-
-/// What a parameter moves of the piece in its slot. What a kind of piece does not have is inert: it reads `-` and does
-/// nothing.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum SlotParameter {
-    /// Pitch, semitones from the piece's own.
-    Tune,
-    /// Muffling, 0 to 1.
-    Muffle,
-    /// Level in every microphone, dB.
-    Level,
-    /// Place in the stereo, percent.
-    Pan,
-    /// Added to the place of strokes, share of the radius.
-    Position,
-    /// What is swung: 0 for what the note says, then by its place in [`Striker::ALL`] from 1 on.
-    ///
-    /// [`Striker::ALL`]: overhear_engine::strike::Striker::ALL
-    Stick,
-    /// Force that presses snare wires on, N; of a drum with wires.
-    Preload,
-    /// Whether snare wires lie on; of a drum with wires.
-    Wires,
-    /// The pedal, 0 (up) to 1 (down); of a hi-hat.
-    Pedal,
-}
+use super::parameter::{Drives, Parameter, SlotParameter};
 
 impl SlotParameter {
     /// Every parameter of a slot, in the order of the table.

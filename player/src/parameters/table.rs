@@ -2,7 +2,7 @@
 
 use overhear_engine::kit::{Control, Microphone, SILENT_DB};
 
-use super::{Construction, Drives, Manner, Parameter, Stand};
+use super::parameter::{Construction, Drives, Manner, Parameter, Stand};
 use crate::midi::maps::NoteMap;
 use crate::midi::playing::ChokeRule;
 use crate::workers;

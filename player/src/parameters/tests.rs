@@ -1,3 +1,6 @@
+use overhear_engine::kit_spec::KitSpec;
+use overhear_engine::slot::Slot;
+
 use super::*;
 use overhear_engine::kit_spec::Kind;
 

@@ -8,7 +8,8 @@ use std::sync::Arc;
 use overhear_engine::kit_spec::KitSpec;
 use toml::de::{DeTable, DeValue};
 
-use super::{Carried, FORMAT, Preset, PresetError, STANDARD};
+use super::error::PresetError;
+use super::preset::{Carried, FORMAT, Preset, STANDARD};
 use crate::kit_document::KitDocument;
 use crate::kit_file;
 use crate::midi::assignments::{Assignment, NOTES};

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use directories::ProjectDirs;
 
-use super::{FACTORY, Preset, PresetError};
+use super::error::PresetError;
+use super::preset::{FACTORY, Preset};
 
 /// Extension of the files.
 const EXTENSION: &str = "toml";

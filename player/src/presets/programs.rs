@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use overhear_engine::kit_spec::KitSpec;
 
-use super::{Library, Preset};
+use super::library::Library;
+use super::preset::Preset;
 use crate::midi::assignments::Assignment;
 
 /// Programs that MIDI can name.

@@ -1,6 +1,13 @@
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use overhear_engine::kit_spec::KitSpec;
+
 use std::path::PathBuf;
 
 use super::*;
+use crate::midi::assignments::Assignment;
+use crate::parameters::{COUNT, default_value, is_live, parameters, slot_index};
 use crate::parameters::{SlotParameter, find};
 use overhear_engine::slot::Slot;
 

@@ -6,7 +6,7 @@
 
 use nice_plug::prelude::{FloatParam, Param};
 
-use super::knob::Gesture;
+use super::gesture::{Gesture, put};
 
 /// Steps that are remembered.
 const DEPTH: usize = 200;
@@ -109,13 +109,6 @@ impl History {
                 put(index, to, set);
             }
         }
-    }
-}
-
-/// Moves a parameter to a value in its own unit, in one gesture.
-pub fn put(index: usize, value: f32, set: &mut dyn FnMut(usize, Gesture)) {
-    for gesture in [Gesture::Begin, Gesture::Set(value), Gesture::End] {
-        set(index, gesture);
     }
 }
 

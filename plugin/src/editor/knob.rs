@@ -5,19 +5,9 @@ use egui::text::LayoutJob;
 use egui::{Align, Align2, Color32, Id, Key, Pos2, Rect, Sense, Stroke, Ui, Vec2, pos2, vec2};
 use nice_plug::prelude::Param;
 
+use super::gesture::Gesture;
 use super::theme;
 use super::values::Item;
-
-/// What a hand does with a parameter; hosts record from `Begin` to `End`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Gesture {
-    /// It takes hold.
-    Begin,
-    /// It moves to a plain value.
-    Set(f32),
-    /// It lets go.
-    End,
-}
 
 /// Height of the name and of the value, points.
 const LINE: f32 = 18.0;

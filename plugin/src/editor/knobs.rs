@@ -2,7 +2,8 @@
 
 use egui::{Align2, Color32, Rect, Ui, pos2, vec2};
 
-use super::knob::{self, Gesture};
+use super::gesture::Gesture;
+use super::knob;
 use super::theme;
 use super::values::{Item, Values};
 

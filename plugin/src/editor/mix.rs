@@ -6,7 +6,8 @@
 use egui::{Align2, Button, Color32, Rect, ScrollArea, Ui, UiBuilder, pos2, vec2};
 use overhear_engine::slot::{SLOTS, Slot};
 
-use super::knob::{self, Gesture};
+use super::gesture::Gesture;
+use super::knob;
 use super::levels::{self, Levels};
 use super::theme;
 use super::values::{Item, Values};

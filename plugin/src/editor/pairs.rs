@@ -3,8 +3,8 @@
 use nice_plug::prelude::{FloatParam, Param};
 use overhear_engine::kit::Microphone;
 
+use super::gesture::Gesture;
 use super::kit_view::Moved;
-use super::knob::Gesture;
 use overhear_player::parameters::{Stand, parameters};
 use overhear_player::placing::index_of;
 

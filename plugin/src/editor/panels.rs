@@ -6,10 +6,10 @@ use egui::{Align, Align2, Button, Layout, Rect, Ui, UiBuilder, pos2, vec2};
 use overhear_engine::slot::Slot;
 use overhear_engine::snapshot::{FieldShapes, KitSnapshot};
 
+use super::gesture::Gesture;
 use super::history::History;
 use super::kit_view::camera::Camera;
 use super::kit_view::{KitView, Seen};
-use super::knob::Gesture;
 use super::levels::Levels;
 use super::mix::Mix;
 use super::pairs::PairHand;

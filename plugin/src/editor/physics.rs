@@ -7,15 +7,14 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use egui::{Color32, Rect, Ui, pos2};
-use overhear_engine::kit_spec::{KitSpec, PieceSpec};
+use egui::{Rect, Ui};
+use overhear_engine::kit_spec::KitSpec;
 use overhear_engine::slot::{SLOTS, Slot};
-use overhear_engine::snapshot::{FieldShapes, KitSnapshot, OCTAVES};
+use overhear_engine::snapshot::FieldShapes;
+use overhear_engine::snapshot::KitSnapshot;
 
-use super::plot::Plot;
 use super::theme;
 use crate::monitor::STILL;
-use crate::sound::Sound;
 
 mod bending;
 mod cascade;
@@ -24,30 +23,18 @@ mod energy;
 mod force;
 mod glide;
 mod modes;
+mod page;
+mod past;
 mod spectrum;
 mod wires;
 
 use closeup::Closeup;
+use page::halves;
+use past::{MEMORY, Moment};
 use spectrum::Spectrum;
 use wires::Wires;
 
-/// How far back energies and pitches are drawn, s.
-const MEMORY: f64 = 3.0;
-
-/// Space between diagrams, points.
-const GAP: f32 = 8.0;
-
-/// What was at a time.
-struct Moment {
-    /// s of the editor's time.
-    time: f64,
-    /// How far pitch is above its own, cents, by slot.
-    cents: [f32; SLOTS],
-    /// Largest displacement over thickness, by slot; of plates.
-    bending: [f32; SLOTS],
-    /// Energy of the modes of each octave, J, by slot.
-    octaves: [[f32; OCTAVES]; SLOTS],
-}
+pub use page::Seen;
 
 /// The page of one window.
 pub struct Physics {
@@ -58,30 +45,6 @@ pub struct Physics {
     wires: [Wires; SLOTS],
     /// The mode that is shown alone, and of which piece.
     mode: Option<(Slot, usize)>,
-}
-
-/// What the page is drawn from.
-pub struct Seen<'a> {
-    pub snapshot: &'a KitSnapshot,
-    pub kit: &'a KitSpec,
-    /// The piece that the diagrams are about, and its mode shapes once it is built.
-    pub selected: (Slot, &'a PieceSpec),
-    pub shapes: Option<Arc<FieldShapes>>,
-    pub sound: &'a Sound,
-}
-
-/// Draws one height (share of the plot's) for each moment over the time that is remembered, up to `now`, s.
-fn over_time(
-    plot: &Plot,
-    moments: &VecDeque<Moment>,
-    now: f64,
-    heights: impl Iterator<Item = f32>,
-    colour: Color32,
-) {
-    let across = moments.iter().map(|moment| 1.0 - ((now - moment.time) / MEMORY) as f32);
-    let points: Vec<_> = across.zip(heights).map(|(x, y)| plot.at(x, y)).collect();
-    plot.curve(&points, colour);
-    plot.ends(&format!("{MEMORY:.0} s ago"), "now");
 }
 
 impl Physics {
@@ -179,23 +142,5 @@ impl Physics {
             let chosen = Some((slot, mode));
             self.mode = if self.mode == chosen { None } else { chosen };
         }
-    }
-}
-
-/// Two parts of a rectangle with a gap between, beside each other or one over the other.
-fn halves(rect: Rect, share: f32, beside: bool) -> (Rect, Rect) {
-    let gap = 0.5 * GAP;
-    if beside {
-        let x = rect.min.x + share * rect.width();
-        (
-            Rect::from_min_max(rect.min, pos2(x - gap, rect.max.y)),
-            Rect::from_min_max(pos2(x + gap, rect.min.y), rect.max),
-        )
-    } else {
-        let y = rect.min.y + share * rect.height();
-        (
-            Rect::from_min_max(rect.min, pos2(rect.max.x, y - gap)),
-            Rect::from_min_max(pos2(rect.min.x, y + gap), rect.max),
-        )
     }
 }

@@ -5,8 +5,8 @@ use egui::{Button, ComboBox, TextEdit, Ui};
 use nice_plug::prelude::Param;
 use overhear_engine::error::SpecError;
 
-use super::history::put;
-use super::knob::Gesture;
+use super::gesture::Gesture;
+use super::gesture::put;
 use super::theme;
 use crate::host_parameters::HostParameters;
 use overhear_player::presets::{DEFAULT, Entry, Library, Origin, Preset, PresetError};

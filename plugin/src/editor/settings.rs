@@ -2,7 +2,7 @@
 
 use egui::{Rect, ScrollArea, Sense, Ui, UiBuilder, pos2};
 
-use super::knob::Gesture;
+use super::gesture::Gesture;
 use super::values::Values;
 use super::{knobs, theme};
 

@@ -5,7 +5,7 @@ use nice_plug::prelude::Param;
 use overhear_engine::kit_spec::KitSpec;
 use overhear_engine::snapshot::{FIELD_MODES, FieldShapes, KitSnapshot};
 
-use super::knob::Gesture;
+use super::gesture::Gesture;
 use super::panels::Page;
 use super::*;
 use crate::sound::Sound;

@@ -4,8 +4,7 @@ use nice_plug::prelude::{FloatParam, Param};
 use overhear_engine::kit_spec::KitSpec;
 use overhear_engine::slot::Slot;
 
-use super::history::put;
-use super::knob::Gesture;
+use super::gesture::{Gesture, put};
 use overhear_player::parameters::{self, Parameter, ParameterError, SLOT_COUNT, SlotParameter, parameters};
 
 /// The parameters of an instance and the kit that they are about.

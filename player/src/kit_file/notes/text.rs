@@ -6,11 +6,11 @@ use overhear_engine::slot::Slot;
 
 use crate::midi_map::{Foot, Meaning, NoteTable, Row, Stroke};
 
-use super::super::write::{number, string};
+use super::super::text::{number, string};
 use super::entry::{CHICK, SPLASH};
 
 /// Writes the notes of a slot's piece, and its controller.
-pub(in crate::kit_file) fn write(text: &mut String, table: &NoteTable, slot: Slot) {
+pub(crate) fn write(text: &mut String, table: &NoteTable, slot: Slot) {
     if let Some(controller) = table.position_controller(slot) {
         let _ = writeln!(text, "position_controller = {controller}");
     }
@@ -45,7 +45,7 @@ pub(in crate::kit_file) fn write(text: &mut String, table: &NoteTable, slot: Slo
 }
 
 /// Writes the notes that are in the table and silent.
-pub(in crate::kit_file) fn write_silent(text: &mut String, table: &NoteTable) {
+pub(crate) fn write_silent(text: &mut String, table: &NoteTable) {
     let silent = table.rows().filter(|(_, row)| row.meaning == Meaning::Silent);
     let lines: String = silent.map(|(note, row)| format!("{note} = {}\n", string(&row.name))).collect();
     if !lines.is_empty() {

@@ -11,7 +11,7 @@ use super::super::units::with_units;
 
 /// What does not fit, and where.
 #[derive(Debug)]
-pub(in crate::kit_file) struct Mistake {
+pub(crate) struct Mistake {
     /// Keys from the innermost outward.
     keys: Vec<String>,
     what: What,

@@ -10,7 +10,7 @@ use egui::{Color32, Rect, Stroke, Ui};
 use overhear_engine::kit_spec::{InstrumentSpec, PieceSpec};
 use overhear_engine::snapshot::{FieldShapes, PieceSnapshot};
 
-use super::{Moment, over_time};
+use super::past::{Moment, over_time};
 use crate::editor::field;
 use crate::editor::plot::Plot;
 use crate::editor::theme;

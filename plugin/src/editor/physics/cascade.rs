@@ -8,7 +8,7 @@ use std::collections::VecDeque;
 use egui::{Align2, Color32, Rect, Ui, pos2};
 use overhear_engine::snapshot::{FIRST_OCTAVE, OCTAVES};
 
-use super::{MEMORY, Moment};
+use super::past::{MEMORY, Moment};
 use crate::editor::plot::Plot;
 use crate::editor::theme::{self, Palette};
 

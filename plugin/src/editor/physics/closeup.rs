@@ -4,7 +4,8 @@ use egui::{Align2, Rect, Sense, Ui, pos2};
 use overhear_engine::kit_spec::PieceSpec;
 use overhear_engine::slot::Slot;
 
-use super::{Seen, bending};
+use super::bending;
+use super::page::Seen;
 use crate::editor::field::{self, Magnifier};
 use crate::editor::kit_view::bodies::{Body, Frame};
 use crate::editor::kit_view::camera::Eye;

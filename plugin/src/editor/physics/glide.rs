@@ -10,7 +10,7 @@ use std::collections::VecDeque;
 use egui::{Color32, Rect, Ui};
 use overhear_engine::kit_spec::PieceSpec;
 
-use super::{Moment, over_time};
+use super::past::{Moment, over_time};
 use crate::editor::plot::Plot;
 
 /// Glide of a head whose stretch holds an energy (J) at a tension at rest (N/m), cents; nothing of what is no drum.

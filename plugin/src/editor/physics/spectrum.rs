@@ -71,7 +71,7 @@ impl Spectrum {
         let loudest = self.follow(sound);
         let remark = loudest.map_or(String::new(), |hertz| format!("strongest at {hertz:.0} Hz"));
         let plot = Plot::new(ui, rect, "Spectrum, and its last seconds", &remark);
-        let (now, past) = super::halves(plot.area, 0.5, true);
+        let (now, past) = super::page::halves(plot.area, 0.5, true);
         let inside = |x: f32, y: f32| pos2(now.min.x + x * now.width(), now.max.y - y * now.height());
         let points: Vec<_> = self
             .levels
