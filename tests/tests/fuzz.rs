@@ -5,8 +5,6 @@
 //! counts allocations during playback.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
 
 use assert_no_alloc::{AllocDisabler, assert_no_alloc, violation_count};
 use overhear::building::Pace;
@@ -17,6 +15,7 @@ use overhear::presets::{FACTORY, Preset};
 use overhear_cli::song::Song;
 use overhear_engine::snapshot::KitSnapshot;
 use overhear_tests::Chance;
+use rayon::prelude::*;
 
 #[global_allocator]
 static ALLOCATOR: AllocDisabler = AllocDisabler;
@@ -127,17 +126,9 @@ fn twelve_thousand_random_events_at_every_rate_stay_finite_and_fall_asleep() {
 #[test]
 #[ignore = "takes half an hour on two cores; run before a release"]
 fn a_million_random_events_stay_finite_and_fall_asleep() {
-    let next = AtomicUsize::new(0);
-    let work = || {
-        while let seed @ 0..100 = next.fetch_add(1, Ordering::Relaxed) {
-            play(1_000 + seed as u64, RATES[seed % RATES.len()], 10_000, 16);
-            println!("seed {seed} of 100, 10,000 events each");
-        }
-    };
-    thread::scope(|scope| {
-        for _ in 0..thread::available_parallelism().map_or(1, usize::from) {
-            scope.spawn(work);
-        }
+    (0..100).into_par_iter().with_max_len(1).for_each(|seed: usize| {
+        play(1_000 + seed as u64, RATES[seed % RATES.len()], 10_000, 16);
+        println!("seed {seed} of 100, 10,000 events each");
     });
 }
 

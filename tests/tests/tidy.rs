@@ -8,6 +8,7 @@ mod pieces;
 #[path = "tidy/units.rs"]
 mod units;
 
+use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -224,14 +225,25 @@ fn every_command_line_of_a_document_is_understood() {
     let (mut wrong, mut seen) = (Vec::new(), 0);
     for (document, text) in documents() {
         for block in text.split("```").skip(1).step_by(2) {
-            for line in block.lines().filter_map(|line| line.trim().strip_prefix("cargo xtask ")) {
+            for line in block.lines().map(str::trim) {
+                let check: fn(Vec<OsString>) -> Result<(), String>;
+                let arguments = if let Some(arguments) = line.strip_prefix("cargo xtask ") {
+                    check = xtask::cli::check;
+                    arguments
+                } else if let Some(arguments) = line.strip_prefix("overhear ") {
+                    check = overhear_cli::commands::check;
+                    arguments
+                } else {
+                    continue;
+                };
                 // What stands for something of the reader's is not understood by a program.
-                if line.contains(['{', '$', '[', '<']) || line.starts_with("NAME") {
+                if arguments.contains(['{', '$', '[', '<']) || arguments.starts_with("NAME") {
                     continue;
                 }
                 seen += 1;
-                let line = line.split(" #").next().unwrap_or(line).split(" > ").next().unwrap_or(line);
-                if let Err(refusal) = xtask::cli::check(words(&format!("xtask {line}"))) {
+                let arguments = arguments.split(" #").next().unwrap_or(arguments);
+                let arguments = arguments.split(" > ").next().unwrap_or(arguments);
+                if let Err(refusal) = check(words(&format!("program {arguments}"))) {
                     wrong.push(format!("{document}: {line}: {refusal}"));
                 }
             }
@@ -241,8 +253,26 @@ fn every_command_line_of_a_document_is_understood() {
     none(wrong);
 }
 
+/// What users install must not look for the folder it was built in.
+#[test]
+fn the_program_and_what_it_measures_with_know_no_checkout() {
+    let mut wrong = Vec::new();
+    let sources: Vec<_> =
+        ["cli/src", "measure/src"].into_iter().flat_map(|folder| files(folder, &["rs"])).collect();
+    assert!(sources.len() > 50, "{} sources", sources.len());
+    for (path, text) in sources.into_iter().map(read) {
+        for word in ["CARGO_MANIFEST_DIR", "CARGO_TARGET", "OUT_DIR", "current_exe"] {
+            // Callgrind is started on the program itself, wherever that lies.
+            if text.contains(word) && (path.as_str(), word) != ("cli/src/bench/callgrind.rs", "current_exe") {
+                wrong.push(format!("{path}: {word}"));
+            }
+        }
+    }
+    none(wrong);
+}
+
 /// The words of a command line, those in quotes together.
-fn words(line: &str) -> Vec<std::ffi::OsString> {
+fn words(line: &str) -> Vec<OsString> {
     let mut words = Vec::new();
     for (i, part) in line.split('"').enumerate() {
         if i % 2 == 1 {

@@ -48,9 +48,7 @@ enum Task {
     Realism(RealismArguments),
     /// Measure and write the pages of docs/report
     Report {
-        /// modal, contact, heads, glide, drums, snare, plate, cymbal, cascade, hi-hat, radiation, kit, realism, cost; all if
-        /// none is given
-        #[arg(value_name = "PAGE")]
+        #[arg(value_name = "PAGE", help = report::help())]
         pages: Vec<String>,
         /// The folder to write to; docs/report if not given
         #[arg(short, long, value_name = "DIR")]

@@ -11,13 +11,12 @@ use overhear_cli::output::Folder;
 use overhear_cli::progress::Progress;
 use overhear_cli::settings;
 use overhear_cli::wav::{Bits, WavFile};
-use overhear_measure::realism::{self, Ear, Job, RATE};
+use overhear_measure::realism::{self, Ear, Job, RATE, SUBJECTS};
 
 /// Arguments of `realism`.
 #[derive(Debug, Args)]
 pub struct RealismArguments {
-    /// kick, snare, rack-tom, floor-tom, crash, ride, splash, hi-hat-closed, hi-hat-open; all if not given
-    #[arg(value_name = "PIECE")]
+    #[arg(value_name = "PIECE", help = subjects_help())]
     pieces: Vec<String>,
     /// Speeds of the strokes, m/s, up to 25
     #[arg(long, value_name = "M/S,M/S,...", value_delimiter = ',', value_parser = speed,
@@ -72,6 +71,11 @@ pub fn run(arguments: RealismArguments) -> Result<()> {
     })?;
     drop(progress);
     say(&if arguments.json { serde_json::to_string(&report)? + "\n" } else { report.to_string() })
+}
+
+/// What `--help` says of the subjects' names.
+fn subjects_help() -> String {
+    format!("What to strike, all if none is given: {}", SUBJECTS.map(|subject| subject.name).join(", "))
 }
 
 /// Writes what each ear hears of a stroke.

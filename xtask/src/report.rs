@@ -22,6 +22,12 @@ pub fn pages() -> impl Iterator<Item = (&'static str, Measure)> {
     report::PAGES.into_iter().chain([("cost", cost)])
 }
 
+/// What `--help` says of the pages' names.
+pub fn help() -> String {
+    let names: Vec<&str> = pages().map(|(name, _)| name).collect();
+    format!("Pages to write, all if none is given: {}", names.join(", "))
+}
+
 /// Default folder of the pages.
 pub fn folder() -> PathBuf {
     workspace::root().join("docs/report")

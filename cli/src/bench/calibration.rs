@@ -22,6 +22,12 @@ pub struct Calibration {
     numbers: Vec<f32>,
 }
 
+impl Default for Calibration {
+    fn default() -> Calibration {
+        Calibration::new()
+    }
+}
+
 impl Calibration {
     /// At its beginning.
     pub fn new() -> Calibration {

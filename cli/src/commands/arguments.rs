@@ -9,7 +9,7 @@ use overhear_engine::kit_spec::KitSpec;
 use overhear_engine::modal::simd::level::InstructionSet;
 use overhear_engine::piece::{self, BuildOptions};
 use overhear_engine::slot::Slot;
-use overhear_engine::strike::Strike;
+use overhear_engine::strike::{Strike, Striker};
 use overhear_measure::hear;
 
 use super::alterations::Alterations;
@@ -252,8 +252,7 @@ impl From<Quality> for piece::Quality {
 /// Arguments of `hear`.
 #[derive(Debug, Args)]
 pub struct HearArguments {
-    /// Name of a piece of the kit: kick, snare, rack-tom, floor-tom, crash, ride, splash, timpani or hi-hat of the standard
-    /// one
+    #[arg(help = piece_help())]
     piece: String,
     /// Take the piece from the kit in this file
     #[arg(long, value_name = "FILE")]
@@ -267,9 +266,7 @@ pub struct HearArguments {
     /// Direction of the strike position, degrees from the player's side
     #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = angle)]
     angle: Option<f64>,
-    /// stick, shoulder, nylon, felt-beater, plastic-beater, timpani-mallet, hard-mallet, yarn-mallet, rimshot or
-    /// cross-stick; by default what the piece is usually played with
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", help = striker_help())]
     striker: Option<String>,
     /// Tune or muffle the piece, such as snare_tune=240 or ride_muffle=.3; can be repeated
     #[arg(long, value_name = "NAME=VALUE")]
@@ -318,6 +315,18 @@ impl HearArguments {
     }
 }
 
+/// What `--help` says of a piece's name.
+fn piece_help() -> String {
+    let names: Vec<String> = KitSpec::standard().pieces.into_iter().map(|piece| piece.name).collect();
+    format!("Name of a piece of the kit; those of the standard kit are {}", names.join(", "))
+}
+
+/// What `--help` says of a striker's name.
+fn striker_help() -> String {
+    let names = Striker::ALL.map(Striker::name).join(", ");
+    format!("What strikes, by default what the piece is usually played with: {names}")
+}
+
 /// A kit, the slot of a piece in it, and a kit of that piece alone, changed as asked for.
 fn one_piece(
     file: Option<&Path>,
@@ -334,8 +343,7 @@ fn one_piece(
 /// Arguments of `modes`.
 #[derive(Debug, Args)]
 pub struct ModesArguments {
-    /// Name of a piece of the kit: kick, snare, rack-tom, floor-tom, crash, ride, splash, timpani or hi-hat of the standard
-    /// one
+    #[arg(help = piece_help())]
     piece: String,
     /// Take the piece from the kit in this file
     #[arg(long, value_name = "FILE")]
