@@ -10,6 +10,7 @@ mod compare;
 mod limit;
 mod measure;
 mod report;
+mod request;
 mod workload;
 
 use std::path::PathBuf;
@@ -38,34 +39,13 @@ use report::Report;
 use workload::{Scene, Workload};
 
 pub use callgrind::count_this;
-
-/// Sample rate of everything measured, if not given, Hz.
-pub const RATE: f64 = 44_100.0;
+pub use request::{Builds, RATE, Request};
 
 /// Threads that build a kit at once, at most, as in the plugin.
 const MOST_BUILDERS: usize = 4;
 
 /// Runs if not given.
 pub const RUNS: usize = 7;
-
-/// Request for a measurement.
-#[derive(Debug, Clone)]
-pub struct Request {
-    /// A file of the kit; the standard kit if none is named.
-    pub kit: Option<PathBuf>,
-    /// Runs of everything, at least 1.
-    pub runs: usize,
-    /// Tier of the kit's cymbals in the groove and struck all at once.
-    pub quality: Quality,
-    /// Sample rate, Hz.
-    pub rate: f64,
-    /// The instruction set to keep to; the machine's widest if none.
-    pub simd: Option<InstructionSet>,
-    /// A report to set this one beside.
-    pub compare: Option<PathBuf>,
-    /// Count instructions, too.
-    pub callgrind: bool,
-}
 
 /// Measures everything.
 ///
@@ -121,25 +101,6 @@ fn scenes(document: &KitDocument, quality: Quality) -> Vec<Scene> {
         }
     }
     scenes
-}
-
-/// Costs of building a kit.
-#[derive(Debug, Clone, Copy, Default, Serialize)]
-pub struct Builds {
-    /// All that makes sound of an instance, without pieces, s.
-    pub instance_s: f64,
-    /// Nothing is known yet, s.
-    pub build_cold_s: f64,
-    /// All is in the cache folder, s.
-    pub build_from_disk_s: f64,
-    /// All is in memory, s.
-    pub build_warm_s: f64,
-    /// CPU seconds of all processors for these three, in their order: what other work on the machine adds least to.
-    pub build_cpu_s: [f64; 3],
-    /// Memory of the process after the first, in MB.
-    pub memory_mb: f64,
-    /// The machine's limit, and the demand of a ringing kit.
-    pub limit: Option<Limit>,
 }
 
 impl Builds {

@@ -6,6 +6,7 @@
 
 mod alterations;
 mod arguments;
+mod numbers;
 
 use std::ffi::OsString;
 use std::io::Write;

@@ -2,6 +2,7 @@
 
 mod job;
 mod stems;
+mod style;
 
 use std::path::{Path, PathBuf};
 use std::thread;
@@ -17,6 +18,7 @@ use crate::settings::Setting;
 use crate::wav::Bits;
 
 pub use job::{Job, Report, decibels, takes};
+pub use style::Style;
 
 /// A request to render.
 #[derive(Debug, Clone)]
@@ -31,34 +33,6 @@ pub struct Request {
     pub jobs: Option<usize>,
     /// Style of playing.
     pub style: Style,
-}
-
-/// How to play and store a song.
-#[derive(Debug, Clone)]
-pub struct Style {
-    /// Source of the sound.
-    pub source: Source,
-    /// Sample rate, Hz.
-    pub rate: u32,
-    /// The kit and its notes.
-    pub kit: KitDocument,
-    /// Parameters moved before the start.
-    pub settings: Vec<Setting>,
-    /// How the sound is cut into buffers.
-    pub blocks: Blocks,
-    /// How samples are stored.
-    pub bits: Bits,
-    /// Sound after the last note, seconds.
-    pub tail: f64,
-    /// The only channel played, 1 to 16, or all.
-    pub channel: Option<u8>,
-}
-
-impl Style {
-    /// How whoever plays is set up.
-    pub fn setup(&self) -> Setup {
-        Setup { rate: self.rate, kit: self.kit.clone(), settings: self.settings.clone() }
-    }
 }
 
 /// Renders everything asked for.

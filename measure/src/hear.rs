@@ -4,6 +4,7 @@
 //! microphone; full scale is 20 Pa. The gain of that microphone and the mix are not applied.
 
 mod measure;
+mod stroke;
 mod table;
 
 use anyhow::{Context, Result};
@@ -21,6 +22,7 @@ use crate::bad_input;
 use crate::settings::PieceSetting;
 
 pub use measure::Measurement;
+pub use stroke::{Request, Sound};
 
 /// Default speed of a stroke, m/s: firm but ordinary.
 pub const DEFAULT_SPEED: f64 = 4.0;
@@ -30,21 +32,6 @@ pub const ALONE: Slot = Slot::ALL[0];
 
 /// Time for controls to settle before the stroke, s.
 const SETTLING: f64 = 0.5;
-
-/// One stroke as asked for.
-#[derive(Debug, Clone)]
-pub struct Request {
-    /// A kit of the one piece that is struck; see [`KitSpec::alone`].
-    pub kit: KitSpec,
-    /// The stroke.
-    pub strike: Strike,
-    /// Controls that are not where the piece has them.
-    pub settings: Vec<PieceSetting>,
-    /// How the piece is built.
-    pub options: BuildOptions,
-    /// Length of the sound, s.
-    pub seconds: f64,
-}
 
 /// The stroke a piece gets unless told otherwise: the place and the striker of its ordinary note, at
 /// [`DEFAULT_SPEED`]. A piece that no note strikes is struck with a stick, a cymbal near its edge.
@@ -69,29 +56,6 @@ pub fn striker(name: &str) -> Result<Striker> {
         let names = Striker::ALL.map(Striker::name).join(", ");
         bad_input!("no striker is called `{name}`, accepted: {names}")
     })
-}
-
-/// A rendered stroke.
-#[derive(Debug, Clone)]
-pub struct Sound {
-    /// Samples, full scale 1.
-    pub samples: Vec<f32>,
-    /// Motion of the lowest modes.
-    pub motion: Motion,
-    /// Energy of the striker as it arrives, J.
-    pub striker_energy: f64,
-    /// Energy that strikers have taken away, their bending and all, J.
-    pub striker_energy_out: f64,
-    /// Greatest energy of the piece, J.
-    pub energy_peak: f64,
-    /// Energy of the piece at the end, J.
-    pub energy_end: f64,
-    /// Measurements of the contact.
-    pub contact: StrikeSnapshot,
-    /// Motion of the snare wires.
-    pub wires: WireSnapshot,
-    /// Motion of a hi-hat's rims.
-    pub rims: RimSnapshot,
 }
 
 /// A kit with its pieces, its controls at rest where they were set.

@@ -8,6 +8,7 @@ mod ears;
 pub mod features;
 pub mod reference;
 mod report;
+mod request;
 mod subject;
 mod table;
 
@@ -26,6 +27,7 @@ use crate::settings::Setting;
 use ears::Stand;
 
 pub use ears::Ear;
+pub use request::{Job, Request};
 pub use report::{Count, PieceReport, Report, Row, Stroke};
 pub use subject::{SUBJECTS, Subject, subjects};
 
@@ -39,55 +41,8 @@ pub const RATE: u32 = 48_000;
 const DRUM_SECONDS: f64 = 4.0;
 const CYMBAL_SECONDS: f64 = 8.0;
 
-/// What to measure.
-#[derive(Debug, Clone)]
-pub struct Request {
-    /// The pieces, as they were recorded.
-    pub subjects: Vec<Subject>,
-    /// Speeds of the strokes, m/s, ascending.
-    pub speeds: Vec<f64>,
-    /// The kit, which has pieces of the subjects' names, and its notes.
-    pub kit: KitDocument,
-    /// Parameters that are not at their default.
-    pub settings: Vec<Setting>,
-    /// Whether the kit is bounced or played, which is what its cymbals' quality goes by.
-    pub pace: Pace,
-}
-
-/// One stroke of a subject.
-#[derive(Debug, Clone, Copy)]
-pub struct Job {
-    /// What is struck.
-    pub subject: Subject,
-    /// Its slot.
-    pub slot: Slot,
-    /// Speed, m/s.
-    pub speed: f64,
-    /// Place, share of the radius.
-    pub place: f64,
-}
-
 /// Who is shown a stroke and what the ears hear of it, full scale 1; an error ends the measurement.
 pub type Show<'a> = dyn Fn(&Job, &[Vec<f32>; 2]) -> Result<()> + Sync + 'a;
-
-impl Request {
-    /// How many strokes it asks for.
-    pub fn strokes(&self) -> usize {
-        self.subjects.iter().map(|subject| subject.places.len() * self.speeds.len()).sum()
-    }
-
-    /// Every stroke: subject by subject, speed by speed, place by place.
-    fn jobs(&self) -> Result<Vec<Job>> {
-        let mut jobs = Vec::new();
-        for &subject in &self.subjects {
-            let slot = subject.slot(&self.kit)?;
-            for &speed in &self.speeds {
-                jobs.extend(subject.places.map(|place| Job { subject, slot, speed, place }));
-            }
-        }
-        Ok(jobs)
-    }
-}
 
 /// Renders and measures everything, on as many threads as there are cores, each with a kit of its own.
 ///

@@ -12,20 +12,13 @@
 //! ghost notes a touch late, hands louder on the beat than between.
 
 mod score;
+mod stroke;
 
 use midly::num::{u4, u7, u15, u24, u28};
 use midly::{Format, Header, MetaMessage, MidiMessage, Smf, Timing, TrackEvent, TrackEventKind};
 
 use score::Score;
-
-/// Ticks in a quarter note.
-const PPQ: u32 = 480;
-
-/// Ticks in a sixteenth note.
-const SIXTEENTH: u32 = PPQ / 4;
-
-/// Ticks in a bar of 4/4.
-const BAR: u32 = 4 * PPQ;
+use stroke::{BAR, PPQ, SIXTEENTH, Stroke};
 
 /// How long a note is held, ticks. Nothing depends on it: drums ring as they will.
 const HELD: u32 = 60;
@@ -35,14 +28,6 @@ const CHANNEL: u8 = 9;
 
 /// Beats a minute, from which bar on.
 const TEMPO: [(u32, f64); 6] = [(0, 96.0), (9, 97.5), (13, 98.5), (17, 97.0), (19, 94.0), (20, 88.0)];
-
-/// One stroke of the score.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Stroke {
-    tick: u32,
-    key: u8,
-    velocity: u8,
-}
 
 /// The bytes of `assets/groove.mid`.
 pub fn file() -> Vec<u8> {

@@ -12,7 +12,7 @@ use overhear_engine::modal::simd::level::{self, InstructionSet};
 use overhear_engine::piece::Quality;
 
 use super::workload::{Scene, Workload};
-use super::{RATE, Request};
+use super::request::{RATE, Request};
 use crate::progress::Progress;
 use crate::{bad_input, settings};
 

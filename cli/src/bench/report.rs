@@ -13,7 +13,7 @@ use super::compare::Before;
 use super::limit::Limit;
 use super::measure::{Blocks, Buffers, Cost};
 use super::workload::Scene;
-use super::{Builds, Request};
+use super::request::{Builds, Request};
 
 /// Quantiles of the time of a block that are reported.
 const QUANTILES: [(&str, f64); 5] = [("50", 0.5), ("90", 0.9), ("99", 0.99), ("99.9", 0.999), ("100", 1.0)];

@@ -6,7 +6,7 @@ use overhear_engine::damping::Muffler;
 use overhear_engine::drum::DrumSpec;
 use overhear_engine::kit_spec::{Defaults, InstrumentSpec, KitSpec, PieceSpec};
 
-use super::arguments::{angle, number};
+use super::numbers::{angle, number};
 use crate::bad_input;
 
 /// Changes to a piece's description.

@@ -13,6 +13,7 @@ use overhear_engine::strike::{Strike, Striker};
 use overhear_measure::hear;
 
 use super::alterations::Alterations;
+use super::numbers::{angle, number};
 use crate::modes::Modes;
 use crate::player::{Blocks, Source};
 use crate::plugin_folders::{self, Format};
@@ -450,15 +451,6 @@ fn rate(text: &str) -> Result<u32, String> {
     )
 }
 
-/// A number from `least` (left out if `open`) to `most`.
-pub(super) fn number(text: &str, least: f64, open: bool, most: f64, unit: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(value) if value <= most && (value > least || (value == least && !open)) => Ok(value),
-        _ if open => Err(format!("accepted: above {least} to {most}{unit}")),
-        _ => Err(format!("accepted: {least} to {most}{unit}")),
-    }
-}
-
 fn tail(text: &str) -> Result<f64, String> {
     number(text, 0.0, false, LONGEST, " s")
 }
@@ -479,6 +471,3 @@ fn share(text: &str) -> Result<f64, String> {
     number(text, 0.0, false, 1.0, " of the radius")
 }
 
-pub(super) fn angle(text: &str) -> Result<f64, String> {
-    number(text, -360.0, false, 360.0, " degrees")
-}

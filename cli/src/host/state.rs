@@ -5,7 +5,7 @@ use overhear::kit_document::KitDocument;
 use overhear::kit_file;
 use serde_json::{Map, Value};
 
-use super::Instance;
+use super::instance::Instance;
 
 /// Bytes of a state that say how long its text is.
 const LENGTH: usize = 8;

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use anyhow::{Result, ensure};
 
-use super::Style;
+use super::style::Style;
 use super::stems::Stems;
 use crate::output::Folder;
 use crate::player::{Hit, Played, Take};

@@ -11,7 +11,7 @@ use overhear_engine::kit::{OUTPUTS, Stereo};
 use overhear_engine::kit_spec::KitSpec;
 use overhear_engine::slot::SLOTS;
 
-use super::Style;
+use super::style::Style;
 use crate::bad_input;
 use crate::player::{EnginePlayer, Hit, LONGEST_BLOCK, Player, Take};
 use crate::progress::Progress;

@@ -64,7 +64,7 @@ pub fn click_db(shot: &OneShot) -> Option<f64> {
 /// Peak of the first 250 ms over their root mean square, dB.
 pub fn crest_db(shot: &OneShot) -> Option<f64> {
     let sound = shot.first(CREST);
-    decibels((super::peak(sound) / super::rms(sound)?).powi(2))
+    decibels((super::level::peak(sound) / super::level::rms(sound)?).powi(2))
 }
 
 /// Mean time after the beginning, weighted by energy, ms.

@@ -44,7 +44,7 @@ pub fn glide_cents(motion: &Motion, strongest: f64, free_from: f64) -> Option<f6
         ((1200.0 * (late / strongest).log2()).abs() < NEAR_CENTS).then_some(late)
     };
     let early = |mode| window(mode, motion.rate, EARLY.max(free_from));
-    let moving = |mode| early(mode).and_then(super::rms).unwrap_or(0.0);
+    let moving = |mode| early(mode).and_then(super::level::rms).unwrap_or(0.0);
     // The mode of the pair that moves.
     let mode = motion
         .modes
@@ -52,7 +52,7 @@ pub fn glide_cents(motion: &Motion, strongest: f64, free_from: f64) -> Option<f6
         .filter(|mode| near(mode).is_some())
         .max_by(|a, b| moving(a).total_cmp(&moving(b)))?;
     let late = window(mode, motion.rate, LATE)?;
-    if super::rms(late)? <= LEAST_MOTION * moving(mode) {
+    if super::level::rms(late)? <= LEAST_MOTION * moving(mode) {
         return None;
     }
     let (early, late) = (frequency(early(mode)?, motion.rate)?, frequency(late, motion.rate)?);
@@ -61,7 +61,7 @@ pub fn glide_cents(motion: &Motion, strongest: f64, free_from: f64) -> Option<f6
 
 /// The motion (m) of the mode that moves most, over the whole.
 pub fn strongest_mode(motion: &Motion) -> Option<&[f32]> {
-    let size = |mode: &[f32]| super::rms(mode).unwrap_or(0.0);
+    let size = |mode: &[f32]| super::level::rms(mode).unwrap_or(0.0);
     motion.modes.iter().map(Vec::as_slice).max_by(|a, b| size(a).total_cmp(&size(b)))
 }
 

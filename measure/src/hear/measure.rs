@@ -3,7 +3,7 @@
 use overhear_engine::snapshot::StrikeSnapshot;
 use serde::{Serialize, Serializer};
 
-use super::{Request, Sound};
+use super::stroke::{Request, Sound};
 use crate::analysis::{self, OCTAVES};
 use crate::spectra::OnsetSpectrum;
 

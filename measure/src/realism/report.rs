@@ -6,7 +6,9 @@ use serde::Serialize;
 
 use super::features::{Feature, Features};
 use super::reference::{self, Figure};
-use super::{Ear, Request, Subject};
+use super::ears::Ear;
+use super::request::Request;
+use super::subject::Subject;
 
 /// The goals are about strokes as fast as this or faster, m/s.
 const FIRM: f64 = 3.0;

@@ -4,7 +4,7 @@
 //! cosine, over the second half only: an ordinary bell would hide the attack. A decaying sine
 //! looks the same in it up to its width.
 
-use super::{forward, vertex};
+use super::forward::{forward, vertex};
 
 /// Magnitudes of a sound's frequencies.
 #[derive(Debug, Clone, PartialEq)]

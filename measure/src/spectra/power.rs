@@ -5,7 +5,7 @@
 
 use std::f64::consts::TAU;
 
-use super::{forward, vertex};
+use super::forward::{forward, vertex};
 
 /// Power of a sound against frequency.
 pub struct PowerSpectrum {

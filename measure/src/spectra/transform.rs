@@ -9,7 +9,7 @@ use std::sync::Arc;
 use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner};
 
-use super::forward;
+use super::forward::forward;
 
 /// A sound by its frequencies.
 pub struct Transform {

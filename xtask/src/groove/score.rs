@@ -3,7 +3,7 @@
 //! A line holds a character per sixteenth: `.` rests, `g` is a ghost note, `-` a soft one, `o` an
 //! ordinary, `x` a firm and `X` an accented one; `f` is a flam, two strokes 25 ms apart.
 
-use super::{BAR, SIXTEENTH, Stroke};
+use super::stroke::{BAR, SIXTEENTH, Stroke};
 
 const KICK: u8 = 36;
 const SNARE: u8 = 38;
