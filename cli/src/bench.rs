@@ -13,7 +13,6 @@ mod report;
 mod request;
 mod workload;
 
-use std::path::PathBuf;
 use std::sync::Arc;
 use std::thread;
 use std::time::Instant;
@@ -30,7 +29,6 @@ use overhear_engine::modal::simd::Kernels;
 use overhear_engine::modal::simd::level::{self, InstructionSet};
 use overhear_engine::piece::{Piece, Quality};
 use rayon::prelude::*;
-use serde::Serialize;
 
 use crate::progress::Progress;
 use crate::{bad_input, settings};

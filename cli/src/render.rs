@@ -8,14 +8,11 @@ use std::path::{Path, PathBuf};
 use std::thread;
 
 use anyhow::{Context, Result};
-use overhear::kit_document::KitDocument;
 use rayon::prelude::*;
 
 use crate::bad_input;
 use crate::output::Folder;
-use crate::player::{Blocks, Setup, Source};
-use crate::settings::Setting;
-use crate::wav::Bits;
+use crate::player::Source;
 
 pub use job::{Job, Report, decibels, takes};
 pub use style::Style;

@@ -14,7 +14,7 @@ use overhear_engine::kit_spec::{Kind, KitSpec, PieceSpec};
 use overhear_engine::microphones::CloseSpec;
 use overhear_engine::piece::{BuildOptions, Piece};
 use overhear_engine::slot::Slot;
-use overhear_engine::snapshot::{FIELD_MODES, PieceSnapshot, RimSnapshot, StrikeSnapshot, WireSnapshot};
+use overhear_engine::snapshot::{FIELD_MODES, PieceSnapshot};
 use overhear_engine::strike::{Strike, Striker};
 
 use crate::analysis::Motion;

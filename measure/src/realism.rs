@@ -15,20 +15,15 @@ mod table;
 use std::sync::{Mutex, PoisonError};
 
 use anyhow::Result;
-use overhear::building::Pace;
-use overhear::kit_document::KitDocument;
 use overhear_engine::kit_spec::Kind;
-use overhear_engine::slot::Slot;
 use overhear_engine::strike::Strike;
 use rayon::prelude::*;
-
-use crate::settings::Setting;
 
 use ears::Stand;
 
 pub use ears::Ear;
-pub use request::{Job, Request};
 pub use report::{Count, PieceReport, Report, Row, Stroke};
+pub use request::{Job, Request};
 pub use subject::{SUBJECTS, Subject, subjects};
 
 /// Speeds of the strokes unless told otherwise, m/s: soft, medium, hard.

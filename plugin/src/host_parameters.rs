@@ -254,9 +254,7 @@ fn told(text: impl Fn(f32) -> String + Send + Sync + 'static) -> Arc<dyn Fn(f32)
 type FromText = dyn Fn(&str) -> Option<f32> + Send + Sync;
 
 /// The value that a text stands for, for whoever asks.
-fn typed_in(
-    value: impl Fn(&str) -> Option<f32> + Send + Sync + 'static,
-) -> Arc<FromText> {
+fn typed_in(value: impl Fn(&str) -> Option<f32> + Send + Sync + 'static) -> Arc<FromText> {
     Arc::new(move |text| caught("text_to_value", None, || value(text)))
 }
 

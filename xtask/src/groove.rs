@@ -18,7 +18,7 @@ use midly::num::{u4, u7, u15, u24, u28};
 use midly::{Format, Header, MetaMessage, MidiMessage, Smf, Timing, TrackEvent, TrackEventKind};
 
 use score::Score;
-use stroke::{BAR, PPQ, SIXTEENTH, Stroke};
+use stroke::{BAR, PPQ, Stroke};
 
 /// How long a note is held, ticks. Nothing depends on it: drums ring as they will.
 const HELD: u32 = 60;

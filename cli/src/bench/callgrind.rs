@@ -11,8 +11,8 @@ use overhear::kit_document::KitDocument;
 use overhear_engine::modal::simd::level::{self, InstructionSet};
 use overhear_engine::piece::Quality;
 
-use super::workload::{Scene, Workload};
 use super::request::{RATE, Request};
+use super::workload::{Scene, Workload};
 use crate::progress::Progress;
 use crate::{bad_input, settings};
 

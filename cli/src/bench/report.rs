@@ -12,8 +12,8 @@ use super::callgrind::Count;
 use super::compare::Before;
 use super::limit::Limit;
 use super::measure::{Blocks, Buffers, Cost};
-use super::workload::Scene;
 use super::request::{Builds, Request};
+use super::workload::Scene;
 
 /// Quantiles of the time of a block that are reported.
 const QUANTILES: [(&str, f64); 5] = [("50", 0.5), ("90", 0.9), ("99", 0.99), ("99.9", 0.999), ("100", 1.0)];

@@ -470,4 +470,3 @@ pub fn speed(text: &str) -> Result<f64, String> {
 fn share(text: &str) -> Result<f64, String> {
     number(text, 0.0, false, 1.0, " of the radius")
 }
-

@@ -6,8 +6,8 @@ use std::time::Duration;
 
 use anyhow::{Result, ensure};
 
-use super::style::Style;
 use super::stems::Stems;
+use super::style::Style;
 use crate::output::Folder;
 use crate::player::{Hit, Played, Take};
 use crate::progress::Progress;

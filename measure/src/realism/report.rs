@@ -4,9 +4,9 @@ use anyhow::Result;
 use overhear_engine::strike::Striker;
 use serde::Serialize;
 
+use super::ears::Ear;
 use super::features::{Feature, Features};
 use super::reference::{self, Figure};
-use super::ears::Ear;
 use super::request::Request;
 use super::subject::Subject;
 

@@ -10,9 +10,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::{files, none, read};
 use imports::{Imports, imports};
 
-/// TEMPORARY, until these crates are cut anew: their files still import in circles.
-const CIRCULAR: [&str; 2] = ["plugin", "xtask"];
-
 /// The crates of the workspace.
 fn crates() -> Vec<String> {
     let manifest = read("Cargo.toml".to_owned()).1;
@@ -92,13 +89,7 @@ fn no_files_of_a_crate_import_each_other_in_a_circle() {
         let imports = if member == "engine" { imports_of("engine") } else { imports_of(&member) };
         seen += imports.len();
         let circles = circles(&imports);
-        if CIRCULAR.contains(&&*member) {
-            wrong.extend(
-                circles.is_empty().then(|| format!("{member} has no circle any more: excuse it no longer")),
-            );
-        } else {
-            wrong.extend(circles.into_iter().map(|circle| format!("{member}/src: {circle}")));
-        }
+        wrong.extend(circles.into_iter().map(|circle| format!("{member}/src: {circle}")));
     }
     assert!(seen > 500, "{seen} imports");
     none(wrong);
