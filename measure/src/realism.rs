@@ -87,6 +87,9 @@ impl Job {
 
 #[cfg(test)]
 mod tests {
+    use overhear::building::Pace;
+    use overhear::kit_document::KitDocument;
+
     use super::*;
 
     #[test]

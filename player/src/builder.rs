@@ -12,8 +12,8 @@
 //! When the kit changes, a [`Setup`] goes first, then the pieces that differ. Pieces and setups that were replaced go back to be
 //! dropped here, as dropping frees memory. Every order has a
 //! number; pieces of an older one are returned unplayed. The thread starts with the first order,
-//! never when an instance is merely created. While it has pieces to build, others help it, as many as there are processors
-//! up to four, and end with the job: a pool that outlived it would still run when a host unloads the plugin. All look between
+//! never when an instance is merely created. Pieces are built on a pool of as many threads as there are processors, up
+//! to four, which ends with the job: a pool that outlived it would still run when a host unloads the plugin. All look between
 //! pieces whether they are still wanted, so that dropping the builder waits for one piece each at most; pieces
 //! arrive in the order in which they are begun, whoever builds them. From then on it looks a few times a second
 //! whether the [plan](BuildPlan) has changed, and builds those pieces anew that it concerns: parameters
@@ -23,7 +23,7 @@
 mod delivery;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::atomic::{AtomicBool, AtomicU32, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError, mpsc};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
@@ -34,6 +34,7 @@ use overhear_engine::kit_spec::PieceBuild;
 use overhear_engine::piece::{BuildOptions, Piece};
 use overhear_engine::slot::{SLOTS, Slot};
 use overhear_engine::snapshot::FieldShapes;
+use rayon::{ThreadBuilder, ThreadPool, ThreadPoolBuilder};
 use tracing::error;
 
 use crate::building::{BuildPlan, Staff};
@@ -293,52 +294,54 @@ impl Shared {
 
     /// Builds pieces on several threads and sends them in their order.
     fn build_pieces(&self, job: &Job, wanted: &[(Slot, PieceBuild)], make: Make) -> Result<(), String> {
+        if wanted.is_empty() {
+            return Ok(());
+        }
+        let processors = thread::available_parallelism().map_or(1, usize::from);
+        let pool = ThreadPoolBuilder::new()
+            .num_threads(processors.min(MOST_THREADS).min(wanted.len()))
+            .thread_name(|_| "overhear-helper".to_owned());
+        let build = |pool: &ThreadPool| self.build_on(pool, job, wanted, make);
+        // Scoped: the threads have ended when this returns.
+        match pool.build_scoped(ThreadBuilder::run, build) {
+            Ok(outcome) => outcome,
+            Err(error) => Err(format!("no threads: {error}")),
+        }
+    }
+
+    fn build_on(
+        &self,
+        pool: &ThreadPool,
+        job: &Job,
+        wanted: &[(Slot, PieceBuild)],
+        make: Make,
+    ) -> Result<(), String> {
         let options = job.plan.options(job.sample_rate);
-        let (taken, given_up) = (AtomicUsize::new(0), AtomicBool::new(false));
-        let next = || {
-            let dropped =
-                self.latest.load(Ordering::Acquire) != job.order || given_up.load(Ordering::Acquire);
-            let index = taken.fetch_add(1, Ordering::Relaxed);
-            wanted
-                .get(index)
-                .filter(|_| !dropped)
-                .map(|(slot, build)| (index, made(make, *slot, build, &options)))
-        };
-        let (send, made) = mpsc::channel();
-        thread::scope(|scope| {
-            let processors = thread::available_parallelism().map_or(1, usize::from);
-            for _ in 1..processors.min(MOST_THREADS).min(wanted.len()) {
-                let (send, next) = (send.clone(), &next);
-                // One that cannot be had is done without.
-                let _ = thread::Builder::new().name("overhear-helper".to_owned()).spawn_scoped(
-                    scope,
-                    move || {
-                        while let Some(made) = next() {
-                            // Received to the end, or nobody wants it.
-                            let _ = send.send(made);
-                        }
-                    },
-                );
+        let given_up = AtomicBool::new(false);
+        let is_dropped =
+            || self.latest.load(Ordering::Acquire) != job.order || given_up.load(Ordering::Acquire);
+        let (send, receive) = mpsc::channel::<(usize, Made)>();
+        pool.in_place_scope_fifo(|scope| {
+            for (index, (slot, build)) in wanted.iter().enumerate() {
+                let (send, options, is_dropped) = (send.clone(), &options, &is_dropped);
+                scope.spawn_fifo(move |_| {
+                    if !is_dropped() {
+                        // Received to the end, or nobody wants it.
+                        let _ = send.send((index, made(make, *slot, build, options)));
+                    }
+                });
             }
+            drop(send);
             let mut waiting: Vec<Option<Made>> = wanted.iter().map(|_| None).collect();
             let mut due = 0;
-            let mut arrive = |(index, made): (usize, Made)| {
+            let outcome = receive.iter().try_for_each(|(index, made)| {
                 waiting[index] = Some(made);
                 while let Some(made) = waiting.get_mut(due).and_then(Option::take) {
                     self.hand_over(job, wanted[due].0, made)?;
                     due += 1;
                 }
                 Ok(())
-            };
-            let all = || {
-                while let Some(made_here) = next() {
-                    arrive(made_here)?;
-                    made.try_iter().try_for_each(&mut arrive)?;
-                }
-                drop(send);
-                made.iter().try_for_each(&mut arrive)
-            };
-            let outcome = all();
+            });
             given_up.store(true, Ordering::Release);
             outcome
         })

@@ -250,11 +250,11 @@ fn told(text: impl Fn(f32) -> String + Send + Sync + 'static) -> Arc<dyn Fn(f32)
     Arc::new(move |value| caught("value_to_text", String::new(), || text(value)))
 }
 
-/// Reads a value, if the text is one.
-type FromText = dyn Fn(&str) -> Option<f32> + Send + Sync;
+/// Reads what is typed.
+type Typed = dyn Fn(&str) -> Option<f32> + Send + Sync;
 
 /// The value that a text stands for, for whoever asks.
-fn typed_in(value: impl Fn(&str) -> Option<f32> + Send + Sync + 'static) -> Arc<FromText> {
+fn typed_in(value: impl Fn(&str) -> Option<f32> + Send + Sync + 'static) -> Arc<Typed> {
     Arc::new(move |text| caught("text_to_value", None, || value(text)))
 }
 

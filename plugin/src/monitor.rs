@@ -3,9 +3,11 @@
 //! The audio thread copies a snapshot about 85 times a second and never waits; the editor takes
 //! the latest and never holds it up.
 
+use std::hash::Hasher;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use fnv::FnvHasher;
 use overhear_engine::snapshot::KitSnapshot;
 use rtrb::{Consumer, Producer, RingBuffer};
 use triple_buffer::{Input, Output, TripleBuffer};
@@ -162,10 +164,9 @@ fn news(snapshot: &KitSnapshot) -> u64 {
         let pedal = (piece.rims.pedal * PEDAL_STEPS) as u32;
         [u32::from(piece.ready), piece.strike.count, piece.quarantines, pedal]
     });
-    whole
-        .into_iter()
-        .chain(pieces)
-        .fold(0xCBF2_9CE4_8422_2325, |mixed, word| (mixed ^ u64::from(word)).wrapping_mul(0x0100_0000_01B3))
+    let mut digest = FnvHasher::default();
+    whole.into_iter().chain(pieces).for_each(|word| digest.write_u32(word));
+    digest.finish()
 }
 
 /// Raises the peaks of a snapshot to those of the one before.

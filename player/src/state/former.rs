@@ -7,7 +7,7 @@ use overhear_engine::kit_spec::{InstrumentSpec, Kind, KitSpec};
 use overhear_engine::slot::Slot;
 use tracing::warn;
 
-use super::{KIT_FIELD, State, StoredValue, kit_text};
+use super::stored::{KIT_FIELD, State, StoredValue, kit_text};
 use crate::kit_document::KitDocument;
 use crate::parameters::{SlotParameter, parameters, slot_index};
 

@@ -1,4 +1,10 @@
+use std::collections::BTreeMap;
+
+use overhear_engine::kit_spec::KitSpec;
+
 use super::*;
+use crate::kit_document::KitDocument;
+use crate::midi::assignments::Assignment;
 use crate::parameters::COUNT;
 
 fn ordered(json_params: &[(&str, StoredValue)]) -> BTreeMap<String, f32> {
