@@ -84,6 +84,7 @@ fn track(name: &'static [u8], strokes: &[Stroke]) -> Vec<TrackEvent<'static>> {
 
 #[cfg(test)]
 mod tests {
+    use super::stroke::SIXTEENTH;
     use super::*;
     use overhear::kit_document::KitDocument;
     use overhear_cli::song::Song;
