@@ -17,7 +17,7 @@ fn main() {
     let mark = digest.finish();
     // Sums may be ordered in another way on another kind of processor.
     let target = env::var("TARGET").unwrap_or_default();
-    println!("cargo::rustc-env=OVERHEAR_LIBRARIES_MARK={mark:016x}-{target}");
+    println!("cargo::rustc-env=OVERHEAR_LIBRARIES_SCHEMA={mark:016x}-{target}");
     if Path::new(&lock).exists() {
         println!("cargo::rerun-if-changed={}", lock.display());
     }

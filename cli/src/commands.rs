@@ -75,7 +75,7 @@ fn refused<Line: Parser>(refusal: &clap::Error) -> ExitCode {
         return ExitCode::from(2);
     }
     let text = refusal.to_string();
-    // What follows are a tip to read the help and the usage, over several lines.
+    // A hint to read the help and the usage follow, over several lines.
     let reason = text.split("\n\nUsage:").next().unwrap_or(&text);
     let reason = reason.split("\n\nFor more").next().unwrap_or(reason);
     let mut line = reason.split_whitespace().collect::<Vec<_>>().join(" ");

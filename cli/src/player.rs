@@ -147,7 +147,7 @@ impl EnginePlayer {
                 Piece::new(slot, &build, &plan.options(rate)).map_err(|error| bad_input!("{error}"))?;
             performer.install(Box::new(piece));
         }
-        performer.hire(plan.staff().hire().context("the system starts no more threads")?);
+        performer.attach(plan.worker_plan().attach().context("the system starts no more threads")?);
         Ok(EnginePlayer { performer })
     }
 

@@ -50,7 +50,7 @@ fn variable(name: &str) -> Option<PathBuf> {
     env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from)
 }
 
-/// Where hosts look for the user's plugins of a format.
+/// The user's plugin folder of a format.
 ///
 /// # Errors
 /// If the system does not say where the user's files are.

@@ -8,7 +8,7 @@ use std::hint::black_box;
 use overhear_engine::hi_hat::foot::SPEED;
 use overhear_engine::kit::BLOCK;
 use overhear_engine::kit_spec::KitSpec;
-use overhear_engine::modal::EARS;
+use overhear_engine::modal::RECEIVERS;
 use overhear_engine::piece::{BuildOptions, Piece, Quality};
 use overhear_engine::strike::{Strike, Striker};
 
@@ -28,7 +28,7 @@ fn render(piece: &mut Piece, seconds: f64) {
     let mut left = (seconds * RATE) as usize;
     while left > 0 {
         let run = piece.run_left().min(left);
-        let mut ears = [[0.0; BLOCK]; EARS];
+        let mut ears = [[0.0; BLOCK]; RECEIVERS];
         piece.render_in_air(ears.each_mut().map(|ear| &mut ear[..run]), None);
         black_box(ears);
         left -= run;

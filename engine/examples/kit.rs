@@ -42,10 +42,12 @@ fn main() {
     }
     let pattern = ["ride", "kick", "ride", "snare"].map(|name| spec.find(name).expect("a piece").0);
     println!("idle: {:.5} of real time", play(&mut kit, &[], 60));
-    for (what, hearing, mics) in
-        [("deaf, close microphones alone", 0.0, 1.0), ("deaf", 0.0, 0.0), ("hearing each other", 1.0, 0.0)]
-    {
-        kit.set(Control::Hearing, hearing);
+    for (what, hearing, mics) in [
+        ("uncoupled, close microphones alone", 0.0, 1.0),
+        ("uncoupled", 0.0, 0.0),
+        ("hearing each other", 1.0, 0.0),
+    ] {
+        kit.set(Control::SympatheticCoupling, hearing);
         kit.set(Control::Mute(Microphone::Overheads), mics);
         kit.set(Control::Mute(Microphone::Room), mics);
         kit.reset();

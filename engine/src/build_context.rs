@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::receiver::Receivers;
 
-/// How far up a cymbal's modes are coupled.
+/// Highest coupled cymbal mode.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
 pub enum Quality {
     /// To 1 kHz.

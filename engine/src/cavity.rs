@@ -24,7 +24,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::air::{DENSITY, SPEED_OF_SOUND};
+use crate::air_load::{DENSITY, SPEED_OF_SOUND};
 use crate::fitted;
 use crate::math::bessel;
 
@@ -188,7 +188,7 @@ fn overlap(m: u32, head: &HeadShape, alpha: f64, peak: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::air::shape_norm;
+    use crate::air_load::shape_norm;
 
     fn head(m: u32, n: u32, far: bool) -> HeadShape {
         let zero = bessel::zero(m, n);

@@ -117,7 +117,7 @@ impl Instrument for Cymbal {
             Mode { sigma, ..bare }
         });
         // A stiffer metal resists stretching as it resists bending.
-        if let Some(force) = self.surface.beyond_mut() {
+        if let Some(force) = self.surface.nonlinear_force_mut() {
             force.set_stiffness(tuning * tuning);
         }
     }

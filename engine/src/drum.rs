@@ -9,10 +9,10 @@ use std::f64::consts::TAU;
 pub mod body;
 pub mod coupled;
 pub mod heads;
-pub mod hearing;
+pub mod mode_transfer;
 pub mod modes;
 pub mod muffler;
-pub mod shadow;
+pub mod diffraction;
 pub mod spec;
 pub mod stretch;
 pub mod tuned;
@@ -29,21 +29,21 @@ use crate::instrument::Instrument;
 use crate::modal::Mode;
 use crate::mode::ModeInfo;
 use crate::rim::Rim;
-use crate::schema::MARK;
+use crate::schema::SCHEMA;
 use crate::shapes::ShapeTable;
 use crate::surface::contacts::STRIKER_PLACES;
-use crate::surface::patch::Film;
+use crate::surface::local_compliance::LocalHeadCompliance;
 use crate::surface::rim::AttachedRim;
 use crate::surface::wires::{PRELOAD, SnareWires};
 use crate::surface::{Surface, SurfaceParts};
 
 use body::{BodyMode, all_around, describe, sampled};
-use hearing::Hearing;
+use mode_transfer::ModeTransfer;
 use modes::DrumModes;
 use muffler::MufflerCoefs;
 pub use spec::{DrumSpec, HeadContact, HeadSpec, PitchOf, ResonantSpec, ShellSpec};
 use stretch::Stretch;
-use tuned::Rung;
+use tuned::ModeAtPitch;
 
 /// What a drum's modes and their shapes follow from: the key of the cache.
 fn modes_key(spec: &DrumSpec) -> impl Serialize {
@@ -52,15 +52,15 @@ fn modes_key(spec: &DrumSpec) -> impl Serialize {
 }
 
 /// What has been worked out of late.
-static MODES: Cache<DrumModes> = Cache::new("drum", MARK, 24);
-static HEARINGS: Cache<[Hearing; 2]> = Cache::new("hearing", MARK, 24);
+static MODES: Cache<DrumModes> = Cache::new("drum", SCHEMA, 24);
+static TRANSFERS: Cache<[ModeTransfer; 2]> = Cache::new("hearing", SCHEMA, 24);
 
 /// A drum that can be struck.
 pub struct Drum {
     surface: Surface,
     built: Shared<DrumModes>,
     /// From near and from far.
-    hearing: Shared<[Hearing; 2]>,
+    hearing: Shared<[ModeTransfer; 2]>,
     far_distance: f64,
     modes: Vec<BodyMode>,
     /// Shapes on the resonant head, where wires lie against it.
@@ -68,7 +68,7 @@ pub struct Drum {
     muffler: MufflerCoefs,
     lossless: bool,
     /// Whether the heads wrap themselves around tips.
-    wraps: bool,
+    patch_grows: bool,
     pitch: Glide,
     muffling: Glide,
     /// Force of the strainer, N.
@@ -78,7 +78,7 @@ pub struct Drum {
     /// Whether the shapes have yet to follow the pitch.
     shapes_stale: bool,
     /// `[pair]`: where each rings now.
-    rungs: Vec<Rung>,
+    at_pitch: Vec<ModeAtPitch>,
 }
 
 impl Drum {
@@ -92,18 +92,21 @@ impl Drum {
         let [low, pitch, high] = spec.pitches();
         let built = MODES.get(&modes_key(spec), || DrumModes::new(spec))?;
         let place = built.heads.scale.place(pitch);
-        let rungs: Vec<Rung> = built.modes.iter().map(|mode| mode.at(&place)).collect();
+        let at_pitch: Vec<ModeAtPitch> = built.modes.iter().map(|mode| mode.at(&place)).collect();
         let modes = body::assemble(spec, &built, ideal.round);
         let muffler = MufflerCoefs::new(spec, &built);
         let points = [receivers.near, receivers.far];
         let heard = (modes_key(spec), points, spec.evenness);
-        let hearing = HEARINGS.get(&heard, || {
-            let near = Hearing::new(&built, spec, receivers.near);
+        let hearing = TRANSFERS.get(&heard, || {
+            let near = ModeTransfer::new(&built, spec, receivers.near);
             let far = near.from(&built, spec, receivers.far);
             Ok::<_, SpecError>([near, far])
         })?;
-        let bare =
-            |mode: &BodyMode| Mode { omega: rungs[mode.pair].omega, sigma: 0.0, mass: rungs[mode.pair].mass };
+        let bare = |mode: &BodyMode| Mode {
+            omega: at_pitch[mode.pair].omega,
+            sigma: 0.0,
+            mass: at_pitch[mode.pair].mass,
+        };
         let mut surface = Surface::new(SurfaceParts {
             modes: modes.iter().map(bare).collect(),
             shapes: built.batter_shapes(spec.evenness),
@@ -122,13 +125,13 @@ impl Drum {
             modes,
             muffler,
             lossless: ideal.lossless,
-            wraps: spec.contact == HeadContact::Wraps,
+            patch_grows: spec.contact == HeadContact::Wraps,
             pitch: Glide::new(pitch, low, high),
             muffling: Glide::new(0.0, 0.0, 1.0),
             preload: Glide::new(*PRELOAD.start(), *PRELOAD.start(), *PRELOAD.end()),
             stale: true,
             shapes_stale: true,
-            rungs,
+            at_pitch,
         };
         if spec.high_band {
             let near = HighBand::new(&drum.built.high_band(spec, context));
@@ -198,7 +201,8 @@ impl Instrument for Drum {
         }));
         surface.set_transfers(near, far.map(|transfer| transfer.map(|h| h * *far_distance)));
         let far = self.built.heads.resonant.as_ref().map(|head| head.film(&place));
-        let near = Film { wraps: self.wraps, ..self.built.heads.batter.film(&place) };
+        let near =
+            LocalHeadCompliance { patch_grows: self.patch_grows, ..self.built.heads.batter.film(&place) };
         self.surface.set_local_compliance(near);
         if let Some(shapes) = &self.far_shapes {
             self.surface.with(|wires: &mut SnareWires, site| wires.lay(far, shapes, site));
@@ -235,15 +239,15 @@ impl Instrument for Drum {
         }
         self.shapes_stale = true;
         let place = self.built.heads.scale.place(self.pitch.value());
-        for (rung, mode) in self.rungs.iter_mut().zip(&self.built.modes) {
+        for (rung, mode) in self.at_pitch.iter_mut().zip(&self.built.modes) {
             *rung = mode.at(&place);
         }
         let amount = self.muffling.value();
-        let (modes, rungs, muffler, built) = (&self.modes, &self.rungs, &self.muffler, &self.built);
+        let (modes, at_pitch, muffler, built) = (&self.modes, &self.at_pitch, &self.muffler, &self.built);
         let lossless = self.lossless;
         self.surface.retune(|k, _| {
             let mode = &modes[k];
-            let rung = &rungs[mode.pair];
+            let rung = &at_pitch[mode.pair];
             let muffled = if amount > 0.0 { amount * muffler.sigma(mode, rung, built, &place) } else { 0.0 };
             let sigma = if lossless { 0.0 } else { rung.sigma + muffled };
             Mode { omega: rung.omega * mode.detuning, sigma, mass: rung.mass }

@@ -208,7 +208,7 @@ impl Instrument for HiHat {
         }
         self.surface.retune(|k, _| top.mode(k, tuning, &damping));
         // A stiffer metal resists stretching as it resists bending.
-        if let Some(force) = self.surface.beyond_mut() {
+        if let Some(force) = self.surface.nonlinear_force_mut() {
             force.set_stiffness(tuning * tuning);
         }
     }

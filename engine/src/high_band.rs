@@ -28,14 +28,14 @@
 //! `J_0^2 + 2 sum J_m^2 = 1`. It is what the strip along the rim sends out; the point hears it from the rim's
 //! distances, by chance in any phase.
 //!
-//! Contact: the head wraps itself around a tip, whose pressure on it is even, over a patch that grows with the force.
+//! Contact: the head patch_grows itself around a tip, whose pressure on it is even, over a patch that grows with the force.
 //! An even pressure moves a wave by `2 J_1(k b) / (k b)`; averaged over the areas a stroke goes through, up to its
 //! largest patch of radius `b`, that is `4 (1 - J_0(k b)) / (k b)^2`.
 //!
 //! Direct sound: a force moves an endless sheet with the acceleration `F / s` under it, at once, and from a distance `d`
 //! that is heard as `rho F / (2 pi s d)`: waves on the head are slower than sound, so that what radiates at some
 //! frequency are modes that ring far below it and only weigh. Each mode's share belongs to the mode (see
-//! [`Pickup`]); complete modes and slices share none, so nothing is counted twice, and the slices' adds up by
+//! [`ReceiverWeights`]); complete modes and slices share none, so nothing is counted twice, and the slices' adds up by
 //! chance, some 16 dB below. The complete modes' shares are right where each rings, with the air it carries there and
 //! with the sound going around the drum's body. Faster than about `omega a / c = sqrt 2` the air no longer rides along and the body
 //! is a baffle: what they lack of the sheet (two thirds, of a drum that stands free; *converged*) follows the force through a
@@ -51,12 +51,12 @@ mod slices;
 
 use std::f64::consts::{SQRT_2, TAU};
 
-use crate::air::SPEED_OF_SOUND;
+use crate::air_load::SPEED_OF_SOUND;
 use crate::modal::simd::MAX_RUN;
-use crate::modal::{EARS, MAX_DRIVES, ModalBody, Mode, Pickup, Port};
-use crate::surface::patch::Discs;
+use crate::modal::{InputVector, MAX_DRIVES, ModalBody, Mode, RECEIVERS, ReceiverWeights};
+use crate::surface::local_compliance::PatchFactors;
 
-pub use slices::{Ear, HighBandSpec};
+pub use slices::{HighBandSpec, Receiver};
 use slices::{Slice, away, endless_sheet, loudness, mode, rim_strip, slices, taken, top_hz};
 
 /// The slow part of a force below this is nothing, N: 200 dB under a soft stroke.
@@ -94,8 +94,8 @@ pub struct SliceInfo {
 }
 
 /// A place that is pressed on, and how hard over the present run.
-struct Place {
-    port: Port,
+struct PointBand {
+    port: InputVector,
     /// Pressure at once per unit force, Pa/N: the slices'; an endless sheet's; what of that the complete set lacks.
     direct: f32,
     sheet: f32,
@@ -106,7 +106,7 @@ struct Place {
     pressed: bool,
 }
 
-impl Place {
+impl PointBand {
     /// Adds what follows the forces of the run at once.
     fn add_direct(&mut self, follow: f32, out: &mut [f32]) {
         for (out, force) in out.iter_mut().zip(&self.forces) {
@@ -120,11 +120,11 @@ impl Place {
 pub struct HighBand {
     spec: HighBandSpec,
     body: ModalBody,
-    pickup: Pickup,
+    pickup: ReceiverWeights,
     slices: Vec<Slice>,
-    places: Vec<Place>,
+    places: Vec<PointBand>,
     /// What every slice's wave takes from patches (m).
-    pressed: Discs,
+    pressed: PatchFactors,
     /// How far the slow part of a force follows it in a sample.
     follow: f32,
     /// What is heard far away, as at a metre, over what is heard at the point.
@@ -139,8 +139,8 @@ impl HighBand {
         let slices = slices(spec);
         let modes: Vec<Mode> = slices.iter().map(|slice| mode(spec, slice, spec.tensions[1])).collect();
         let count = modes.len();
-        let place = |_| Place {
-            port: Port::new(count),
+        let place = |_| PointBand {
+            port: InputVector::new(count),
             direct: 0.0,
             sheet: 0.0,
             lacking: 0.0,
@@ -151,11 +151,11 @@ impl HighBand {
         let takes = |patch: f64| slices.iter().map(|slice| taken(spec, slice, patch)).collect();
         let corner = SQRT_2 * SPEED_OF_SOUND / spec.head.radius;
         let mut band = HighBand {
-            pressed: Discs::new(1.0, takes),
+            pressed: PatchFactors::new(1.0, takes),
             away: away(spec, &slices),
             spec: *spec,
             body: ModalBody::new(modes, spec.sample_rate),
-            pickup: Pickup::new(vec![[0.0; 2]; count]),
+            pickup: ReceiverWeights::new(vec![[0.0; 2]; count]),
             slices,
             places: (0..spec.places.min(MAX_DRIVES)).map(place).collect(),
             follow: (1.0 - (-corner / spec.sample_rate).exp()) as f32,
@@ -203,7 +203,7 @@ impl HighBand {
     /// No allocation; some 100 ns a slice.
     pub fn put(&mut self, i: usize, radius: f64, angle: f64, patch: f64) {
         let HighBand { spec, body, pickup, slices, places, pressed, .. } = self;
-        let Place { port, direct, sheet, .. } = &mut places[i];
+        let PointBand { port, direct, sheet, .. } = &mut places[i];
         *sheet = endless_sheet(spec, slices, radius, angle) as f32;
         let known = pressed.of(patch);
         for (k, (shape, slice)) in port.shape_mut().iter_mut().zip(&*slices).enumerate() {
@@ -239,7 +239,7 @@ impl HighBand {
         if !*rings {
             return;
         }
-        let mut sounds = [[0.0; MAX_RUN]; EARS];
+        let mut sounds = [[0.0; MAX_RUN]; RECEIVERS];
         let [sound, unheard @ ..] = sounds.each_mut().map(|row| &mut row[..near.len()]);
         let [far_unheard, few_unheard] = unheard;
         let pressed = places.iter().filter(|place| place.pressed);

@@ -11,15 +11,15 @@
 //! for; control-rate work happens there only. Nothing depends on how a caller cuts time. No sound
 //! reaches another piece within a run ([`Kit::min_delay`]), so that pieces are rendered apart from each other.
 
-mod air;
+mod propagation;
 mod arrangement;
 mod control;
 mod controls;
 mod gain;
-mod leaving;
-mod line;
-mod mix;
-mod post;
+mod fade_out;
+mod delay_line;
+mod mixer;
+mod render_job;
 mod render;
 mod retained;
 mod room;
@@ -27,8 +27,8 @@ mod room;
 pub use arrangement::Arrangement;
 pub use control::{Control, Microphone};
 pub use gain::{LOUDEST_DB, SILENT_DB};
-pub use mix::Stereo;
-pub use post::{Crew, Post};
+pub use mixer::Stereo;
+pub use render_job::{RenderJob, RenderWorkers};
 
 pub use crate::block::BLOCK;
 pub use crate::level::FULL_SCALE;
@@ -40,9 +40,9 @@ use crate::piece::Piece;
 use crate::slot::{SLOTS, Slot};
 use crate::snapshot::KitSnapshot;
 
-use air::Air;
 use gain::Gain;
-use mix::{Desk, PAIRS};
+use mixer::{Mixer, PAIRS};
+use propagation::Propagation;
 use retained::RetainedControls;
 
 /// Outputs beside the main one: the close microphone of each slot, the overheads, the room.
@@ -73,14 +73,14 @@ pub const OUTPUTS: usize = SLOTS + PAIRS;
 /// # Ok::<(), overhear_engine::error::SpecError>(())
 /// ```
 pub struct Kit {
-    /// `[slot]`: pieces with their runs; one is missing only while a [`Crew`] has not brought it back.
-    posts: [Option<Box<Post>>; SLOTS],
+    /// `[slot]`: pieces with their runs; one is missing only while a [`RenderWorkers`] has not brought it back.
+    posts: [Option<Box<RenderJob>>; SLOTS],
     retained: [RetainedControls; SLOTS],
     /// Slots that are to hold a piece.
     wanted: [bool; SLOTS],
-    crew: Option<Box<dyn Crew>>,
-    air: Air,
-    desk: Desk,
+    crew: Option<Box<dyn RenderWorkers>>,
+    air: Propagation,
+    desk: Mixer,
     /// How much the drums hear of each other: the switch, the amount.
     hearing: bool,
     sympathy: f32,
@@ -96,12 +96,12 @@ impl Kit {
     /// [`install`](Self::install). Its controls are where the description has them. Allocates.
     pub fn new(sample_rate: f64, spec: &KitSpec) -> Kit {
         Kit {
-            posts: std::array::from_fn(|_| Some(Box::new(Post::new(sample_rate)))),
+            posts: std::array::from_fn(|_| Some(Box::new(RenderJob::new(sample_rate)))),
             retained: Slot::ALL.map(|slot| RetainedControls::of(spec.piece(slot))),
             wanted: Slot::ALL.map(|slot| spec.piece(slot).is_some()),
             crew: None,
-            air: Air::new(sample_rate, &spec.layout(), &spec.room),
-            desk: Desk::new(sample_rate, spec),
+            air: Propagation::new(sample_rate, &spec.layout(), &spec.room),
+            desk: Mixer::new(sample_rate, spec),
             hearing: true,
             sympathy: 1.0,
             ears: Gain::new(sample_rate),
@@ -117,7 +117,7 @@ impl Kit {
     ///
     /// # Real-time
     /// No allocation; nothing is dropped here.
-    pub fn hire(&mut self, crew: Option<Box<dyn Crew>>) -> Option<Box<dyn Crew>> {
+    pub fn attach(&mut self, crew: Option<Box<dyn RenderWorkers>>) -> Option<Box<dyn RenderWorkers>> {
         std::mem::replace(&mut self.crew, crew)
     }
 
@@ -158,7 +158,7 @@ impl Kit {
         self.wanted[slot.index()] = true;
         self.air.place_slot(slot, &piece);
         let former = post.piece.replace(piece)?;
-        post.leaving.see_off(former)
+        post.leaving.start(former)
     }
 
     /// Takes over who is to be in which slot, where the microphones usually stand, and the room. Pieces of slots that are to
@@ -173,7 +173,7 @@ impl Kit {
         for ((post, wanted), removed) in self.posts.iter_mut().zip(self.wanted).zip(&mut arrangement.removed)
         {
             if let Some(post) = post.as_mut().filter(|_| !wanted) {
-                *removed = post.piece.take().and_then(|piece| post.leaving.see_off(piece));
+                *removed = post.piece.take().and_then(|piece| post.leaving.start(piece));
             }
         }
         arrangement

@@ -14,7 +14,7 @@ use crate::build_context::{BuildContext, BuildOptions};
 use crate::drum::spec::DrumSpec;
 use crate::error::SpecError;
 use crate::layout::{FARTHEST, Layout, Pair};
-use crate::receiver::{ListeningPoint, Receivers};
+use crate::receiver::{ReceiverPosition, Receivers};
 use crate::slot::{SLOTS, Slot};
 
 pub use piece::{Defaults, InstrumentSpec, Kind, PieceSpec, PlaceSpec};
@@ -104,7 +104,7 @@ impl KitSpec {
         let seen = spec.placement().sees(&middle);
         let receivers = Receivers {
             near: spec.close.point(spec.instrument.radius()),
-            far: ListeningPoint::far(seen.inclination, seen.azimuth),
+            far: ReceiverPosition::far(seen.inclination, seen.azimuth),
         };
         Some(PieceBuild { spec, receivers })
     }

@@ -3,7 +3,7 @@
 //! Coordinates (m): `x` to the drummer's right, `y` up, `z` toward the audience; the origin is on the
 //! floor under the middle of the kit.
 
-use crate::receiver::ListeningPoint;
+use crate::receiver::ReceiverPosition;
 use crate::slot::{SLOTS, Slot};
 
 /// A place, m.
@@ -63,7 +63,7 @@ impl Placement {
     }
 
     /// A point as it is seen from the struck surface; angles as in [`Strike`](crate::strike::Strike), 0 toward the player.
-    pub fn sees(&self, point: &Point) -> ListeningPoint {
+    pub fn sees(&self, point: &Point) -> ReceiverPosition {
         let to: Point = std::array::from_fn(|i| point[i] - self.centre[i]);
         let distance = length(&to).max(1e-3);
         let height = dot(&to, &self.normal);
@@ -76,7 +76,7 @@ impl Placement {
         let back = if length(&back) > 0.3 { back } else { flat([0.0, -1.0, 0.0]) };
         let (n, b) = (&self.normal, &back);
         let right = [n[1] * b[2] - n[2] * b[1], n[2] * b[0] - n[0] * b[2], n[0] * b[1] - n[1] * b[0]];
-        ListeningPoint {
+        ReceiverPosition {
             distance,
             inclination: (height / distance).clamp(-1.0, 1.0).acos(),
             // The drummer's right is against `n x b` of a disc that faces up.
@@ -113,7 +113,7 @@ impl Layout {
     /// of the other, the shorter of the two. The same both ways: if it were not, the air between them would do
     /// work. Nor is it less than the radii of both: what each sends out and feels as a point, with no account of how its own
     /// modes move the air for each other, would do work in the other's place. None if a slot is empty.
-    pub fn way(&self, a: Slot, b: Slot) -> Option<f64> {
+    pub fn path_length(&self, a: Slot, b: Slot) -> Option<f64> {
         let (a, b) = (self.pieces[a.index()]?, self.pieces[b.index()]?);
         let ways = [distance(&a.source(), &b.centre), distance(&b.source(), &a.centre)];
         Some(ways[0].min(ways[1]).clamp(NEAREST.max(a.radius + b.radius), FARTHEST))
@@ -148,12 +148,12 @@ mod tests {
         {
             let [from, to] = [a, b].map(|slot| layout.pieces[slot.index()].unwrap());
             let shells = from.radius + to.radius;
-            assert!(shells > NEAREST && crowded.way(a, b).unwrap() >= shells, "{a:?} {b:?}");
+            assert!(shells > NEAREST && crowded.path_length(a, b).unwrap() >= shells, "{a:?} {b:?}");
             // By default it is the places that decide.
             let placed = distance(&from.source(), &to.centre).min(distance(&to.source(), &from.centre));
-            assert_eq!(layout.way(a, b), Some(placed), "{a:?} {b:?}");
+            assert_eq!(layout.path_length(a, b), Some(placed), "{a:?} {b:?}");
         }
-        assert_eq!(layout.way(drums[0], Slot::ALL[SLOTS - 1]), None);
+        assert_eq!(layout.path_length(drums[0], Slot::ALL[SLOTS - 1]), None);
     }
 
     #[test]

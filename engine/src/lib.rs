@@ -47,8 +47,8 @@ pub mod modal;
 pub mod strike;
 pub mod stick;
 pub mod contact;
-pub mod listening;
-pub mod air;
+pub mod radiation;
+pub mod air_load;
 pub mod glide;
 
 // Where everything stands and how it is built.
@@ -75,4 +75,4 @@ pub mod math;
 #[cfg(test)]
 mod reference;
 
-pub use schema::MARK;
+pub use schema::SCHEMA;

@@ -15,7 +15,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::air::{self, MassCurve, MassCurves, MembraneAir};
+use crate::air_load::{self, MassCurve, MassCurves, MembraneAir};
 use crate::contact::Material;
 use crate::damping::LossLaw;
 use crate::error::SpecError;
@@ -200,7 +200,7 @@ impl Membrane {
         let tables = JTable::orders(orders, reach);
         let mut membrane = Membrane { spec, modes: Vec::with_capacity(candidates.len()) };
         for (m, n, zero) in candidates {
-            let norm = air::shape_norm(m, bessel::j_prime(m, zero));
+            let norm = air_load::shape_norm(m, bessel::j_prime(m, zero));
             let load = match surroundings {
                 Surroundings::Vacuum => MassCurve::VACUUM,
                 Surroundings::Air => curves.get(&MembraneAir::new(m, &tables[m as usize]), zero),
@@ -251,8 +251,8 @@ impl Membrane {
 
     /// Mass of the air on one face at an angular frequency, kg.
     pub fn face_mass(&self, mode: &MembraneMode, omega: f64) -> f64 {
-        let u = omega * self.spec.radius / air::SPEED_OF_SOUND;
-        air::DENSITY * self.spec.radius.powi(3) * mode.load.at(u)
+        let u = omega * self.spec.radius / air_load::SPEED_OF_SOUND;
+        air_load::DENSITY * self.spec.radius.powi(3) * mode.load.at(u)
     }
 
     /// `T k^2 + D k^4`, N/m3.

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use crate::fitted;
 use crate::layout::CLOSE;
 use crate::numbers::{Numbers, Visitor};
-use crate::receiver::ListeningPoint;
+use crate::receiver::ReceiverPosition;
 
 /// A close microphone's description.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -78,25 +78,25 @@ impl CloseSpec {
     };
 
     /// At a point, with a gain of 1.
-    pub const fn beside(point: ListeningPoint) -> CloseSpec {
-        let ListeningPoint { distance, inclination, azimuth } = point;
+    pub const fn beside(point: ReceiverPosition) -> CloseSpec {
+        let ReceiverPosition { distance, inclination, azimuth } = point;
         CloseSpec::Beside { distance, inclination, azimuth, time_zero: CLOSE, gain: 1.0 }
     }
 
     /// The same microphone at a point: its gain and its time zero stay.
     #[must_use]
-    pub fn moved_to(&self, point: ListeningPoint, radius: f64) -> CloseSpec {
-        let ListeningPoint { distance, inclination, azimuth } = point;
+    pub fn moved_to(&self, point: ReceiverPosition, radius: f64) -> CloseSpec {
+        let ReceiverPosition { distance, inclination, azimuth } = point;
         let CloseMicrophone { time_zero, gain, .. } = self.of(radius);
         CloseSpec::Beside { distance, inclination, azimuth, time_zero, gain: f64::from(gain) }
     }
 
     /// Where it stands at a piece of that radius (m), seen from the middle of the struck surface.
-    pub fn point(&self, radius: f64) -> ListeningPoint {
+    pub fn point(&self, radius: f64) -> ReceiverPosition {
         match *self {
-            CloseSpec::OverRim { height, azimuth, .. } => ListeningPoint::over(height, radius, azimuth),
+            CloseSpec::OverRim { height, azimuth, .. } => ReceiverPosition::over(height, radius, azimuth),
             CloseSpec::Beside { distance, inclination, azimuth, .. } => {
-                ListeningPoint { distance, inclination, azimuth }
+                ReceiverPosition { distance, inclination, azimuth }
             }
         }
     }
@@ -119,7 +119,7 @@ impl CloseSpec {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CloseMicrophone {
     /// Where it stands, seen from the middle of the struck surface.
-    pub point: ListeningPoint,
+    pub point: ReceiverPosition,
     /// Distance from there at which sound is time zero of the mix, m; farther off it is later by the difference.
     pub time_zero: f64,
     /// Gain of its preamplifier, a factor: the same wherever it is moved.

@@ -22,23 +22,23 @@
 
 mod direct;
 mod energy;
-pub mod faint;
-pub mod folded;
-pub mod front;
-mod pickup;
-mod port;
+pub mod inaudible_modes;
+pub mod rim_harmonics;
+pub mod coupled_modes;
+mod receiver_weights;
+mod input_vector;
 mod row;
 pub mod simd;
 
 use simd::Kernels;
 use simd::ring::Drive;
 
-pub use pickup::{Heard, Pickup};
-pub use port::Port;
+pub use input_vector::InputVector;
+pub use receiver_weights::{Pressure, ReceiverWeights};
 pub use row::{Row, zero_row};
-pub use simd::{EARS, MAX_DRIVES};
+pub use simd::{MAX_DRIVES, RECEIVERS};
 
-use pickup::Ear;
+use receiver_weights::Receiver;
 
 /// One mode: what the equation of motion needs.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -78,12 +78,12 @@ struct ModalState {
 /// `N` modes and their motion.
 ///
 /// ```
-/// use overhear_engine::modal::{ModalBody, Mode, Port};
+/// use overhear_engine::modal::{ModalBody, Mode, InputVector};
 ///
 /// let mode = Mode { omega: std::f64::consts::TAU * 200.0, sigma: 5.0, mass: 0.1 };
 /// let mut body = ModalBody::new(vec![mode], 48_000.0);
 /// // A place where the mode moves as much as its displacement says.
-/// let mut place = Port::new(body.len());
+/// let mut place = InputVector::new(body.len());
 /// place.shape_mut()[0] = 1.0;
 /// body.connect(&mut place);
 ///
@@ -214,7 +214,7 @@ impl ModalBody {
     ///
     /// # Real-time
     /// Linear in the number of modes.
-    pub fn connect(&self, port: &mut Port) {
+    pub fn connect(&self, port: &mut InputVector) {
         self.kernels.multiply(&mut port.gain_re, &self.coefs.hold_re, &port.shape);
         self.kernels.multiply(&mut port.gain_im, &self.coefs.hold_im, &port.shape);
     }
@@ -226,12 +226,12 @@ impl ModalBody {
     ///
     /// # Real-time
     /// Linear in the number of modes.
-    pub fn tune(&self, pickup: &mut Pickup) {
+    pub fn tune(&self, pickup: &mut ReceiverWeights) {
         pickup.ears.iter_mut().for_each(|ear| self.tune_ear(ear));
     }
 
-    fn tune_ear(&self, ear: &mut Ear) {
-        let Ear { transfer, weight_re, weight_im, direct, slow } = ear;
+    fn tune_ear(&self, ear: &mut Receiver) {
+        let Receiver { transfer, weight_re, weight_im, direct, slow } = ear;
         for (k, (mode, &[h_re, h_im])) in self.modes.iter().zip(&*transfer).enumerate() {
             let (omega_d, sigma) = (mode.omega_d(), mode.sigma);
             if omega_d * self.dt >= std::f64::consts::PI {
@@ -248,17 +248,17 @@ impl ModalBody {
 
     /// One-sample compliance between two ports, m/N: how far a unit force held at one has moved
     /// the other by the end of the sample.
-    pub fn compliance(&self, at: &Port, from: &Port) -> f64 {
+    pub fn compliance(&self, at: &InputVector, from: &InputVector) -> f64 {
         f64::from(self.kernels.dot(&at.shape, &from.gain_im))
     }
 
     /// Displacement at a port, m.
-    pub fn displacement_at(&self, port: &Port) -> f64 {
+    pub fn displacement_at(&self, port: &InputVector) -> f64 {
         f64::from(self.kernels.dot(&port.shape, &self.state.im))
     }
 
     /// Velocity at a port, m/s.
-    pub fn velocity_at(&self, port: &Port) -> f64 {
+    pub fn velocity_at(&self, port: &InputVector) -> f64 {
         (0..self.modes.len()).map(|k| f64::from(port.shape[k]) * self.velocity(k)).sum()
     }
 
@@ -272,13 +272,13 @@ impl ModalBody {
     }
 
     /// Adds what a force (N), held over the sample just stepped, did.
-    pub fn push(&mut self, port: &Port, force: f32) {
+    pub fn push(&mut self, port: &InputVector, force: f32) {
         self.kernels.axpy(&mut self.state.re, &port.gain_re, force);
         self.kernels.axpy(&mut self.state.im, &port.gain_im, force);
     }
 
     /// Pressure at a pickup now, without what follows the force at once.
-    pub fn listen(&self, pickup: &Pickup) -> Heard {
+    pub fn listen(&self, pickup: &ReceiverWeights) -> Pressure {
         let dot = |weights, state| self.kernels.dot(weights, state);
         pickup
             .ears
@@ -293,7 +293,7 @@ impl ModalBody {
     ///
     /// # Real-time
     /// Linear in modes times samples; the fastest way. At most [`simd::MAX_RUN`] samples.
-    pub fn ring(&mut self, first: usize, pickup: &Pickup, out: [&mut [f32]; EARS]) {
+    pub fn ring(&mut self, first: usize, pickup: &ReceiverWeights, out: [&mut [f32]; RECEIVERS]) {
         self.ring_driven(first, std::iter::empty(), pickup, out);
     }
 
@@ -305,9 +305,9 @@ impl ModalBody {
     pub fn ring_driven<'a>(
         &mut self,
         first: usize,
-        drives: impl Iterator<Item = (&'a Port, &'a [f32])>,
-        pickup: &Pickup,
-        out: [&mut [f32]; EARS],
+        drives: impl Iterator<Item = (&'a InputVector, &'a [f32])>,
+        pickup: &ReceiverWeights,
+        out: [&mut [f32]; RECEIVERS],
     ) {
         let mut held = [Drive { gain_re: &[], gain_im: &[], forces: &[] }; MAX_DRIVES];
         let mut count = 0;

@@ -14,7 +14,7 @@ use crate::instrument::Instrument;
 use crate::kit_spec::{InstrumentSpec, Kind, PieceBuild};
 use crate::layout::Placement;
 use crate::microphones::CloseMicrophone;
-use crate::modal::EARS;
+use crate::modal::RECEIVERS;
 use crate::slot::Slot;
 use crate::snapshot::{FIELD_MODES, FieldShapes, ModeSnapshot, PieceSnapshot, StrikeSnapshot};
 use crate::strike::Strike;
@@ -126,7 +126,11 @@ impl Piece {
     ///
     /// # Real-time
     /// No allocation, no lock.
-    pub fn render_in_air(&mut self, mut out: [&mut [f32]; EARS], incident: Option<IncidentPressure<'_>>) {
+    pub fn render_in_air(
+        &mut self,
+        mut out: [&mut [f32]; RECEIVERS],
+        incident: Option<IncidentPressure<'_>>,
+    ) {
         if self.phase == 0 {
             self.doze();
             self.begin_block();
@@ -134,10 +138,10 @@ impl Piece {
         let samples = out[0].len();
         debug_assert!(samples <= BLOCK - self.phase);
         let incident = incident.filter(|_| self.instrument.surface().listens());
-        let deaf = self.asleep || self.instrument.surface().has_parked_wires();
+        let shut = self.asleep || self.instrument.surface().has_parked_wires();
         let loud =
             |incident: IncidentPressure<'_>| incident.iter().position(|pressure| pressure.abs() > AUDIBLE);
-        let wakes = incident.filter(|_| deaf).and_then(loud);
+        let wakes = incident.filter(|_| shut).and_then(loud);
         let before = wakes.unwrap_or(samples);
         self.render_stretch(out.each_mut().map(|out| &mut out[..before]), incident, 0);
         if wakes.is_some() {
@@ -152,7 +156,7 @@ impl Piece {
     /// Renders from sample `from` of what arrives on.
     fn render_stretch(
         &mut self,
-        out: [&mut [f32]; EARS],
+        out: [&mut [f32]; RECEIVERS],
         incident: Option<IncidentPressure<'_>>,
         from: usize,
     ) {
@@ -307,7 +311,7 @@ impl Piece {
         into.ready = true;
         into.energy = self.energy() as f32;
         into.octaves = body.energy_by_octave();
-        into.stretch = self.instrument.surface().beyond().map_or(0.0, |force| force.energy() as f32);
+        into.stretch = self.instrument.surface().nonlinear_force().map_or(0.0, |force| force.energy() as f32);
         into.strike = self.last_strike();
         into.wires = self.wires();
         into.rims = self.rims();

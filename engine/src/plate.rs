@@ -15,7 +15,7 @@ use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
-use crate::air;
+use crate::air_load;
 use crate::error::SpecError;
 use crate::math::bessel::{ITable, JTable};
 
@@ -25,12 +25,12 @@ pub mod edges;
 pub mod free_disc;
 pub mod radial;
 pub mod spec;
-pub mod uneven;
+pub mod thickness_taper;
 
 use bent::Bent;
 use dome::Shell;
 use radial::RadialMode;
-use uneven::Section;
+use thickness_taper::Section;
 
 pub use spec::{Bell, PlateSpec};
 
@@ -117,7 +117,8 @@ impl PlateModes {
         } else {
             let tables = PlateTables::new(flat.len() as u32, reach);
             let section = Section::new(spec, reach);
-            let solve = |m, modes: &[RadialMode]| uneven::shells(spec, &section, modes, tables.order(m));
+            let solve =
+                |m, modes: &[RadialMode]| thickness_taper::shells(spec, &section, modes, tables.order(m));
             (0..).zip(&flat).flat_map(|(m, modes)| named(modes, solve(m, modes))).collect()
         };
         shells.retain(|shell| shell.omega <= limit);
@@ -160,7 +161,7 @@ impl PlateModes {
     /// frequencies up to `limit_hz`, Hz.
     pub fn table_extent(&self, limit_hz: f64) -> (u32, f64) {
         let root = self.flat.iter().flatten().map(|flat| flat.root).fold(0.0, f64::max);
-        let trace = TAU * limit_hz * self.spec.radius() / air::SPEED_OF_SOUND;
+        let trace = TAU * limit_hz * self.spec.radius() / air_load::SPEED_OF_SOUND;
         (self.flat.len().saturating_sub(1) as u32, root.max(trace))
     }
 

@@ -34,7 +34,7 @@
 //! known, hence where `psi` ought to be; a share of the difference is made up, and the energy that
 //! takes is exchanged with the kinetic energy of the same modes by scaling their velocities. The
 //! sum of both stays what it was to rounding: nothing is added, and it is the *true* energy that is kept.
-//! The jolt is part of the true acceleration and is heard; left out, its mean would be an offset.
+//! The rescale_velocity is part of the true acceleration and is heard; left out, its mean would be an offset.
 //!
 //! `C` follows the motion: raising it by `D` turns `psi` into `sqrt(psi^2 + 2 D)` and changes no
 //! energy.
@@ -53,9 +53,9 @@ mod safety;
 mod schedule;
 mod sound;
 
-use crate::modal::front::Front;
-use crate::modal::simd::folded::{Amplitudes, Folded};
-use crate::modal::{EARS, Heard, ModalBody, Pickup, Port, Row, zero_row};
+use crate::modal::coupled_modes::CoupledModes;
+use crate::modal::simd::rim_harmonics::{Amplitudes, RimHarmonics};
+use crate::modal::{InputVector, ModalBody, Pressure, RECEIVERS, ReceiverWeights, Row, zero_row};
 
 use safety::Safety;
 use schedule::Schedule;
@@ -127,7 +127,7 @@ impl Scalar {
 /// A potential acting on the first modes of a body.
 pub struct NonlinearForce {
     potential: Box<dyn Potential>,
-    front: Front,
+    front: CoupledModes,
     /// When to evaluate, and whether to act at all.
     schedule: Schedule,
     /// What keeps it from running away.
@@ -137,7 +137,7 @@ pub struct NonlinearForce {
     dt: f64,
     scalar: Scalar,
     /// `g` as a port, and `1 + G / 2`.
-    port: Port,
+    port: InputVector,
     stiffening: f64,
     /// The present sample's `psibar` without strikers.
     mean: f64,
@@ -154,18 +154,18 @@ impl NonlinearForce {
         potential: Box<dyn Potential>,
         modes: usize,
         stride: u32,
-        (body, pickup): (&ModalBody, &Pickup),
+        (body, pickup): (&ModalBody, &ReceiverWeights),
         sample_rate: f64,
     ) -> NonlinearForce {
         let mut force = NonlinearForce {
             potential,
-            front: Front::new(modes),
+            front: CoupledModes::new(modes),
             schedule: Schedule::new(stride),
             safety: Safety::new(body.modes().first().map_or(0.0, |mode| mode.mass)),
             stiffness: 1.0,
             dt: 1.0 / sample_rate,
             scalar: Scalar::REST,
-            port: Port::new(modes),
+            port: InputVector::new(modes),
             stiffening: 1.0,
             mean: 0.0,
             sound: Sound::default(),
@@ -210,7 +210,7 @@ impl NonlinearForce {
     }
 
     /// The modes it acts on.
-    pub fn front(&self) -> &Front {
+    pub fn front(&self) -> &CoupledModes {
         &self.front
     }
 
@@ -237,8 +237,8 @@ impl NonlinearForce {
     ///
     /// # Real-time
     /// Linear in the modes it acts on.
-    pub fn follow(&mut self, body: &ModalBody, pickup: &Pickup) {
-        body.face(&mut self.front, pickup, self.schedule.ahead());
+    pub fn follow(&mut self, body: &ModalBody, pickup: &ReceiverWeights) {
+        body.update(&mut self.front, pickup, self.schedule.ahead());
         body.connect(&mut self.port);
         self.stiffening = 1.0 + 0.5 * body.compliance(&self.port, &self.port);
     }
@@ -272,19 +272,19 @@ impl NonlinearForce {
     }
 
     /// Before the body steps: evaluates if it is time. True if `g` is another one now.
-    pub fn begin(&mut self, body: &mut ModalBody, pickup: &Pickup) -> bool {
-        body.keep(&mut self.front);
+    pub fn begin(&mut self, body: &mut ModalBody, pickup: &ReceiverWeights) -> bool {
+        body.save(&mut self.front);
         self.prepare(body, pickup)
     }
 
     /// Evaluates if it is time.
-    fn prepare(&mut self, body: &mut ModalBody, pickup: &Pickup) -> bool {
+    fn prepare(&mut self, body: &mut ModalBody, pickup: &ReceiverWeights) -> bool {
         let due = self.schedule.is_due();
         if due {
             if self.schedule.set_out(self.stiffness, self.safety.is_astray()) {
-                body.face(&mut self.front, pickup, self.schedule.ahead());
+                body.update(&mut self.front, pickup, self.schedule.ahead());
             }
-            body.keep(&mut self.front);
+            body.save(&mut self.front);
             self.evaluate(body);
             body.connect(&mut self.port);
             self.stiffening = 1.0 + 0.5 * body.compliance(&self.port, &self.port);
@@ -303,9 +303,9 @@ impl NonlinearForce {
     pub fn ring(
         &mut self,
         body: &mut ModalBody,
-        pickup: &Pickup,
-        air: Option<(&Port, &[f32])>,
-        out: &mut [&mut [f32]; EARS],
+        pickup: &ReceiverWeights,
+        air: Option<(&InputVector, &[f32])>,
+        out: &mut [&mut [f32]; RECEIVERS],
     ) {
         let mut felt = air.map_or(0.0, |(port, _)| body.compliance(&self.port, port));
         for i in 0..out[0].len() {
@@ -330,12 +330,12 @@ impl NonlinearForce {
     }
 
     /// `p` of a port: how far `psi` is moved by a unit force there, and a point there by `psi`.
-    pub fn coupling(&self, body: &ModalBody, port: &Port) -> f64 {
+    pub fn coupling(&self, body: &ModalBody, port: &InputVector) -> f64 {
         body.compliance(&self.port, port)
     }
 
     /// [`coupling`](Self::coupling) of all places around the rim.
-    pub fn folded_coupling(&self, body: &ModalBody, folded: &Folded) -> Amplitudes {
+    pub fn folded_coupling(&self, body: &ModalBody, folded: &RimHarmonics) -> Amplitudes {
         body.folded_compliance(folded, &self.port)
     }
 
@@ -345,14 +345,14 @@ impl NonlinearForce {
     }
 
     /// Applies the force, given `sum p_i F_i` (N) of the strikers; the pressure that follows at once.
-    pub fn finish(&mut self, body: &mut ModalBody, strikers: f64) -> Heard {
+    pub fn finish(&mut self, body: &mut ModalBody, strikers: f64) -> Pressure {
         let (force, heard) = self.hold(strikers);
         body.push(&self.port, force);
         heard
     }
 
     /// The force held over the sample, and the pressure that follows at once.
-    fn hold(&mut self, strikers: f64) -> (f32, Heard) {
+    fn hold(&mut self, strikers: f64) -> (f32, Pressure) {
         let mean = self.mean + strikers / self.divisor();
         self.scalar.psi = 2.0 * mean - self.scalar.psi;
         let force = -mean as f32;
@@ -360,13 +360,13 @@ impl NonlinearForce {
     }
 
     fn evaluate(&mut self, body: &mut ModalBody) {
-        body.look_ahead(&self.front, &mut self.predicted);
+        body.predict(&self.front, &mut self.predicted);
         let found = self.potential.evaluate(&self.predicted, &mut self.gradient);
         let (energy, depth) = (self.stiffness * found.energy, self.stiffness * found.depth);
         let lost = self.safety.is_lost();
         if let Some(kept) = self.safety.slows(depth) {
             // Only of the velocities: a dome half turned inside out gains by being bent less.
-            self.sound.jolt(body.jolt(&self.front, kept));
+            self.sound.rescale_velocity(body.rescale_velocity(&self.front, kept));
         }
         let stretch = self.schedule.stretch(self.dt);
         self.scalar.shift_to(depth, stretch);
@@ -416,7 +416,7 @@ impl NonlinearForce {
         let given = kinetic * (1.0 - f64::from(factor) * f64::from(factor));
         let square = psi * psi + 2.0 * given;
         if factor != 1.0 && square > 0.0 {
-            self.sound.jolt(body.jolt(&self.front, factor));
+            self.sound.rescale_velocity(body.rescale_velocity(&self.front, factor));
             self.scalar.psi = square.sqrt();
             self.exchanged += given.abs();
         }

@@ -12,7 +12,7 @@ use crate::numbers::{Numbers, Visitor};
 /// A listening point beside a disc.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct ListeningPoint {
+pub struct ReceiverPosition {
     /// Distance from the disc's centre, m, 0.02 to 20.
     #[serde(rename = "distance_m")]
     pub distance: f64,
@@ -24,7 +24,7 @@ pub struct ListeningPoint {
     pub azimuth: f64,
 }
 
-impl Numbers for ListeningPoint {
+impl Numbers for ReceiverPosition {
     fn visit(&mut self, visitor: &mut dyn Visitor) {
         visitor.number("distance_m", &mut self.distance, 0.02..=20.0);
         visitor.number("inclination_rad", &mut self.inclination, 0.0..=1.5);
@@ -35,22 +35,22 @@ impl Numbers for ListeningPoint {
 /// Distance from which everything is far, m: a head's finest wave in air reaches its far field within half of it.
 const FAR: f64 = 8.0;
 
-impl ListeningPoint {
+impl ReceiverPosition {
     /// A point far away in a direction (rad), at least a little above the disc's plane.
-    pub const fn far(inclination: f64, azimuth: f64) -> ListeningPoint {
-        ListeningPoint { distance: FAR, inclination: inclination.clamp(0.0, 1.45), azimuth }
+    pub const fn far(inclination: f64, azimuth: f64) -> ReceiverPosition {
+        ReceiverPosition { distance: FAR, inclination: inclination.clamp(0.0, 1.45), azimuth }
     }
 
     /// The same point seen from a place `depth` (m) further along the disc's axis, away from it.
-    pub fn from_behind(&self, depth: f64) -> ListeningPoint {
+    pub fn from_behind(&self, depth: f64) -> ReceiverPosition {
         let (sin, cos) = self.inclination.sin_cos();
         let (height, offset) = (self.distance * cos + depth, self.distance * sin);
-        ListeningPoint { distance: height.hypot(offset), inclination: offset.atan2(height), ..*self }
+        ReceiverPosition { distance: height.hypot(offset), inclination: offset.atan2(height), ..*self }
     }
 
     /// A point at that height (m) over a place on the disc: distance from the centre, m, and direction, rad.
-    pub fn over(height: f64, offset: f64, azimuth: f64) -> ListeningPoint {
-        ListeningPoint { distance: height.hypot(offset), inclination: offset.atan2(height), azimuth }
+    pub fn over(height: f64, offset: f64, azimuth: f64) -> ReceiverPosition {
+        ReceiverPosition { distance: height.hypot(offset), inclination: offset.atan2(height), azimuth }
     }
 
     /// Height over the disc's plane and distance from its axis, m.
@@ -102,7 +102,7 @@ impl ListeningPoint {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Receivers {
     /// The close microphone.
-    pub near: ListeningPoint,
+    pub near: ReceiverPosition,
     /// A point far away, in the direction of the overheads.
-    pub far: ListeningPoint,
+    pub far: ReceiverPosition,
 }

@@ -18,12 +18,12 @@ use std::f64::consts::{PI, TAU};
 
 use serde::{Deserialize, Serialize};
 
-use crate::air::{DENSITY, SPEED_OF_SOUND};
+use crate::air_load::{DENSITY, SPEED_OF_SOUND};
 use crate::contact::Material;
 use crate::modal::Mode;
 use crate::mode::{Member, ModeKind};
 use crate::numbers::{Numbers, Visitor};
-use crate::receiver::ListeningPoint;
+use crate::receiver::ReceiverPosition;
 
 /// A hoop's description, and of the stand its drum is on.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -99,7 +99,7 @@ pub struct RimMode {
 
 impl Rim {
     /// The rim of a drum of that radius (m), heard from a point near and one far; without losses if asked to.
-    pub fn new(radius: f64, hoop: &HoopSpec, [point, far]: [ListeningPoint; 2], lossless: bool) -> Rim {
+    pub fn new(radius: f64, hoop: &HoopSpec, [point, far]: [ReceiverPosition; 2], lossless: bool) -> Rim {
         let HoopSpec { material, wall, height, flange, .. } = *hoop;
         let shear = material.youngs_modulus / (2.0 * (1.0 + material.poisson_ratio));
         let area = wall * (height + flange);
@@ -127,7 +127,7 @@ impl Rim {
             let heard = transfer(radius, point, n, omega);
             let heard_far = transfer(radius, far, n, omega).map(|h| h * far.distance);
             for member in [Member::Cosine, Member::Sine] {
-                let shown = |point: ListeningPoint| move |h: f64| h * point.toward(n, member, 0.0);
+                let shown = |point: ReceiverPosition| move |h: f64| h * point.toward(n, member, 0.0);
                 let (transfer, far_transfer) = (heard.map(shown(point)), heard_far.map(shown(far)));
                 modes.push(RimMode { n, member, mode, transfer, far_transfer });
             }
@@ -154,7 +154,7 @@ impl Rim {
 }
 
 /// Rayleigh integral over a narrow ring; largest toward the point. The delay from the centre is taken out.
-fn transfer(radius: f64, point: ListeningPoint, n: u32, omega: f64) -> [f64; 2] {
+fn transfer(radius: f64, point: ReceiverPosition, n: u32, omega: f64) -> [f64; 2] {
     let k = omega / SPEED_OF_SOUND;
     let (sin, cos) = point.inclination.sin_cos();
     let (height, offset) = (point.distance * cos, point.distance * sin);
@@ -183,7 +183,7 @@ mod tests {
         KitSpec::standard().drums().find_map(|(_, drum)| drum.hoop).unwrap()
     }
 
-    const POINT: ListeningPoint = ListeningPoint { distance: 0.5, inclination: 0.6, azimuth: 0.4 };
+    const POINT: ReceiverPosition = ReceiverPosition { distance: 0.5, inclination: 0.6, azimuth: 0.4 };
 
     #[test]
     fn a_snare_hoop_rings_where_hoops_ring() {

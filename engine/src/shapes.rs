@@ -5,7 +5,7 @@
 
 use crate::math::cubic::Stencil;
 use crate::mode::Member;
-use crate::surface::patch::{Discs, pressed_share};
+use crate::surface::local_compliance::{PatchFactors, pressed_share};
 
 /// Intervals of the table. *Measured*: the finest shape of a cymbal at 22 kHz (wavelength a tenth
 /// of the radius) is met within 1e-4.
@@ -46,7 +46,7 @@ pub struct ShapeTable {
     /// `[radial]`: wavenumber of the radial function times the radius; empty if there is no single one.
     waves: Vec<f32>,
     /// The share of every radial function that discs (shares of the radius) feel; none of bodies whose waves are not known.
-    felt: Discs,
+    felt: PatchFactors,
 }
 
 /// Modes that mix the same rows.
@@ -109,7 +109,7 @@ impl ShapeTable {
         }
         let (groups, grouped) = group(&index, &starts);
         let weights = vec![1.0; total];
-        let (waves, felt) = (Vec::new(), Discs::default());
+        let (waves, felt) = (Vec::new(), PatchFactors::default());
         ShapeTable { radial, functions, index, starts, weights, orders, groups, grouped, waves, felt }
     }
 
@@ -119,7 +119,7 @@ impl ShapeTable {
         self.waves = waves.map(|wave| wave as f32).collect();
         let share =
             |disc: f64| self.waves.iter().map(|&wave| pressed_share(f64::from(wave) * disc)).collect();
-        self.felt = Discs::new(radius, share);
+        self.felt = PatchFactors::new(radius, share);
         self
     }
 
@@ -146,7 +146,7 @@ impl ShapeTable {
     /// known, the middle is all.
     ///
     /// # Real-time
-    /// As [`fill`](Self::fill), and for a disc beyond [those known](Discs) a Bessel function for each row mixed.
+    /// As [`fill`](Self::fill), and for a disc beyond [those known](PatchFactors) a Bessel function for each row mixed.
     pub fn fill_pressed(&self, radius: f64, angle: f64, disc: f64, out: &mut [f32]) {
         // cos and sin of every multiple of the angle, by one rotation each.
         let mut around = [[1.0_f64, 0.0]; MAX_ORDERS];

@@ -20,7 +20,7 @@ pub mod exciter;
 pub mod incident_field;
 pub mod observer;
 pub mod oscillator;
-pub mod patch;
+pub mod local_compliance;
 pub mod rim;
 mod sample;
 mod strike_log;
@@ -31,7 +31,7 @@ use std::any::Any;
 
 use crate::contact::Material;
 use crate::high_band::HighBand;
-use crate::modal::{EARS, ModalBody, Mode};
+use crate::modal::{ModalBody, Mode, RECEIVERS};
 use crate::potential::{NonlinearForce, Potential};
 use crate::rim::Rim;
 use crate::shapes::ShapeTable;
@@ -41,8 +41,8 @@ use attachment::{Attachment, Site};
 use body::{SoundingBody, StruckBody};
 use contacts::{Contacts, MAX_STRIKERS};
 use incident_field::IncidentPressure;
+use local_compliance::LocalHeadCompliance;
 use observer::ForceObservers;
-use patch::Film;
 use rim::AttachedRim;
 use strike_log::StrikeLog;
 use wires::SnareWires;
@@ -53,7 +53,7 @@ pub struct SurfaceParts {
     pub modes: Vec<Mode>,
     /// Shapes of the modes.
     pub shapes: ShapeTable,
-    /// How each mode is heard, Pa s2/m of its acceleration, `[mode]`; see [`Pickup::new`](crate::modal::Pickup::new).
+    /// How each mode is heard, Pa s2/m of its acceleration, `[mode]`; see [`ReceiverWeights::new`](crate::modal::ReceiverWeights::new).
     pub transfer: Vec<[f64; 2]>,
     /// What the tip meets.
     pub material: Material,
@@ -72,7 +72,7 @@ pub struct Surface {
     /// What tips meet.
     material: Material,
     /// The head right under a tip, if the surface is one.
-    local_compliance: Option<Film>,
+    local_compliance: Option<LocalHeadCompliance>,
     log: StrikeLog,
 }
 
@@ -148,7 +148,7 @@ impl Surface {
     }
 
     /// Makes the surface a head that yields under a tip beyond its modes; acts on whatever touches from now on.
-    pub fn set_local_compliance(&mut self, head: Film) {
+    pub fn set_local_compliance(&mut self, head: LocalHeadCompliance) {
         self.local_compliance = Some(head);
     }
 
@@ -164,12 +164,12 @@ impl Surface {
     }
 
     /// What the body does beyond its modes, if it does.
-    pub fn beyond(&self) -> Option<&NonlinearForce> {
+    pub fn nonlinear_force(&self) -> Option<&NonlinearForce> {
         self.body.nonlinear_force()
     }
 
     /// What the body does beyond its modes, to be set.
-    pub fn beyond_mut(&mut self) -> Option<&mut NonlinearForce> {
+    pub fn nonlinear_force_mut(&mut self) -> Option<&mut NonlinearForce> {
         self.body.nonlinear_force_mut()
     }
 
@@ -305,7 +305,11 @@ impl Surface {
     /// # Real-time
     /// Linear in modes times samples; a few times dearer while something touches, and by the cost
     /// of the potential while that acts.
-    pub fn render_in_air(&mut self, mut out: [&mut [f32]; EARS], incident: Option<IncidentPressure<'_>>) {
+    pub fn render_in_air(
+        &mut self,
+        mut out: [&mut [f32]; RECEIVERS],
+        incident: Option<IncidentPressure<'_>>,
+    ) {
         let mut done = 0;
         let engaged = self.attachments.iter().any(|attachment| attachment.is_engaged());
         while (!self.contacts.is_empty() || engaged) && done < out[0].len() {

@@ -7,7 +7,7 @@
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
 
-use overhear_engine::air::SPEED_OF_SOUND;
+use overhear_engine::air_load::SPEED_OF_SOUND;
 use overhear_engine::cymbal::CymbalSpec;
 use overhear_engine::damping::Muffler;
 use overhear_engine::drum::{DrumSpec, HeadContact, HeadSpec, PitchOf, ShellSpec};

@@ -1,10 +1,10 @@
-//! `realism`: every piece in the kit, struck softly to hard in several places, beside recordings of real ones.
+//! `realism`: every piece in the kit, struck from soft to hard at several positions, compared with recordings.
 //!
-//! The kit is the plugin's at its defaults, as it is bounced or as it is played, by the plugin's performer. Each stroke is
-//! heard twice: by the piece's close microphone alone, and in the full mix, both as the mean of left and right. The
-//! [`features`] are measured and set beside the [`mod@reference`]; what is compared is the median over the places.
+//! The kit has the plugin's defaults and is bounced or played live by the plugin's performer. Each stroke is
+//! recorded twice: by the piece's close microphone alone, and in the full mix, both as the mean of left and right. The
+//! median over the positions of each of the [`features`] is compared with the [`mod@reference`].
 
-mod ears;
+mod recording_chain;
 pub mod features;
 pub mod reference;
 mod report;
@@ -19,20 +19,20 @@ use overhear_engine::kit_spec::Kind;
 use overhear_engine::strike::Strike;
 use rayon::prelude::*;
 
-use ears::Stand;
+use recording_chain::Stand;
 
-pub use ears::Ear;
+pub use recording_chain::RecordingChain;
 pub use report::{Count, PieceReport, Report, Row, Stroke};
 pub use request::{Job, Request};
 pub use subject::{SUBJECTS, Subject, subjects};
 
-/// Speeds of the strokes unless told otherwise, m/s: soft, medium, hard.
+/// Default speeds of the strokes, m/s: soft, medium, hard.
 pub const SPEEDS: [f64; 3] = [1.5, 3.0, 5.0];
 
 /// Sample rate, Hz.
 pub const RATE: u32 = 48_000;
 
-/// How long drums and cymbals are heard, s: until each octave has fallen by more than 25 dB.
+/// Recorded length of drums and cymbals, s: until each octave has fallen by more than 25 dB.
 const DRUM_SECONDS: f64 = 4.0;
 const CYMBAL_SECONDS: f64 = 8.0;
 
@@ -102,15 +102,15 @@ mod tests {
             pace: Pace::RealTime,
         });
         let report = report.unwrap();
-        assert_eq!(report.pieces.iter().map(|piece| piece.heard).collect::<Vec<_>>(), Ear::ALL);
+        assert_eq!(report.pieces.iter().map(|piece| piece.heard).collect::<Vec<_>>(), RecordingChain::ALL);
         for piece in &report.pieces {
             assert_eq!(piece.features.len(), reference::figures("rack-tom").len());
             assert!(piece.features.iter().all(|row| row.values.len() == 2));
             assert!(piece.features.iter().filter(|row| row.values[0].is_some()).count() > 12);
-            // The soft stroke is no stroke that the goals are about.
+            // The goals do not count the soft stroke.
             assert_eq!(piece.firm.of, piece.features.len());
         }
-        // What the microphone over the rim hears is not what the overheads add up to.
+        // The sound at the microphone over the rim differs from that at the overheads.
         assert_ne!(report.pieces[0].features[0].values, report.pieces[1].features[0].values);
         assert!(report.to_string().contains("rack-tom"));
     }

@@ -7,7 +7,7 @@ use overhear_engine::drum::{DrumSpec, HeadContact};
 use overhear_engine::hi_hat::HiHatSpec;
 use overhear_engine::kit_spec::{Defaults, InstrumentSpec, PieceSpec};
 use overhear_engine::microphones::CloseSpec;
-use overhear_engine::receiver::ListeningPoint;
+use overhear_engine::receiver::ReceiverPosition;
 
 use crate::{altered, spec};
 
@@ -60,7 +60,7 @@ pub fn cap_hi_hat() -> PieceSpec {
 /// heard from half a metre, without muffling.
 fn fixed_disc(of: &str, change: impl FnOnce(DrumSpec) -> DrumSpec) -> PieceSpec {
     let piece = altered(spec(of), |drum| change(DrumSpec { contact: HeadContact::FixedDisc, ..drum }));
-    let half_a_metre = ListeningPoint { distance: 0.5, inclination: 0.6, azimuth: 0.4 };
+    let half_a_metre = ReceiverPosition { distance: 0.5, inclination: 0.6, azimuth: 0.4 };
     PieceSpec {
         name: format!("fixed-disc-{of}"),
         close: CloseSpec::beside(half_a_metre),

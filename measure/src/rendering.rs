@@ -1,7 +1,7 @@
 //! Single pieces, rendered as their kit renders them.
 
 use overhear_engine::kit::BLOCK;
-use overhear_engine::modal::EARS;
+use overhear_engine::modal::RECEIVERS;
 use overhear_engine::piece::Piece;
 use overhear_engine::surface::Surface;
 
@@ -17,7 +17,7 @@ pub fn render_into(piece: &mut Piece, out: &mut [f32]) {
     let mut rest = out;
     while !rest.is_empty() {
         let (run, later) = rest.split_at_mut(piece.run_left().min(rest.len()));
-        let mut others = [[0.0; BLOCK]; EARS - 1];
+        let mut others = [[0.0; BLOCK]; RECEIVERS - 1];
         let [far, around] = others.each_mut().map(|row| &mut row[..run.len()]);
         piece.render_in_air([run, far, around], None);
         rest = later;
@@ -28,7 +28,7 @@ pub fn render_into(piece: &mut Piece, out: &mut [f32]) {
 pub fn render_surface(surface: &mut Surface, samples: usize) -> Vec<f32> {
     let mut out = vec![0.0; samples];
     for run in out.chunks_mut(BLOCK) {
-        let mut others = [[0.0; BLOCK]; EARS - 1];
+        let mut others = [[0.0; BLOCK]; RECEIVERS - 1];
         let [far, around] = others.each_mut().map(|row| &mut row[..run.len()]);
         surface.render_in_air([run, far, around], None);
     }

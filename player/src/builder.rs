@@ -37,7 +37,7 @@ use overhear_engine::snapshot::FieldShapes;
 use rayon::{ThreadBuilder, ThreadPool, ThreadPoolBuilder};
 use tracing::error;
 
-use crate::building::{BuildPlan, Staff};
+use crate::building::{BuildPlan, WorkerPlan};
 use crate::cache;
 use crate::kit_document::KitDocument;
 use crate::performer::Setup;
@@ -91,7 +91,7 @@ pub struct Shapes {
 }
 
 struct Shared {
-    desk: Mutex<Desk>,
+    desk: Mutex<Mixer>,
     /// Signals that the desk has changed, to either side.
     changed: Condvar,
     /// The latest order, read between pieces.
@@ -104,7 +104,7 @@ struct Shared {
 
 /// What the main thread and the builder thread tell each other.
 #[derive(Default)]
-struct Desk {
+struct Mixer {
     sample_rate: f64,
     order: u32,
     /// The kit that the performer has for which the latest order is.
@@ -277,9 +277,9 @@ impl Shared {
 
     /// Builds what a job asks for until done or until its order is no longer the latest.
     fn build(&self, job: &Job, make: Make) -> Result<(), String> {
-        if job.former.as_ref().map_or(Staff::NOBODY, BuildPlan::staff) != job.plan.staff() {
+        if job.former.as_ref().map_or(WorkerPlan::NOBODY, BuildPlan::worker_plan) != job.plan.worker_plan() {
             // A kit without workers plays as well: no reason to fail.
-            let crew = job.plan.staff().hire_until(self.deadline.clone()).unwrap_or_default();
+            let crew = job.plan.worker_plan().hire_until(self.deadline.clone()).unwrap_or_default();
             self.deliver(&self.queues.hired, Hired { order: job.order, crew }, job.order);
         }
         let kit = &job.plan.kit().kit;

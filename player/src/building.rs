@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use overhear_engine::kit::{Crew, Post};
+use overhear_engine::kit::{RenderJob, RenderWorkers};
 use overhear_engine::kit_spec::{InstrumentSpec, PieceBuild, PieceSpec};
 use overhear_engine::piece::{BuildOptions, Quality};
 use overhear_engine::slot::Slot;
@@ -26,12 +26,12 @@ pub enum Pace {
 pub struct BuildPlan {
     kit: Arc<KitDocument>,
     quality: Quality,
-    staff: Staff,
+    worker_plan: WorkerPlan,
 }
 
 impl PartialEq for BuildPlan {
     fn eq(&self, other: &BuildPlan) -> bool {
-        let built_alike = (self.quality, self.staff) == (other.quality, other.staff);
+        let built_alike = (self.quality, self.worker_plan) == (other.quality, other.worker_plan);
         // The same document most of the time, which need not be read.
         built_alike && (Arc::ptr_eq(&self.kit, &other.kit) || self.kit == other.kit)
     }
@@ -39,31 +39,31 @@ impl PartialEq for BuildPlan {
 
 /// Who renders beside the audio thread.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Staff {
+pub struct WorkerPlan {
     /// How many.
     pub workers: usize,
     /// Whether somebody waits for them.
     pub pace: Pace,
 }
 
-impl Staff {
+impl WorkerPlan {
     /// Nobody.
-    pub const NOBODY: Staff = Staff { workers: 0, pace: Pace::RealTime };
+    pub const NOBODY: WorkerPlan = WorkerPlan { workers: 0, pace: Pace::RealTime };
 
     /// Starts the threads; none if nobody is wanted.
     ///
     /// # Errors
     /// If the system starts no more threads.
-    pub fn hire(self) -> std::io::Result<Option<Box<dyn Crew>>> {
-        Ok(self.workers()?.map(|workers| -> Box<dyn Crew> { Box::new(workers) }))
+    pub fn attach(self) -> std::io::Result<Option<Box<dyn RenderWorkers>>> {
+        Ok(self.workers()?.map(|workers| -> Box<dyn RenderWorkers> { Box::new(workers) }))
     }
 
     /// Starts the threads, for which the audio thread waits no longer than a deadline allows; none if nobody is wanted.
     ///
     /// # Errors
     /// If the system starts no more threads.
-    pub fn hire_until(self, deadline: Arc<dyn Deadline>) -> std::io::Result<Option<Box<dyn Crew>>> {
-        Ok(self.workers()?.map(|workers| -> Box<dyn Crew> { Box::new(workers.until(deadline)) }))
+    pub fn hire_until(self, deadline: Arc<dyn Deadline>) -> std::io::Result<Option<Box<dyn RenderWorkers>>> {
+        Ok(self.workers()?.map(|workers| -> Box<dyn RenderWorkers> { Box::new(workers.until(deadline)) }))
     }
 
     fn workers(self) -> std::io::Result<Option<Workers>> {
@@ -75,7 +75,7 @@ impl Staff {
             Pace::Offline => Patience::Offline,
         };
         // In the floating point mode of the audio thread, or the bits would differ.
-        let render = |post: &mut Post| flushed(|| post.render());
+        let render = |post: &mut RenderJob| flushed(|| post.render());
         Ok(Some(Workers::new(self.workers, patience, render)?))
     }
 }
@@ -86,7 +86,7 @@ impl BuildPlan {
     /// # Real-time
     /// No allocation; linear in the number of parameters.
     pub fn of(kit: Arc<KitDocument>, value: impl Fn(usize) -> f32, pace: Pace) -> BuildPlan {
-        let mut plan = BuildPlan { kit, quality: Quality::default(), staff: Staff::NOBODY };
+        let mut plan = BuildPlan { kit, quality: Quality::default(), worker_plan: WorkerPlan::NOBODY };
         let mut offline = None;
         for (index, parameter) in parameters().iter().enumerate() {
             let Drives::Building(construction) = parameter.drives else { continue };
@@ -95,11 +95,11 @@ impl BuildPlan {
             match construction {
                 Construction::Quality => plan.quality = quality(value as usize).unwrap_or_default(),
                 Construction::OfflineQuality => offline = (value as usize).checked_sub(1).and_then(quality),
-                Construction::Workers => plan.staff.workers = value as usize,
+                Construction::Workers => plan.worker_plan.workers = value as usize,
             }
         }
-        if plan.staff.workers > 0 {
-            plan.staff.pace = pace;
+        if plan.worker_plan.workers > 0 {
+            plan.worker_plan.pace = pace;
         }
         if pace == Pace::Offline {
             plan.quality = offline.unwrap_or(plan.quality);
@@ -118,8 +118,8 @@ impl BuildPlan {
     }
 
     /// Who renders beside the audio thread.
-    pub fn staff(&self) -> Staff {
-        self.staff
+    pub fn worker_plan(&self) -> WorkerPlan {
+        self.worker_plan
     }
 
     /// How every piece is built at a sample rate, Hz.
@@ -190,10 +190,10 @@ mod tests {
 
     #[test]
     fn workers_are_hired_as_many_as_are_wanted_and_nobody_by_default() {
-        assert!(plan(&[], Pace::RealTime).staff().hire().unwrap().is_none());
+        assert!(plan(&[], Pace::RealTime).worker_plan().attach().unwrap().is_none());
         let wanted = plan(&[("render_threads", 2.0)], Pace::Offline);
-        assert_eq!(wanted.staff(), Staff { workers: 2, pace: Pace::Offline });
-        assert!(wanted.staff().hire().unwrap().is_some());
+        assert_eq!(wanted.worker_plan(), WorkerPlan { workers: 2, pace: Pace::Offline });
+        assert!(wanted.worker_plan().attach().unwrap().is_some());
         // Whoever renders them, pieces are the same.
         assert_eq!(wanted.options(48e3), plan(&[], Pace::Offline).options(48e3));
     }

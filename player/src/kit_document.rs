@@ -83,7 +83,7 @@ mod tests {
             (stroke(kick, 0.5), Some(0.5), "notes.3.pedal is given, accepted: only on a hi-hat"),
             (stroke(hat, 0.5), Some(1.5), "notes.3.pedal is 1.5, accepted: 0 to 1"),
             (Meaning::Steps(kick, Foot::Chick), None, "notes.3.pedal is given, accepted: only on a hi-hat"),
-            (Meaning::Steps(hat, Foot::Brought(-1.0)), None, "notes.3.pedal is -1, accepted: 0 to 1"),
+            (Meaning::Steps(hat, Foot::Position(-1.0)), None, "notes.3.pedal is -1, accepted: 0 to 1"),
             (Meaning::Steps(empty, Foot::Splash), None, "notes.3.piece is not in the kit"),
         ] {
             let error = refused(|notes| notes.set(3, row(meaning, pedal)));

@@ -55,7 +55,7 @@ pub fn reach(kind: Kind) -> (f64, f64) {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Foot {
     /// It is brought there, 0 (up) to 1 (down), unless a controller plays the pedal.
-    Brought(f64),
+    Position(f64),
     /// It is brought down as fast as the note is loud.
     Chick,
     /// It is brought down as fast as the note is loud, and up at once.
@@ -128,7 +128,7 @@ impl NoteTable {
         let row = self.row(note)?;
         match row.meaning {
             Meaning::Steps(slot, foot) => Some((slot, foot)),
-            Meaning::Strikes(stroke) => Some((stroke.slot, Foot::Brought(row.pedal?))),
+            Meaning::Strikes(stroke) => Some((stroke.slot, Foot::Position(row.pedal?))),
             Meaning::Silent => None,
         }
     }
@@ -214,7 +214,7 @@ impl Row {
                 Some(kind(slot)?).filter(|_| self.pedal.is_some())
             }
             Meaning::Steps(slot, foot) => {
-                if let Foot::Brought(place) = foot {
+                if let Foot::Position(place) = foot {
                     SpecError::check("pedal", place, 0.0, 1.0)?;
                 }
                 Some(kind(slot)?)

@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 use overhear_engine::error::SpecError;
 use overhear_engine::hi_hat::foot::SPEED;
-use overhear_engine::kit::{Arrangement, Control, Crew, Kit, Microphone, Stereo};
+use overhear_engine::kit::{Arrangement, Control, Kit, Microphone, RenderWorkers, Stereo};
 use overhear_engine::kit_spec::Kind;
 use overhear_engine::piece::Piece;
 use overhear_engine::slot::{SLOTS, Slot};
@@ -143,8 +143,8 @@ impl Performer {
     ///
     /// # Real-time
     /// No allocation; nothing is dropped here.
-    pub fn hire(&mut self, crew: Option<Box<dyn Crew>>) -> Option<Box<dyn Crew>> {
-        self.kit.hire(crew)
+    pub fn attach(&mut self, crew: Option<Box<dyn RenderWorkers>>) -> Option<Box<dyn RenderWorkers>> {
+        self.kit.attach(crew)
     }
 
     /// Whether no worker holds a piece: all have come back from the latest run.
@@ -240,7 +240,7 @@ impl Performer {
         }
         flushed(|| match foot {
             // As fast as can be: a drummer's foot would have been there before the stroke.
-            Foot::Brought(pedal) => self.kit.press_pedal(slot, pedal, SPEED.2),
+            Foot::Position(pedal) => self.kit.press_pedal(slot, pedal, SPEED.2),
             Foot::Chick => self.kit.stamp_pedal(slot, speed),
             Foot::Splash => self.kit.splash_pedal(slot, speed),
         });

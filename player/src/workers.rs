@@ -1,6 +1,6 @@
 //! Worker threads that render the pieces of a kit beside the audio thread.
 //!
-//! Hand-off: two bounded queues without locks. For every run the audio thread puts the jobs ([`Post`]) that have something to
+//! Hand-off: two bounded queues without locks. For every run the audio thread puts the jobs ([`RenderJob`]) that have something to
 //! do on one queue; whoever takes a job owns it, renders it, and puts it on the other. The audio thread takes jobs from the
 //! first queue until it is empty, as a worker does. So a job that no worker has claimed is done in any case. Then it waits for
 //! the claimed ones. Nothing is shared but the queues: the compiler proves that no job is ever in two hands, and there is no
@@ -27,7 +27,7 @@ use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 use crossbeam::queue::ArrayQueue;
-use overhear_engine::kit::{Crew, Post};
+use overhear_engine::kit::{RenderJob, RenderWorkers};
 use overhear_engine::slot::SLOTS;
 
 /// Most workers.
@@ -73,7 +73,7 @@ pub trait Deadline: Send + Sync {
 struct JobSlot {
     slot: usize,
     run: u64,
-    post: Box<Post>,
+    post: Box<RenderJob>,
 }
 
 /// What the threads share.
@@ -81,7 +81,7 @@ struct Shared {
     waiting: ArrayQueue<JobSlot>,
     done: ArrayQueue<JobSlot>,
     closing: AtomicBool,
-    render: fn(&mut Post),
+    render: fn(&mut RenderJob),
 }
 
 /// Some workers. Dropping them waits until they have left: not for the audio thread.
@@ -97,12 +97,12 @@ pub struct Workers {
 }
 
 impl Workers {
-    /// So many workers, at most [`MOST`], who render jobs by `render`: [`Post::render`], perhaps with the floating point
+    /// So many workers, at most [`MOST`], who render jobs by `render`: [`RenderJob::render`], perhaps with the floating point
     /// mode of the audio thread, which they must share to get the same bits. Allocates and starts threads.
     ///
     /// # Errors
     /// If the system starts no more threads.
-    pub fn new(count: usize, patience: Patience, render: fn(&mut Post)) -> std::io::Result<Workers> {
+    pub fn new(count: usize, patience: Patience, render: fn(&mut RenderJob)) -> std::io::Result<Workers> {
         let shared = Arc::new(Shared {
             waiting: ArrayQueue::new(SLOTS),
             done: ArrayQueue::new(SLOTS),
@@ -125,7 +125,7 @@ impl Workers {
     }
 
     /// Takes back one job that is done, if there is one.
-    fn take_back(&mut self, posts: &mut [Option<Box<Post>>]) -> bool {
+    fn take_back(&mut self, posts: &mut [Option<Box<RenderJob>>]) -> bool {
         let Some(JobSlot { slot, run, post }) = self.shared.done.pop() else {
             return false;
         };
@@ -136,7 +136,7 @@ impl Workers {
     }
 
     /// Waits for the jobs of this run that others have, as long as the deadline and the patience allow.
-    fn wait(&mut self, posts: &mut [Option<Box<Post>>]) {
+    fn wait(&mut self, posts: &mut [Option<Box<RenderJob>>]) {
         let mut looks = 0;
         loop {
             while self.take_back(posts) {}
@@ -154,9 +154,9 @@ impl Workers {
     }
 }
 
-impl Crew for Workers {
-    fn render(&mut self, posts: &mut [Option<Box<Post>>]) {
-        let busy = |post: &Option<Box<Post>>| post.as_ref().is_some_and(|post| post.is_busy());
+impl RenderWorkers for Workers {
+    fn render(&mut self, posts: &mut [Option<Box<RenderJob>>]) {
+        let busy = |post: &Option<Box<RenderJob>>| post.as_ref().is_some_and(|post| post.is_busy());
         let share = posts.iter().filter(|&post| busy(post)).count() > 1;
         self.run = self.run.wrapping_add(1);
         self.away = 0;

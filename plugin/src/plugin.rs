@@ -274,7 +274,7 @@ impl Stage {
         }
         // What a crew has not brought back yet would go with it.
         if self.performer.is_whole() {
-            self.delivery.take_crew(|crew| self.performer.hire(crew));
+            self.delivery.take_workers(|crew| self.performer.attach(crew));
         }
     }
 

@@ -239,7 +239,7 @@ fn leaving_out_evaluations_while_the_stretching_is_weak_moves_no_band_by_a_tenth
     for speed in [0.3, 1.0, 2.0] {
         let strike = hit(speed, 0.92, Striker::Stick);
         let bands = |set: fn(&mut Piece)| cymbal::bands(&spec("crash"), &strike, 1.5, set);
-        let never = bands(|piece| piece.surface_mut().beyond_mut().unwrap().set_weak(0.0));
+        let never = bands(|piece| piece.surface_mut().nonlinear_force_mut().unwrap().set_weak(0.0));
         let worst = worst_difference(&never, &bands(|_| ()));
         println!("{speed} m/s: {worst} dB");
         assert!(worst < 0.1, "{speed} m/s: {worst} dB");
@@ -252,11 +252,11 @@ fn resting_the_coupling_moves_no_band_by_a_tenth_of_a_decibel() {
     for speed in [0.02, 0.1, 0.3] {
         let mut bands = |negligible: Option<f64>| {
             let mut piece = crash();
-            let force = piece.surface_mut().beyond_mut().unwrap();
+            let force = piece.surface_mut().nonlinear_force_mut().unwrap();
             negligible.into_iter().for_each(|share| force.set_negligible(share));
             piece.strike(&hit(speed, 0.92, Striker::Stick));
             let sound = render(&mut piece, 3.0);
-            rests += u32::from(!piece.surface_mut().beyond().unwrap().is_active());
+            rests += u32::from(!piece.surface_mut().nonlinear_force().unwrap().is_active());
             third_octaves(&sound, RATE)
         };
         let worst = worst_difference(&bands(Some(0.0)), &bands(None));

@@ -6,12 +6,12 @@ use std::fmt::Write as _;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use overhear_engine::MARK;
+use overhear_engine::SCHEMA;
 use overhear_engine::cache::{DiskCache, forget, name_of, provide};
 use overhear_engine::drum::{DrumSpec, ResonantSpec};
 use overhear_engine::kit::BLOCK;
 use overhear_engine::kit_spec::{Defaults, InstrumentSpec, PieceSpec, PlaceSpec};
-use overhear_engine::modal::{EARS, Port};
+use overhear_engine::modal::{InputVector, RECEIVERS};
 use overhear_engine::piece::{BuildOptions, ModeInfo, Quality};
 use overhear_engine::split::Splitting;
 use overhear_engine::strike::Striker;
@@ -168,23 +168,23 @@ fn what_is_kept_is_found_by_what_it_follows_from_and_by_nothing_else() {
 
 #[test]
 fn another_version_of_the_equations_or_of_a_library_finds_nothing_of_this_one() {
-    let (version, libraries) = MARK.split_once('-').expect("a number and a digest");
-    assert!(version.parse::<u32>().is_ok() && libraries.len() > 16, "{MARK}");
+    let (version, libraries) = SCHEMA.split_once('-').expect("a number and a digest");
+    assert!(version.parse::<u32>().is_ok() && libraries.len() > 16, "{SCHEMA}");
     let name = |mark: &str| name_of("drum", mark, b"key");
-    assert_ne!(name(MARK), name(&format!("{version}0-{libraries}")));
-    assert_ne!(name(MARK), name(&format!("{version}-0{}", &libraries[1..])));
-    assert_ne!(name(MARK), name_of("plate", MARK, b"key"));
-    assert_ne!(name(MARK), name_of("drum", MARK, b"kez"));
+    assert_ne!(name(SCHEMA), name(&format!("{version}0-{libraries}")));
+    assert_ne!(name(SCHEMA), name(&format!("{version}-0{}", &libraries[1..])));
+    assert_ne!(name(SCHEMA), name_of("plate", SCHEMA, b"key"));
+    assert_ne!(name(SCHEMA), name_of("drum", SCHEMA, b"kez"));
     // The digest is that of the lock file, however its lines end: FNV-1a of 64 bits.
     let lock = std::fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/../Cargo.lock")).expect("a lock file");
     let digest =
         lock.into_iter().filter(|&byte| byte != b'\r').fold(0xcbf2_9ce4_8422_2325_u64, |digest, byte| {
             (digest ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
         });
-    assert!(libraries.starts_with(&format!("{digest:016x}-")), "{MARK}");
+    assert!(libraries.starts_with(&format!("{digest:016x}-")), "{SCHEMA}");
 }
 
-/// The number in [`MARK`] of which [`FIGURES`] are.
+/// The number in [`SCHEMA`] of which [`FIGURES`] are.
 const FIGURES_OF: &str = "2";
 
 /// What the standard kit's rack tom and splash come to at 48 kHz. A change of these is a change of what caches hold.
@@ -227,13 +227,13 @@ fn heard(piece: &PieceSpec, hertz: f64) -> [f64; 2] {
     let body = piece.surface_mut().body_mut();
     let off = |k: &usize| (body.modes()[*k].omega_d() - TAU * hertz).abs();
     let mode = (0..body.len()).min_by(|a, b| off(a).total_cmp(&off(b))).expect("a mode");
-    let mut port = Port::new(body.len());
+    let mut port = InputVector::new(body.len());
     port.shape_mut()[mode] = 1.0;
     body.connect(&mut port);
     body.push(&port, 1e3);
     let (blocks, mut squares) = (150, [0.0; 2]);
     for _ in 0..blocks {
-        let mut ears = [[0.0_f32; BLOCK]; EARS];
+        let mut ears = [[0.0_f32; BLOCK]; RECEIVERS];
         piece.render_in_air(ears.each_mut().map(|ear| &mut ear[..]), None);
         for (squares, ear) in squares.iter_mut().zip(&ears) {
             *squares += ear.iter().map(|x| f64::from(*x).powi(2)).sum::<f64>();
@@ -284,15 +284,15 @@ fn what_is_kept_changes_only_with_the_number_in_the_mark() {
         what == known && (value / expected - 1.0).abs() < *within
     };
     let unchanged = now.len() == FIGURES.len() && now.iter().zip(&FIGURES).all(same);
-    let version = MARK.split('-').next().unwrap_or_default();
+    let version = SCHEMA.split('-').next().unwrap_or_default();
     assert!(
         unchanged || version != FIGURES_OF,
-        "what caches hold has changed: count the number of `MARK` in engine/src/schema.rs up to {}, and renew FIGURES_OF and \
+        "what caches hold has changed: count the number of `SCHEMA` in engine/src/schema.rs up to {}, and renew FIGURES_OF and \
          FIGURES in this file:\n{table}",
         FIGURES_OF.parse::<u32>().unwrap_or_default() + 1
     );
     assert!(
         unchanged && version == FIGURES_OF,
-        "`MARK` in engine/src/schema.rs has the number {version}: renew FIGURES_OF and FIGURES in this file:\n{table}"
+        "`SCHEMA` in engine/src/schema.rs has the number {version}: renew FIGURES_OF and FIGURES in this file:\n{table}"
     );
 }

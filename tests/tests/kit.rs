@@ -83,7 +83,7 @@ fn sixteen_pieces_struck_at_once_are_all_heard_each_at_its_own_output() {
 #[test]
 fn pieces_that_are_never_struck_stay_asleep_and_silent_where_none_hears_another() {
     let mut kit = kit_of(&sixteen(), RATE);
-    kit.set(Control::Hearing, 0.0);
+    kit.set(Control::SympatheticCoupling, 0.0);
     kit.finish_controls();
     let struck = [Slot::ALL[0], Slot::ALL[7], Slot::ALL[15]];
     for round in 0..5 {
@@ -104,7 +104,7 @@ fn pieces_that_are_never_struck_stay_asleep_and_silent_where_none_hears_another(
 fn a_pan_all_the_way_leaves_the_other_side_silent_and_gets_there_without_a_step() {
     let mut kit = kit(RATE);
     // Nothing but the kick.
-    kit.set(Control::Hearing, 0.0);
+    kit.set(Control::SympatheticCoupling, 0.0);
     kit.set(Control::Mute(Microphone::Overheads), 1.0);
     kit.set(Control::Mute(Microphone::Room), 1.0);
     kit.finish_controls();

@@ -2,7 +2,7 @@
 
 use overhear::building::Pace;
 use overhear::kit_document::KitDocument;
-use overhear_measure::realism::{self, Ear, PieceReport, SPEEDS};
+use overhear_measure::realism::{self, PieceReport, RecordingChain, SPEEDS};
 
 /// Pieces struck softly to hard, bounced, as each ear hears them.
 fn bounced(names: &[&str]) -> Vec<PieceReport> {
@@ -17,7 +17,7 @@ fn bounced(names: &[&str]) -> Vec<PieceReport> {
 #[test]
 fn drums_brighten_with_the_stroke_as_recorded_ones_do() {
     let pieces = bounced(&["kick", "snare", "rack-tom", "floor-tom"]);
-    assert_eq!(pieces.len(), 4 * Ear::ALL.len());
+    assert_eq!(pieces.len(), 4 * RecordingChain::ALL.len());
     for piece in &pieces {
         let slope = piece.slope.as_ref().expect("known of every drum");
         println!("{} {}: {:?} octaves per 20 dB", piece.piece, piece.heard.name(), slope.value);

@@ -15,7 +15,7 @@ const BEFORE: usize = 4_801;
 fn struck(slot: Slot) -> Kit {
     let mut kit = kit(RATE);
     // Nothing but the piece: the other drums would ring on, the room as well.
-    kit.set(Control::Hearing, 0.0);
+    kit.set(Control::SympatheticCoupling, 0.0);
     kit.set(Control::Mute(Microphone::Overheads), 1.0);
     kit.set(Control::Mute(Microphone::Room), 1.0);
     kit.finish_controls();

@@ -1,6 +1,6 @@
 //! Sympathetic resonance: its delay, its level, and its effects.
 
-use overhear_engine::air::SPEED_OF_SOUND;
+use overhear_engine::air_load::SPEED_OF_SOUND;
 use overhear_engine::kit::{BLOCK, Control, Kit};
 use overhear_engine::kit_spec::{Kind, KitSpec, PieceSpec, PlaceSpec};
 use overhear_engine::layout::distance;
@@ -55,7 +55,7 @@ fn wires_land_when_a_rack_tom_is_struck_the_more_the_harder() {
 #[test]
 fn wires_do_not_land_when_the_pieces_are_deaf_or_the_wires_are_off() {
     for (control, value) in
-        [(Control::Hearing, 0.0), (Control::Sympathy, 0.0), (Control::Wires(slot("snare")), 0.0)]
+        [(Control::SympatheticCoupling, 0.0), (Control::Sympathy, 0.0), (Control::Wires(slot("snare")), 0.0)]
     {
         let mut kit = kit(RATE);
         kit.set(control, value);
@@ -69,8 +69,9 @@ fn between_the_drums_the_shortest_delay_is_from_rack_tom_to_snare_54_samples_at_
     let kit = standard();
     let (layout, drums) = (kit.layout(), kit.drums().map(|(slot, _)| slot).collect::<Vec<_>>());
     let pairs = drums.iter().flat_map(|&from| drums.iter().map(move |&to| (from, to)));
-    let ways =
-        pairs.filter(|(from, to)| from < to).filter_map(|pair| Some((layout.way(pair.0, pair.1)?, pair)));
+    let ways = pairs
+        .filter(|(from, to)| from < to)
+        .filter_map(|pair| Some((layout.path_length(pair.0, pair.1)?, pair)));
     let (way, pair) = ways.min_by(|a, b| a.0.total_cmp(&b.0)).expect("drums");
     assert_eq!(pair, (slot("snare"), slot("rack-tom")));
     // Interpolation needs one newer sample.
@@ -85,7 +86,7 @@ fn no_run_is_longer_than_the_shortest_delay_at_any_rate_and_in_a_kit_moved_toget
             let ways = spec.drums().flat_map(|(to, _)| spec.slots().map(move |(from, _)| (from, to)));
             let shortest = ways
                 .filter(|(from, to)| from != to)
-                .filter_map(|(from, to)| layout.way(from, to))
+                .filter_map(|(from, to)| layout.path_length(from, to))
                 .fold(f64::INFINITY, f64::min);
             let delay = Kit::new(rate, &spec).min_delay();
             assert!(delay >= 1 && (delay as f64) < shortest / SPEED_OF_SOUND * rate, "{rate}: {delay}");

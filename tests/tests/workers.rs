@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use assert_no_alloc::{AllocDisabler, assert_no_alloc, reset_violation_count, violation_count};
 use overhear::workers::{Patience, Workers};
-use overhear_engine::kit::{Control, Crew, Kit, Microphone, Post};
+use overhear_engine::kit::{Control, Kit, Microphone, RenderJob, RenderWorkers};
 use overhear_engine::kit_spec::KitSpec;
 use overhear_engine::slot::Slot;
 use overhear_engine::snapshot::KitSnapshot;
@@ -47,8 +47,8 @@ fn score(seconds: f64, rate: f64) -> Vec<(usize, Event)> {
 fn play(rate: f64, seconds: f64, workers: usize, mut buffer: impl FnMut() -> usize) -> Vec<[u32; 2]> {
     let mut kit = kit(rate);
     if workers > 0 {
-        let crew = Workers::new(workers, Patience::Offline, Post::render).expect("threads");
-        assert!(kit.hire(Some(Box::new(crew))).is_none());
+        let crew = Workers::new(workers, Patience::Offline, RenderJob::render).expect("threads");
+        assert!(kit.attach(Some(Box::new(crew))).is_none());
     }
     let frames = (seconds * rate) as usize;
     let (mut left, mut right) = (vec![f32::NAN; frames], vec![f32::NAN; frames]);
@@ -114,10 +114,10 @@ fn hits_are_the_same_on_0_1_and_3_workers_in_any_buffers(spec: &KitSpec, struck:
     let whole = hit(&mut kit, struck, frames, frames);
     assert!(whole[0].iter().any(|&x| f32::from_bits(x).abs() > 0.05));
     for workers in [0, 1, 3] {
-        let crew = (workers > 0).then(|| -> Box<dyn Crew> {
-            Box::new(Workers::new(workers, Patience::Offline, Post::render).expect("threads"))
+        let crew = (workers > 0).then(|| -> Box<dyn RenderWorkers> {
+            Box::new(Workers::new(workers, Patience::Offline, RenderJob::render).expect("threads"))
         });
-        drop(kit.hire(crew));
+        drop(kit.attach(crew));
         for buffer in [1, 17, 64, 512, 8192, 0] {
             let again = hit(&mut kit, struck, frames, buffer);
             assert!(whole == again, "{workers} workers, buffers of {buffer}");
@@ -153,10 +153,10 @@ fn workers_and_buffers_change_no_sample_of_ten_seconds() {
 const LONG: Duration = Duration::from_secs(60);
 
 /// Strikes everything with such a crew and plays until `done`, then until nobody is away.
-fn play_with(patience: Patience, render: fn(&mut Post), done: impl Fn() -> bool) -> (KitSnapshot, f32) {
+fn play_with(patience: Patience, render: fn(&mut RenderJob), done: impl Fn() -> bool) -> (KitSnapshot, f32) {
     const RATE: f64 = RATES[0];
     let mut kit = kit(RATE);
-    kit.hire(Some(Box::new(Workers::new(2, patience, render).expect("threads"))));
+    kit.attach(Some(Box::new(Workers::new(2, patience, render).expect("threads"))));
     let (mut left, mut right) = (vec![0.0; 4_410], vec![0.0; 4_410]);
     let (begun, mut loudest, mut snapshot) = (Instant::now(), 0.0_f32, KitSnapshot::default());
     // How much of the work a worker gets is for the system to say.
@@ -187,7 +187,7 @@ fn on_a_worker() -> bool {
 #[test]
 fn a_worker_that_stalls_holds_nobody_up_and_is_counted() {
     static CALLS: AtomicU32 = AtomicU32::new(0);
-    let stall = |post: &mut Post| {
+    let stall = |post: &mut RenderJob| {
         if on_a_worker() && CALLS.fetch_add(1, Ordering::Relaxed) == 20 {
             thread::sleep(Duration::from_secs(1));
         }
@@ -201,7 +201,7 @@ fn a_worker_that_stalls_holds_nobody_up_and_is_counted() {
 #[test]
 fn a_worker_that_panics_gives_its_piece_back() {
     static CALLS: AtomicU32 = AtomicU32::new(0);
-    let panic = |post: &mut Post| {
+    let panic = |post: &mut RenderJob| {
         if on_a_worker() && CALLS.fetch_add(1, Ordering::Relaxed) == 20 {
             panic!("as the test wants it");
         }
@@ -225,7 +225,7 @@ struct Stage {
 impl Stage {
     fn new(seed: u64) -> Stage {
         let mut kit = kit(RATES[0]);
-        kit.hire(Some(Box::new(Workers::new(2, Patience::RealTime, Post::render).expect("threads"))));
+        kit.attach(Some(Box::new(Workers::new(2, Patience::RealTime, RenderJob::render).expect("threads"))));
         Stage {
             kit,
             left: vec![0.0; 512],

@@ -24,57 +24,57 @@ struct CommandLine {
 /// What to do.
 #[derive(Debug, Subcommand)]
 enum Task {
-    /// Set up, build, bundle, play a groove through the built CLAP plugin: demo.wav and demo.png
+    /// Build and bundle the plugin and play a groove through it: demo.wav and demo.png
     Demo {
-        /// Instead, half a minute of it with every preset, into demo-presets
+        /// Instead play half a minute with every preset, into demo-presets
         #[arg(long)]
         all_presets: bool,
     },
-    /// Check everything the project promises, the hosts included
+    /// Run every check, including tests in hosts
     Test {
         /// Only what takes minutes: formatting, lints, units, and the quick half of the other tests
         #[arg(long)]
         quick: bool,
     },
-    /// Build the release bundles (CLAP, VST3) and the program that needs no host
+    /// Build the release bundles (CLAP, VST3) and the standalone program
     Bundle {
-        /// On macOS: one file for both kinds of processors
+        /// On macOS: build for both processor types
         #[arg(long)]
         universal: bool,
     },
-    /// Build the release bundles and copy them where hosts look
+    /// Build the release bundles and copy them to the plugin folders
     Install,
-    /// Measure every piece beside recordings of real kits
+    /// Compare every piece with recordings of real kits
     Realism(RealismArguments),
     /// Measure and write the pages of docs/report
     Report {
         #[arg(value_name = "PAGE", help = report::help())]
         pages: Vec<String>,
-        /// The folder to write to; docs/report if not given
+        /// The folder to write to; default: docs/report
         #[arg(short, long, value_name = "DIR")]
         output: Option<PathBuf>,
     },
-    /// Write the manual's pages that come from the code: docs/midi.md and docs/parameters.md
+    /// Write the pages of the manual that are generated from the code: docs/midi.md and docs/parameters.md
     Docs,
     /// Take pictures of the built plugin's editor on a virtual display
     Shots {
         /// The folder to write to
         #[arg(short, long, value_name = "FOLDER", default_value = "shots")]
         out: PathBuf,
-        /// A built CLAP plugin; without it the plugin is built and bundled first
+        /// A built CLAP plugin; by default the plugin is built and bundled first
         #[arg(long, value_name = "FILE")]
         plugin: Option<PathBuf>,
-        /// Count what an open window costs instead
+        /// Instead measure the processor time of an open window
         #[arg(long)]
         cost: bool,
-        /// Only in the dark palette at 1x
+        /// Only the dark palette at 1x
         #[arg(long, conflicts_with = "cost")]
         glance: bool,
-        /// Use the display there is
+        /// Use the existing display
         #[arg(long, hide = true, requires = "plugin")]
         here: bool,
     },
-    /// Write the demonstration groove (assets/groove.mid) anew
+    /// Write the demonstration groove (assets/groove.mid) again
     #[command(hide = true)]
     Groove {
         /// The MIDI file to write

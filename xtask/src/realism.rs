@@ -11,7 +11,7 @@ use overhear_cli::output::Folder;
 use overhear_cli::progress::Progress;
 use overhear_cli::settings;
 use overhear_cli::wav::{Bits, WavFile};
-use overhear_measure::realism::{self, Ear, Job, RATE, SUBJECTS};
+use overhear_measure::realism::{self, Job, RATE, RecordingChain, SUBJECTS};
 
 /// Arguments of `realism`.
 #[derive(Debug, Args)]
@@ -25,22 +25,22 @@ pub struct RealismArguments {
     /// Strike the pieces of these names in the kit of a file
     #[arg(long, value_name = "FILE")]
     kit: Option<PathBuf>,
-    /// Move a parameter from its default, as in snare_tune=180 or offline_quality=high; repeatable
+    /// Set a parameter, as in snare_tune=180 or offline_quality=high; repeatable
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
-    /// The kit as a host plays it, cymbals at the quality for that; else as it is bounced
+    /// Measure playback, with cymbals at `quality`; by default a bounce, at `offline_quality`
     #[arg(long)]
     live: bool,
     /// Print one JSON object (see docs/commands.md)
     #[arg(long)]
     json: bool,
-    /// Keep the sounds in this folder, as 32-bit float
+    /// Write the sounds to this folder, as 32-bit float
     #[arg(long, value_name = "DIR")]
     wav: Option<PathBuf>,
 }
 
 impl RealismArguments {
-    /// What is asked for.
+    /// The request of these arguments.
     ///
     /// # Errors
     /// [`BadInput`](overhear_cli::error::BadInput) for a piece that was not recorded.
@@ -81,7 +81,7 @@ fn subjects_help() -> String {
 /// Writes what each ear hears of a stroke.
 fn keep(folder: &Path, job: &Job, heard: &[Vec<f32>; 2]) -> Result<()> {
     let Job { subject, speed, place, .. } = job;
-    for (ear, sound) in Ear::ALL.into_iter().zip(heard) {
+    for (ear, sound) in RecordingChain::ALL.into_iter().zip(heard) {
         let path = folder.join(format!("{}-{speed}-at-{place}-{}.wav", subject.name, ear.name()));
         let mut file = WavFile::create(&path, Bits::Float32, RATE, 1, sound.len() as u64)?;
         file.write(&[sound])?;

@@ -45,7 +45,7 @@ pub fn run(names: &[String], folder: &Path) -> Result<()> {
     }
     std::fs::create_dir_all(folder)?;
     let asked = pages().filter(|(name, _)| names.is_empty() || names.iter().any(|asked| asked == name));
-    // Costs are measured with nothing beside them.
+    // Costs are measured while nothing else runs.
     let (alone, others): (Vec<_>, Vec<_>) = asked.partition(|(name, _)| *name == "cost");
     write_all(&others, folder)?;
     write_all(&alone, folder)?;

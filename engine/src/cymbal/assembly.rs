@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 
 use crate::cache::Shared;
 
-use crate::air;
+use crate::air_load;
 use crate::build_context::BuildContext;
 use crate::damping::Thermoelastic;
 use crate::error::SpecError;
@@ -197,8 +197,8 @@ impl<'a> CymbalPlate<'a> {
         let (axis, receivers) = (self.axis(shell), self.receivers);
         // Both faces are in the resistance, one in the area.
         let radius = self.spec.plate().radius();
-        let unit = air::DENSITY * shell.omega * radius.powi(3);
-        let monopole_area = air::monopole_area(radius, 0.5 * radiated.resistance / unit, shell.omega);
+        let unit = air_load::DENSITY * shell.omega * radius.powi(3);
+        let monopole_area = air_load::monopole_area(radius, 0.5 * radiated.resistance / unit, shell.omega);
         for (member, detuning) in self.splitting.members(shell.m, shell.n) {
             rows.modes.push(BuiltMode {
                 m: shell.m,

@@ -3,13 +3,13 @@
 use crate::cache::{Cache, Shared};
 use serde::{Deserialize, Serialize};
 
-use crate::air;
+use crate::air_load;
 use crate::error::SpecError;
-use crate::listening::Radiator;
 use crate::plate::free_disc::{FreeDisc, Radiated};
 use crate::plate::{PlateModes, PlateSpec, PlateTables};
+use crate::radiation::Radiator;
 use crate::receiver::Receivers;
-use crate::schema::MARK;
+use crate::schema::SCHEMA;
 
 /// A plate's modes and what each does to the air around.
 #[derive(Serialize, Deserialize)]
@@ -21,7 +21,7 @@ pub struct SoundingPlate {
 }
 
 /// What has been worked out of late.
-static PLATES: Cache<SoundingPlate> = Cache::new("plate", MARK, 16);
+static PLATES: Cache<SoundingPlate> = Cache::new("plate", SCHEMA, 16);
 
 impl SoundingPlate {
     /// That of a description, up to a frequency (Hz), heard from there.
@@ -51,7 +51,7 @@ fn radiate(
 ) -> Vec<Radiated> {
     let highest = plate.shells.last().map_or(0.0, |shell| shell.omega);
     let finest = plate.flat.iter().flatten().map(|flat| flat.root).fold(0.0, f64::max);
-    let trace = highest * spec.radius() / air::SPEED_OF_SOUND;
+    let trace = highest * spec.radius() / air_load::SPEED_OF_SOUND;
     let nodes = 12 + (0.7 * (finest + trace)) as usize;
     let disc = FreeDisc::new(spec.radius(), [receivers.near, receivers.far], nodes);
     let shapes = plate.radial_shapes(tables, disc.radii());

@@ -2,14 +2,14 @@
 
 use std::f64::consts::TAU;
 
-use crate::air::SPEED_OF_SOUND;
+use crate::air_load::SPEED_OF_SOUND;
 use crate::damping::{Muffler, SIGMA_T60};
 use crate::mode::{Member, ModeInfo, ModeKind};
 use crate::split::Splitting;
 
 use super::modes::DrumModes;
 use super::spec::DrumSpec;
-use super::tuned::{Place, TunedMode};
+use super::tuned::{PitchPosition, TunedMode};
 use crate::high_band::SliceInfo;
 
 /// One mode of the body: which of the drum's, and which member of a pair.
@@ -79,7 +79,7 @@ pub fn sampled(slice: SliceInfo) -> ModeInfo {
 
 /// Share of a mode's volume that sends sound all around and feels it: none of modes with nodal diameters, and none where
 /// the wave is shorter than the drum.
-pub fn all_around(drum: &DrumModes, mode: &TunedMode, place: &Place) -> f64 {
+pub fn all_around(drum: &DrumModes, mode: &TunedMode, place: &PitchPosition) -> f64 {
     if mode.m != 0 {
         return 0.0;
     }

@@ -31,9 +31,9 @@ use nalgebra::{DMatrix, DVector};
 
 use serde::{Deserialize, Serialize};
 
-use crate::air::{self, DENSITY, HankelShape, SPEED_OF_SOUND};
+use crate::air_load::{self, DENSITY, HankelShape, SPEED_OF_SOUND};
 use crate::cavity::CavityOrder;
-use crate::drum::shadow;
+use crate::drum::diffraction;
 use crate::math::bessel::JTable;
 use crate::math::{eigen, quadrature};
 use crate::membrane::{Membrane, MembraneMode};
@@ -228,7 +228,7 @@ impl<'a> OrderProblem<'a> {
         let resistance = self.resistance((parts, shapes), omega, &vector, outlet);
         let radius = self.batter.membrane.spec().radius;
         sigma += 0.5 * DENSITY * omega * radius.powi(3) * resistance;
-        let monopole_area = air::monopole_area(radius, resistance, omega);
+        let monopole_area = air_load::monopole_area(radius, resistance, omega);
         CoupledMode { omega, sigma, vector, direction, share, shares, flow, outlet, monopole_area }
     }
 
@@ -276,9 +276,9 @@ impl<'a> OrderProblem<'a> {
         };
         let space = match self.outside {
             Outside::Baffle => 1.0,
-            Outside::Free { .. } => 0.5 + (shadow::baffling(u) - 1.0) / 6.0,
+            Outside::Free { .. } => 0.5 + (diffraction::baffling(u) - 1.0) / 6.0,
         };
-        air::circle(self.m) * space * u * rule.integrate(power)
+        air_load::circle(self.m) * space * u * rule.integrate(power)
     }
 }
 

@@ -4,17 +4,17 @@ use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
-use crate::air::{DENSITY, MassCurves};
+use crate::air_load::{DENSITY, MassCurves};
 use crate::build_context::BuildContext;
 use crate::cavity::{CavityOrder, HeadShape};
 use crate::drum::coupled::{CoupledMode, OrderProblem, Stretched};
 use crate::drum::spec::{DrumSpec, PitchOf};
-use crate::drum::tuned::{PITCHES, PitchScale, Place};
+use crate::drum::tuned::{PITCHES, PitchPosition, PitchScale};
 use crate::error::SpecError;
-use crate::high_band::{Ear, HighBandSpec};
+use crate::high_band::{HighBandSpec, Receiver};
 use crate::math::bessel::{self, JTable};
 use crate::membrane::{self, Membrane, MembraneMode, MembraneSpec, ModeRange, Surroundings};
-use crate::surface::patch::Film;
+use crate::surface::local_compliance::LocalHeadCompliance;
 
 /// Modes of the enclosed air up to this are kept as modes, Hz; above, air only rides along.
 const CAVITY_LIMIT_HZ: f64 = 2500.0;
@@ -61,7 +61,7 @@ impl TunedHead {
     }
 
     /// What the head does above its modes, pressed on at so many places.
-    pub fn high_band(&self, ear: Ear, context: &BuildContext, places: usize) -> HighBandSpec {
+    pub fn high_band(&self, ear: Receiver, context: &BuildContext, places: usize) -> HighBandSpec {
         let limit = TAU * self.limit_hz;
         let reached =
             |mode: &&MembraneMode| self.membrane.ringing(mode, self.tensions[MIDDLE]).omega <= limit;
@@ -79,19 +79,19 @@ impl TunedHead {
     }
 
     /// The head as a tip feels it from near, at a place of the scale.
-    pub fn film(&self, place: &Place) -> Film {
+    pub fn film(&self, place: &PitchPosition) -> LocalHeadCompliance {
         let (spec, now) = (self.membrane.spec(), self.tension(place));
         let reached = TAU * self.limit_hz * (now / self.tensions[MIDDLE]).sqrt();
         // Waves that fine move the air within their own length only: rho / k on either face.
         let bare = spec.area_density();
         let air = 2.0 * DENSITY * (now / bare).sqrt() / reached;
-        Film {
+        LocalHeadCompliance {
             radius: spec.radius,
             tension: now,
             density: bare + air,
             rigidity: spec.dented_rigidity(),
             reached,
-            wraps: false,
+            patch_grows: false,
         }
     }
 
@@ -100,7 +100,7 @@ impl TunedHead {
     }
 
     /// Tension at a pitch, N/m.
-    pub fn tension(&self, place: &Place) -> f64 {
+    pub fn tension(&self, place: &PitchPosition) -> f64 {
         place.blend(|i| self.tensions[i].ln()).exp()
     }
 

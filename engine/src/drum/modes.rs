@@ -8,9 +8,9 @@ use crate::build_context::BuildContext;
 use crate::drum::coupled::CoupledMode;
 use crate::drum::heads::{BareHeads, MIDDLE, TunedHead, TunedHeads};
 use crate::drum::spec::DrumSpec;
-use crate::drum::tuned::{self, Grid, Place, TunedMode};
+use crate::drum::tuned::{self, Grid, PitchPosition, TunedMode};
 use crate::error::SpecError;
-use crate::high_band::{Ear, HighBandSpec};
+use crate::high_band::{HighBandSpec, Receiver};
 use crate::math::bessel::JTable;
 use crate::receiver::Receivers;
 use crate::shapes::{ShapeIndex, ShapeTable};
@@ -72,7 +72,7 @@ impl DrumModes {
     ///
     /// # Real-time
     /// Linear in the head modes it mixes.
-    pub fn volume(&self, mode: &TunedMode, place: &Place) -> f64 {
+    pub fn volume(&self, mode: &TunedMode, place: &PitchPosition) -> f64 {
         let (first, near) = self.heads.batter.order(0);
         let volume = |head: &TunedHead, at: usize, skip: usize| -> f64 {
             let modes = head.membrane.modes()[at..].iter().take_while(|mode| mode.m == 0).enumerate();
@@ -111,7 +111,7 @@ impl DrumModes {
     /// What the batter does above its modes.
     pub fn high_band(&self, spec: &DrumSpec, context: &BuildContext) -> HighBandSpec {
         let Receivers { near, far } = context.receivers;
-        let ear = Ear { point: near, away: far, outside: spec.outside(), far: false };
+        let ear = Receiver { point: near, away: far, outside: spec.outside(), far: false };
         self.heads.batter.high_band(ear, context, STRIKER_PLACES)
     }
 
@@ -119,7 +119,7 @@ impl DrumModes {
     pub fn far_high_band(&self, spec: &DrumSpec, context: &BuildContext) -> Option<HighBandSpec> {
         let behind = spec.cavity().map_or(0.0, |cavity| cavity.depth);
         let Receivers { near, far } = context.receivers;
-        let ear = Ear { point: near.from_behind(behind), away: far, outside: spec.outside(), far: true };
+        let ear = Receiver { point: near.from_behind(behind), away: far, outside: spec.outside(), far: true };
         let head = self.heads.resonant.as_ref()?;
         Some(head.high_band(ear, context, wires::GROUPS))
     }

@@ -5,7 +5,7 @@ use crate::damping::Muffler;
 use super::body::BodyMode;
 use super::modes::DrumModes;
 use super::spec::DrumSpec;
-use super::tuned::{Place, Rung};
+use super::tuned::{ModeAtPitch, PitchPosition};
 use crate::high_band::HighMuffling;
 
 /// Places along the width of a ring that stand for it. *Derived*: a mode at 3 kHz has a wave and a half under one.
@@ -74,7 +74,7 @@ impl MufflerCoefs {
     }
 
     /// Decay rate that full muffling adds to a mode, 1/s.
-    pub fn sigma(&self, mode: &BodyMode, rung: &Rung, drum: &DrumModes, place: &Place) -> f64 {
+    pub fn sigma(&self, mode: &BodyMode, rung: &ModeAtPitch, drum: &DrumModes, place: &PitchPosition) -> f64 {
         match self {
             MufflerCoefs::Pillow(sigma, flow) => sigma * (rung.batter + rung.resonant) + flow * rung.flow,
             MufflerCoefs::Gel { dashpot, radial, .. } => {

@@ -51,7 +51,7 @@ pub struct Stretch {
     /// `A E h / (16 (1 - nu))`: energy over `S^2`, J.
     stiffness: f64,
     /// `S` at yield.
-    yielding: f64,
+    yield_strain: f64,
     kernels: Kernels,
     blocks: Vec<Block>,
     /// The blocks' matrices, 1/m2, as [`Kernels::blocks`] wants them.
@@ -101,7 +101,7 @@ impl Stretch {
         matrix.copy_from_slice(&columns);
         let stretch = Stretch {
             stiffness: energy_factor(spec),
-            yielding: 4.0 * YIELD_STRAIN,
+            yield_strain: 4.0 * YIELD_STRAIN,
             kernels: Kernels::detect(),
             blocks,
             matrix,
@@ -131,11 +131,11 @@ fn energy_factor(spec: &MembraneSpec) -> f64 {
 impl Potential for Stretch {
     fn evaluate(&mut self, displacement: &[f32], gradient: &mut [f32]) -> Evaluation {
         let s = self.form(displacement);
-        let (energy, slope) = if s <= self.yielding {
+        let (energy, slope) = if s <= self.yield_strain {
             (self.stiffness * s * s, 2.0 * self.stiffness * s)
         } else {
-            let slope = 2.0 * self.stiffness * self.yielding;
-            (self.stiffness * self.yielding * self.yielding + slope * (s - self.yielding), slope)
+            let slope = 2.0 * self.stiffness * self.yield_strain;
+            (self.stiffness * self.yield_strain * self.yield_strain + slope * (s - self.yield_strain), slope)
         };
         let factor = 2.0 * slope as f32;
         for (gradient, &row) in gradient.iter_mut().zip(&self.rows) {

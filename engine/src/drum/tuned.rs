@@ -72,7 +72,7 @@ pub struct TunedMode {
 
 /// Where a mode rings at some pitch.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Rung {
+pub struct ModeAtPitch {
     /// Undamped angular frequency, rad/s.
     pub omega: f64,
     /// Decay rate, 1/s.
@@ -106,19 +106,21 @@ impl PitchScale {
     }
 
     /// Where a pitch (Hz) lies between them; made once, used for every mode.
-    pub fn place(&self, pitch_hz: f64) -> Place {
+    pub fn place(&self, pitch_hz: f64) -> PitchPosition {
         let x = (pitch_hz.ln() - self.low) / (self.high - self.low) * (PITCHES - 1) as f64;
-        Place { grids: STRIDES.map(|stride| Stencil::at(x / stride as f64, (PITCHES - 1) / stride + 1)) }
+        PitchPosition {
+            grids: STRIDES.map(|stride| Stencil::at(x / stride as f64, (PITCHES - 1) / stride + 1)),
+        }
     }
 }
 
 /// Four neighbours among the pitches and their weights, for each grid.
 #[derive(Debug, Clone, Copy)]
-pub struct Place {
+pub struct PitchPosition {
     grids: [Stencil; STRIDES.len()],
 }
 
-impl Place {
+impl PitchPosition {
     /// Interpolates a row given at every pitch, in its own units.
     pub fn blend(&self, value: impl Fn(usize) -> f64) -> f64 {
         self.of(Grid::Fine).blend(value)
@@ -135,9 +137,9 @@ impl TunedMode {
     ///
     /// # Real-time
     /// Three exponentials.
-    pub fn at(&self, place: &Place) -> Rung {
+    pub fn at(&self, place: &PitchPosition) -> ModeAtPitch {
         let (row, place) = (&self.entries, place.of(self.grid));
-        Rung {
+        ModeAtPitch {
             omega: place.blend(|i| row[i].omega).exp(),
             sigma: place.blend(|i| row[i].sigma).exp(),
             mass: place.blend(|i| row[i].mass).exp(),
@@ -148,13 +150,13 @@ impl TunedMode {
     }
 
     /// Share of the order's head mode `i`, batter's first.
-    pub fn share(&self, i: usize, place: &Place) -> f64 {
+    pub fn share(&self, i: usize, place: &PitchPosition) -> f64 {
         let row = &self.shares[i * self.entries.len()..];
         place.of(self.grid).blend(|pitch| f64::from(row[pitch]))
     }
 
     /// Displacement of the air at an open end, per share.
-    pub fn outlet(&self, place: &Place) -> f64 {
+    pub fn outlet(&self, place: &PitchPosition) -> f64 {
         place.of(self.grid).blend(|pitch| f64::from(self.outlet[pitch]))
     }
 

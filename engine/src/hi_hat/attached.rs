@@ -3,7 +3,7 @@
 use crate::contact::ContactStep;
 use crate::contact::solver::{self, Compliances, ContactProblem};
 use crate::modal::simd::MAX_RUN;
-use crate::modal::{EARS, Heard, Port};
+use crate::modal::{InputVector, Pressure, RECEIVERS};
 use crate::surface::attachment::{Attachment, Site};
 use crate::surface::body::{FreeStep, StruckBody};
 use crate::surface::contacts::{Contacts, STRIKER_PLACES};
@@ -84,7 +84,7 @@ impl Attachment for Pair {
         self.put_striker(point, radius, angle);
     }
 
-    fn connect(&mut self, point: usize, port: &Port, body: &StruckBody) {
+    fn connect(&mut self, point: usize, port: &InputVector, body: &StruckBody) {
         self.connect_striker(point, body.modal(), port);
     }
 
@@ -132,7 +132,7 @@ impl Attachment for Pair {
         self.rigid[0].push(&self.strikers[point].weights, force);
     }
 
-    fn press(&mut self, body: &mut StruckBody) -> (f64, Heard) {
+    fn press(&mut self, body: &mut StruckBody) -> (f64, Pressure) {
         self.press_rims(body.modal_mut())
     }
 
@@ -143,13 +143,13 @@ impl Attachment for Pair {
         (0..POINTS).map(|j| self.stiffened_to(point, coupling, j, free.divisor) * self.rims.force[j]).sum()
     }
 
-    fn finish(&mut self, contacts: &Contacts, free: &FreeStep) -> Heard {
+    fn finish(&mut self, contacts: &Contacts, free: &FreeStep) -> Pressure {
         let strikers = contacts.present().iter();
         let strikers = strikers.map(|&i| (i, contacts.point(i).force, contacts.coupling(i)));
         self.finish_sample(strikers, free.divisor)
     }
 
-    fn ring(&mut self, out: [&mut [f32]; EARS], from: usize) {
+    fn ring(&mut self, out: [&mut [f32]; RECEIVERS], from: usize) {
         if !self.engaged {
             self.ring_apart(out, from);
         }

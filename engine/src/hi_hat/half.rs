@@ -3,7 +3,7 @@
 //! Model: a [cymbal](crate::cymbal) without its stand: it moves as a whole by [`Rigid`](super::rigid::Rigid).
 //!
 //! Order of the modes: the lowest first, for whoever draws; then those that hard strokes couple, then all others,
-//! each part by what the rim can tell apart (see [`Folded`]).
+//! each part by what the rim can tell apart (see [`RimHarmonics`]).
 
 use crate::build_context::BuildContext;
 use crate::cymbal::assembly::{CymbalPlate, Ordered, PlateShapes};
@@ -12,7 +12,7 @@ use crate::cymbal::spec::CymbalSpec;
 use crate::damping::LossLaw;
 use crate::error::SpecError;
 use crate::modal::Mode;
-use crate::modal::simd::folded::Folded;
+use crate::modal::simd::rim_harmonics::RimHarmonics;
 use crate::mode::Member;
 use crate::plate::ShellMode;
 use crate::snapshot::FIELD_MODES;
@@ -38,7 +38,7 @@ pub struct Half {
     /// Its modes.
     pub cymbal: CymbalModes,
     /// What the rim feels of each.
-    pub folded: Folded,
+    pub folded: RimHarmonics,
     rubbing: LossLaw,
 }
 
@@ -71,7 +71,7 @@ impl Half {
         let index = shapes.shapes().index().iter();
         let shares: Vec<_> =
             index.map(|shape| share(shape.m, shape.member, shape.axis, at_rim[shape.radial])).collect();
-        Ok((Half { cymbal, folded: Folded::new(&shares), rubbing }, shapes))
+        Ok((Half { cymbal, folded: RimHarmonics::new(&shares), rubbing }, shapes))
     }
 
     /// Mode `k` at a ratio of its frequency, damped.
@@ -145,7 +145,7 @@ mod tests {
         let bent: Vec<f32> = (0..body.len()).map(|k| ((k * 37 % 101) as f32 - 50.0) * 1e-6).collect();
         body.set_displacements(&bent);
         let all = rim_points::at_points(&body.folded_displacement(&half.folded));
-        let mut port = crate::modal::Port::new(body.len());
+        let mut port = crate::modal::InputVector::new(body.len());
         for (j, &at) in all.iter().enumerate() {
             shapes.fill(1.0, rim_points::angle(j), port.shape_mut());
             let want = body.displacement_at(&port);

@@ -31,8 +31,8 @@ mod statics;
 
 use crate::contact::ContactLaw;
 use crate::modal::simd::Kernels;
-use crate::modal::simd::folded::Folded;
-use crate::modal::{ModalBody, Mode, Pickup};
+use crate::modal::simd::rim_harmonics::RimHarmonics;
+use crate::modal::{ModalBody, Mode, ReceiverWeights};
 use crate::snapshot::RimSnapshot;
 use crate::surface::body::SoundingBody;
 use crate::surface::contacts::STRIKER_PLACES;
@@ -53,7 +53,7 @@ pub struct PairParts {
     /// imaginary part.
     pub transfers: [Vec<[f64; 2]>; 2],
     /// What the rims feel of the modes of the upper and of the lower cymbal.
-    pub folded: [Folded; 2],
+    pub folded: [RimHarmonics; 2],
     /// Both as stiff bodies.
     pub rigid: [Rigid; 2],
     /// The law of every place.
@@ -70,7 +70,7 @@ pub struct PairParts {
 pub struct Pair {
     /// The lower shell.
     pub(super) lower: SoundingBody,
-    pub(super) folded: [Folded; 2],
+    pub(super) folded: [RimHarmonics; 2],
     pub(super) rigid: [Rigid; 2],
     pub(super) statics: Statics,
     pub(super) dynamics: Dynamics,
@@ -178,7 +178,7 @@ impl Pair {
     ///
     /// # Real-time
     /// Linear in the number of modes, and some microseconds.
-    pub(super) fn follow_modes(&mut self, top: &ModalBody, receiver: &Pickup) {
+    pub(super) fn follow_modes(&mut self, top: &ModalBody, receiver: &ReceiverWeights) {
         self.lower.follow();
         let bodies = [(top, receiver), (&self.lower.modal, &self.lower.receiver)];
         let changed = self.statics.follow(bodies.map(|(body, _)| body), &self.folded, &self.rigid);

@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use crate::modal::folded::ClassCompliances;
-use crate::modal::simd::folded::{Amplitudes, MAX_CLASSES};
+use crate::modal::rim_harmonics::ClassCompliances;
+use crate::modal::simd::rim_harmonics::{Amplitudes, MAX_CLASSES};
 
 /// Places around the rims where they may touch.
 pub const POINTS: usize = 16;

@@ -9,8 +9,8 @@ use crate::contact::solver::uniform::UniformContacts;
 use crate::contact::solver::{ContactProblem, product};
 use crate::fitted;
 use crate::modal::simd::MAX_RUN;
-use crate::modal::simd::folded::Amplitudes;
-use crate::modal::{EARS, Heard, ModalBody, Port};
+use crate::modal::simd::rim_harmonics::Amplitudes;
+use crate::modal::{InputVector, ModalBody, Pressure, RECEIVERS};
 use crate::potential::NonlinearForce;
 
 use super::pair::Pair;
@@ -31,7 +31,7 @@ impl Pair {
     }
 
     /// Follows a change of a striker's port.
-    pub(super) fn connect_striker(&mut self, point: usize, top: &ModalBody, port: &Port) {
+    pub(super) fn connect_striker(&mut self, point: usize, top: &ModalBody, port: &InputVector) {
         let shell = rim_points::at_points(&top.folded_compliance(&self.folded[0], port));
         let place = &mut self.strikers[point];
         for (j, shell) in shell.into_iter().enumerate() {
@@ -148,13 +148,13 @@ impl Pair {
 
     /// Applies the forces at the rims; returns what they press the force beyond the modes with, and the pressure at once,
     /// Pa.
-    pub(super) fn press_rims(&mut self, top: &mut ModalBody) -> (f64, Heard) {
+    pub(super) fn press_rims(&mut self, top: &mut ModalBody) -> (f64, Pressure) {
         if !self.engaged {
-            return (0.0, Heard::default());
+            return (0.0, Pressure::default());
         }
         let beyond: [f64; POINTS] = std::array::from_fn(|j| self.rims.force[j] - self.pedal.rest.preload[j]);
         if beyond == [0.0; POINTS] && self.rims.force == [0.0; POINTS] {
-            return (0.0, Heard::default());
+            return (0.0, Pressure::default());
         }
         let mut felt = [0.0; 3];
         for (weights, force) in self.statics.weights.iter().zip(&self.rims.force) {
@@ -183,10 +183,10 @@ impl Pair {
         &mut self,
         strikers: impl Iterator<Item = (usize, f64, f64)> + Clone,
         divisor: f64,
-    ) -> Heard {
+    ) -> Pressure {
         self.pedal.work += self.pedal.damper * (self.rigid[0].place()[0] - self.pedal.from);
         if !self.engaged {
-            return Heard::default();
+            return Pressure::default();
         }
         let of_strikers: f64 = strikers.clone().map(|(_, force, u)| force * u).sum();
         let of_rims: f64 =
@@ -209,7 +209,7 @@ impl Pair {
 
     /// Many samples in which no rim meets the other: adds what is heard of the lower shell, Pa. As stiff bodies both
     /// have moved for the first `stiff` of them already.
-    pub(super) fn ring_apart(&mut self, out: [&mut [f32]; EARS], stiff: usize) {
+    pub(super) fn ring_apart(&mut self, out: [&mut [f32]; RECEIVERS], stiff: usize) {
         let samples = out[0].len();
         for _ in stiff..samples {
             let (drawn, _) = self.rigid[0].drawn(self.pedal.foot.place(), 0.0);
@@ -218,7 +218,7 @@ impl Pair {
             self.rims.age += 1;
         }
         if !self.lower.modal.is_still() {
-            let mut heard = [[0.0; MAX_RUN]; EARS];
+            let mut heard = [[0.0; MAX_RUN]; RECEIVERS];
             self.lower.modal.ring(0, &self.lower.receiver, heard.each_mut().map(|row| &mut row[..samples]));
             for (out, heard) in out.into_iter().zip(&heard) {
                 out.iter_mut().zip(heard).for_each(|(sum, x)| *sum += x);

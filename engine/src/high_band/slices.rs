@@ -4,12 +4,12 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::air::{DENSITY, SPEED_OF_SOUND};
+use crate::air_load::{DENSITY, SPEED_OF_SOUND};
 use crate::drum::coupled::Outside;
-use crate::drum::shadow;
+use crate::drum::diffraction;
 use crate::membrane::MembraneSpec;
 use crate::modal::Mode;
-use crate::receiver::ListeningPoint;
+use crate::receiver::ReceiverPosition;
 use crate::split::hash;
 
 /// Slices in an octave.
@@ -21,11 +21,11 @@ const TOP_OF_RATE: f64 = 0.45;
 
 /// Where the head is heard from.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Ear {
+pub struct Receiver {
     /// The point, seen from the head's centre.
-    pub point: ListeningPoint,
+    pub point: ReceiverPosition,
     /// A point far away.
-    pub away: ListeningPoint,
+    pub away: ReceiverPosition,
     /// What surrounds the drum.
     pub outside: Outside,
     /// Whether the head is on the far side of the drum.
@@ -42,7 +42,7 @@ pub struct HighBandSpec {
     /// Modes (pairs as two) of the complete set, all below the slices.
     pub complete: usize,
     /// Where it is heard from.
-    pub ear: Ear,
+    pub ear: Receiver,
     /// Nothing is lost.
     pub lossless: bool,
     /// Hz.
@@ -196,7 +196,7 @@ pub(super) fn loudness(spec: &HighBandSpec, slice: &Slice, omega: f64) -> f64 {
 /// How much louder the slices are far away, as at a metre, than at the point, in the mean: they come by chance in any
 /// phase here and there.
 pub(super) fn away(spec: &HighBandSpec, slices: &[Slice]) -> f32 {
-    let from_away = HighBandSpec { ear: Ear { point: spec.ear.away, ..spec.ear }, ..*spec };
+    let from_away = HighBandSpec { ear: Receiver { point: spec.ear.away, ..spec.ear }, ..*spec };
     let ratio = |slice: &Slice| {
         let (omega, _, _) = wave(&spec.head, slice.zero, spec.tensions[1]);
         let there = loudness(&from_away, &Slice { gain: gain(&from_away, omega), ..*slice }, omega);
@@ -207,11 +207,11 @@ pub(super) fn away(spec: &HighBandSpec, slices: &[Slice]) -> f32 {
 
 /// Amplitude at the point over that of the same head in a baffle.
 fn gain(spec: &HighBandSpec, omega: f64) -> f64 {
-    let Ear { point, outside, far, .. } = spec.ear;
+    let Receiver { point, outside, far, .. } = spec.ear;
     let ka = omega * spec.head.radius / SPEED_OF_SOUND;
     match outside {
         Outside::Baffle => 1.0,
-        Outside::Free { .. } if far => 0.5 * shadow::toward(ka, -point.inclination.cos()),
-        Outside::Free { .. } => shadow::near_gain(ka, point.fills(spec.head.radius)),
+        Outside::Free { .. } if far => 0.5 * diffraction::toward(ka, -point.inclination.cos()),
+        Outside::Free { .. } => diffraction::near_gain(ka, point.fills(spec.head.radius)),
     }
 }

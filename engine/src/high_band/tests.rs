@@ -1,7 +1,7 @@
 use super::slices::*;
 use super::*;
 use crate::build_context::BuildOptions;
-use crate::drum::hearing::Hearing;
+use crate::drum::mode_transfer::ModeTransfer;
 use crate::drum::modes::DrumModes;
 use crate::drum::spec::DrumSpec;
 use crate::kit_spec::PieceBuild;
@@ -37,7 +37,7 @@ fn slices_follow_on_the_complete_set_in_frequency_mass_count_and_loudness() {
     let low = highest.omega / 2.0_f64.sqrt();
     let (mut heard, mut count) = (0.0, 0.0);
     let spec = DrumSpec { pitch_hz: middle, ..spec };
-    let hearing = Hearing::new(&blueprint, &spec, build.receivers.near);
+    let hearing = ModeTransfer::new(&blueprint, &spec, build.receivers.near);
     let transfer: Vec<_> = hearing.transfers(&blueprint.modes, &place, middle).collect();
     let mut k = 0;
     for mode in &blueprint.modes {

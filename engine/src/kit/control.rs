@@ -43,7 +43,7 @@ pub enum Control {
     /// Switch: only microphones with this are heard, if any has it.
     Solo(Microphone),
     /// Switch: the drums hear the other pieces.
-    Hearing,
+    SympatheticCoupling,
     /// How much of the other pieces' sound reaches the drums, 0 to 1 (all of it).
     Sympathy,
     /// Switch: the outputs bend softly instead of passing full scale.

@@ -72,7 +72,7 @@ impl Kit {
             Control::Mute(microphone) => self.desk.mute(microphone, on),
             Control::Solo(microphone) => self.desk.solo(microphone, on),
             Control::SafetyClip => self.desk.set_clip(on),
-            Control::Hearing => self.listen(on, self.sympathy),
+            Control::SympatheticCoupling => self.listen(on, self.sympathy),
             Control::Sympathy => self.listen(self.hearing, value.clamp(0.0, 1.0) as f32),
             Control::Pedal(slot) => self.press_pedal(slot, value, SPEED.1),
             Control::Preload(slot)

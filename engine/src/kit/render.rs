@@ -5,7 +5,7 @@ use crate::kit_spec::Kind;
 use crate::slot::SLOTS;
 
 use super::Kit;
-use super::mix::{PAIRS, Stereo};
+use super::mixer::{PAIRS, Stereo};
 
 /// The silence of the room is looked for once in so many blocks.
 const SETTLE_BLOCKS: u64 = 128;
@@ -106,13 +106,13 @@ impl Kit {
 
     /// Lets every piece hear the others and renders it.
     fn render_posts(&mut self, samples: usize) {
-        let deaf = self.ears.is_shut();
+        let uncoupled = self.ears.is_shut();
         let amount = self.ears.run(samples);
         for (slot, post) in self.posts.iter_mut().enumerate() {
             let Some(post) = post else { continue };
             post.prepare(self.resets, self.clock, samples);
             let listens = post.piece.as_ref().is_some_and(|piece| piece.kind() == Kind::Drum);
-            if listens && !deaf {
+            if listens && !uncoupled {
                 self.air.arrive(slot, self.clock, &amount, post);
             }
         }

@@ -1,7 +1,7 @@
 //! The room about the kit: early reflections and a short diffuse tail, for the room microphones.
 //!
 //! Model: a shoebox. Each of its six surfaces mirrors every piece once (image sources: the ways from the images are
-//! [`Tap`](super::line::Tap)s like any other, weakened by what the surface swallows). What comes after is diffuse: a feedback delay
+//! [`DelayTap`](super::delay_line::DelayTap)s like any other, weakened by what the surface swallows). What comes after is diffuse: a feedback delay
 //! network of eight lines whose lengths have no common divisor, mixed by a Hadamard matrix, which keeps energy, and weakened
 //! on each round by what gives the reverberation time, more in the highs. It is fed by what all pieces send
 //! out; left and right hear different signs of the same lines.
@@ -12,7 +12,7 @@
 //!
 //! Source: Kuttruff, Room Acoustics, ch. 4, 5; Jot & Chaigne, AES preprint 3030, 1991.
 
-use crate::air::SPEED_OF_SOUND;
+use crate::air_load::SPEED_OF_SOUND;
 use crate::block::BLOCK;
 use crate::kit_spec::room::RoomSpec;
 use crate::layout::Point;

@@ -13,7 +13,7 @@ use crate::hi_hat::spec::HiHatSpec;
 use crate::layout::Point;
 use crate::microphones::CloseSpec;
 use crate::plate::Bell;
-use crate::receiver::ListeningPoint;
+use crate::receiver::ReceiverPosition;
 use crate::rim::HoopSpec;
 use crate::split::Splitting;
 use crate::surface::wires::WiresSpec;
@@ -123,11 +123,11 @@ fn piece(
     let close = match &instrument {
         InstrumentSpec::Drum(DrumSpec { shell: Some(ShellSpec::Cylinder { .. }), .. }) => CloseSpec::OVER_RIM,
         InstrumentSpec::Drum(_) => {
-            CloseSpec::beside(ListeningPoint { distance: 0.5, inclination: 0.6, azimuth: 0.4 })
+            CloseSpec::beside(ReceiverPosition { distance: 0.5, inclination: 0.6, azimuth: 0.4 })
         }
         // Beside the cymbal, above its plane. *Fitted*: from straight above, its dome's breathing covers all else; from
         // here the balance of a ride is that of recordings within 2 dB.
-        _ => CloseSpec::beside(ListeningPoint {
+        _ => CloseSpec::beside(ReceiverPosition {
             distance: 0.5,
             inclination: fitted::CYMBAL_CLOSE_INCLINATION,
             azimuth: 0.4,
@@ -151,7 +151,7 @@ const BATTER_MODES_TO: f64 = 3000.0;
 /// it, with the flow resistivity `r` of polyester filling, 850 Pa s/m2 at 12 kg/m3 (*literature*: Garai & Pompoli,
 /// Applied Acoustics 66, 2005); and a third of that, for at 60 Hz so much of the flow finds the way around a
 /// pillow of a third of the shell's width. *Derived*.
-const PILLOW_FLOW: f64 = 0.35 * 850.0 / (2.0 * crate::air::DENSITY);
+const PILLOW_FLOW: f64 = 0.35 * 850.0 / (2.0 * crate::air_load::DENSITY);
 
 /// A head of film: thickness (m), plies, losses.
 fn film(thickness: f64, plies: u32, loss: LossLaw) -> HeadSpec {

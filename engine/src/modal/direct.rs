@@ -1,13 +1,13 @@
 //! What is heard of a force at once, and of one that changes slowly.
 
-use super::{Heard, ModalBody, Pickup, Port};
+use super::{InputVector, ModalBody, Pressure, ReceiverWeights};
 
-impl Pickup {
+impl ReceiverWeights {
     /// Pressure at once per unit force at a port, Pa/N.
     ///
     /// # Real-time
     /// Linear in the number of modes.
-    pub fn direct_at(&self, body: &ModalBody, port: &Port) -> Heard {
+    pub fn direct_at(&self, body: &ModalBody, port: &InputVector) -> Pressure {
         self.ears.each_ref().map(|ear| body.kernels.dot(&ear.direct, &port.shape))
     }
 
@@ -19,7 +19,7 @@ impl Pickup {
     ///
     /// # Real-time
     /// Linear in the number of modes.
-    pub fn slow_at(&self, body: &ModalBody, port: &Port) -> Heard {
+    pub fn slow_at(&self, body: &ModalBody, port: &InputVector) -> Pressure {
         self.ears.each_ref().map(|ear| body.kernels.dot(&ear.slow, &port.shape))
     }
 }

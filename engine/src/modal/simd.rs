@@ -12,8 +12,8 @@
 pub mod blocks;
 pub mod dispatch;
 pub mod flush;
-pub mod folded;
-pub mod front;
+pub mod rim_harmonics;
+pub mod coupled_modes;
 pub mod level;
 pub mod peak;
 pub mod polar;
@@ -21,4 +21,4 @@ pub mod primitives;
 pub mod ring;
 
 pub use dispatch::{Kernels, LANES};
-pub use ring::{EARS, MAX_DRIVES, MAX_RUN, REST};
+pub use ring::{MAX_DRIVES, MAX_RUN, RECEIVERS, REST};

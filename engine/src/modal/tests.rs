@@ -1,12 +1,12 @@
 use std::f64::consts::TAU;
 
-use super::faint::Faint;
+use super::inaudible_modes::InaudibleModes;
 use super::*;
 
-fn single(frequency_hz: f64, sigma: f64, mass: f64, rate: f64) -> (ModalBody, Port) {
+fn single(frequency_hz: f64, sigma: f64, mass: f64, rate: f64) -> (ModalBody, InputVector) {
     let mode = Mode { omega: TAU * frequency_hz, sigma, mass };
     let body = ModalBody::new(vec![mode], rate);
-    let mut port = Port::new(1);
+    let mut port = InputVector::new(1);
     port.shape_mut()[0] = 1.0;
     body.connect(&mut port);
     (body, port)
@@ -97,7 +97,7 @@ fn the_work_of_a_held_force_is_the_energy_gained() {
 #[test]
 fn a_body_bent_but_still_is_silent() {
     let (mut body, port) = single(300.0, 60.0, 0.05, 44_100.0);
-    let mut pickup = Pickup::new(vec![[0.7, -0.4]]);
+    let mut pickup = ReceiverWeights::new(vec![[0.7, -0.4]]);
     body.tune(&mut pickup);
     let [direct, ..] = pickup.direct_at(&body, &port);
     let mut loudest = 0.0_f32;
@@ -141,19 +141,19 @@ fn retuning_keeps_displacement_and_velocity() {
 }
 
 /// A body of many modes set ringing, and a pickup.
-fn choir(kernels: Kernels) -> (ModalBody, Pickup) {
+fn choir(kernels: Kernels) -> (ModalBody, ReceiverWeights) {
     let modes: Vec<Mode> = (0..333)
         .map(|k| Mode { omega: 200.0 * (1.0 + 1.7 * k as f64), sigma: 1.0 + 0.1 * k as f64, mass: 0.1 })
         .collect();
     let transfer = (0..modes.len()).map(|k| [(k as f64).sin(), (k as f64 * 0.3).cos()]).collect();
     let mut body = ModalBody::new(modes, 44_100.0);
     body.set_kernels(kernels);
-    let mut port = Port::new(body.len());
+    let mut port = InputVector::new(body.len());
     for (k, shape) in port.shape_mut().iter_mut().take(333).enumerate() {
         *shape = (0.9 * k as f32).cos();
     }
     body.connect(&mut port);
-    let mut pickup = Pickup::new(transfer);
+    let mut pickup = ReceiverWeights::new(transfer);
     body.tune(&mut pickup);
     body.push(&port, 50.0);
     (body, pickup)
@@ -223,14 +223,14 @@ fn quiet_modes_become_exactly_zero() {
 fn modes_that_sleep_early_are_missed_by_less_than_the_bound() {
     let (mut early, pickup) = choir(Kernels::detect());
     let (mut late, _) = choir(Kernels::detect());
-    let mut faint = Faint::new(early.len());
-    early.learn_faint(&mut faint, &pickup, 0, None);
+    let mut faint = InaudibleModes::new(early.len());
+    early.update_thresholds(&mut faint, &pickup, 0, None);
     let (mut missed, mut sooner) = (0.0_f32, 0);
     for _ in 0..60_000 {
         let (mut a, mut b) = ([0.0; 32], [0.0; 32]);
         ring(&mut early, &pickup, &mut a);
         ring(&mut late, &pickup, &mut b);
-        early.flush_faint(&faint);
+        early.flush_inaudible(&faint);
         late.flush_quiet();
         missed = a.iter().zip(b).fold(missed, |most, (a, b)| most.max((a - b).abs()));
         sooner += usize::from(early.is_still() && !late.is_still());
@@ -241,7 +241,7 @@ fn modes_that_sleep_early_are_missed_by_less_than_the_bound() {
 }
 
 /// What the near ear hears.
-fn ring(body: &mut ModalBody, pickup: &Pickup, out: &mut [f32]) {
+fn ring(body: &mut ModalBody, pickup: &ReceiverWeights, out: &mut [f32]) {
     let mut others = [[0.0; simd::MAX_RUN]; 2];
     let [far, few] = others.each_mut().map(|row| &mut row[..out.len()]);
     body.ring(0, pickup, [out, far, few]);

@@ -85,7 +85,7 @@ mod tests {
     use super::*;
     use crate::math::quadrature::GaussLegendre;
     use crate::plate::edges::{clamped_modes, free_modes};
-    use crate::plate::uneven::stiffness_unit;
+    use crate::plate::thickness_taper::stiffness_unit;
     use std::f64::consts::TAU;
 
     #[test]

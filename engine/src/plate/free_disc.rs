@@ -35,14 +35,14 @@ use pulp::{Arch, Simd, WithSimd};
 use serde::{Deserialize, Serialize};
 
 use super::radial::angular_norm;
-use crate::air::{DENSITY, SPEED_OF_SOUND};
+use crate::air_load::{DENSITY, SPEED_OF_SOUND};
 use crate::cache::Shared;
-use crate::listening::Radiator;
-use crate::listening::rings::Rings;
 use crate::math::bessel::lanes::LANES;
 use crate::math::quadrature::{self, GaussLegendre};
 use crate::math::{bessel, jacobi};
-use crate::receiver::ListeningPoint;
+use crate::radiation::Radiator;
+use crate::radiation::rings::Rings;
+use crate::receiver::ReceiverPosition;
 
 /// What a mode does to the air.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -59,7 +59,7 @@ pub struct Radiated {
 /// A disc, its modes' shapes on a grid, and points.
 pub struct FreeDisc {
     radius: f64,
-    points: [ListeningPoint; 2],
+    points: [ReceiverPosition; 2],
     rule: Shared<GaussLegendre>,
 }
 
@@ -68,7 +68,7 @@ const MARGIN: f64 = 6.0;
 
 impl FreeDisc {
     /// For a disc of `radius` (m). `nodes` along the radius: three a wavelength of the finest shape.
-    pub fn new(radius: f64, points: [ListeningPoint; 2], nodes: usize) -> FreeDisc {
+    pub fn new(radius: f64, points: [ReceiverPosition; 2], nodes: usize) -> FreeDisc {
         FreeDisc { radius, points, rule: quadrature::shared_unit(nodes) }
     }
 
@@ -124,7 +124,7 @@ impl FreeDisc {
     }
 
     /// Pressure at a point of a jump on the grid.
-    fn hear(&self, point: &ListeningPoint, mode: &Radiator, jump: &[Complex<f64>]) -> [f64; 2] {
+    fn hear(&self, point: &ReceiverPosition, mode: &Radiator, jump: &[Complex<f64>]) -> [f64; 2] {
         let k = mode.omega / SPEED_OF_SOUND;
         let [height, _] = point.height_and_offset();
         let rings = Rings::new(point, self.radius, mode.m, k, 0.0);
@@ -149,7 +149,7 @@ fn impedance(m: usize, count: usize, u: f64) -> DMatrix<Complex<f64>> {
     let places = below.nodes.iter().zip(&below.weights).map(|(t, w)| {
         let (sin, cos) = (FRAC_PI_2 * t).sin_cos();
         let weight = FRAC_PI_2 * u * w * cos / sin;
-        Place { x: u * sin, weights: [weight * cos, weight * sin] }
+        SamplePoint { x: u * sin, weights: [weight * cos, weight * sin] }
     });
     // ... and above, x = sqrt(u^2 + s^2), until the difference has died away.
     let reach = 1.5 * (highest as f64).max(u) + 12.0;
@@ -157,9 +157,9 @@ fn impedance(m: usize, count: usize, u: f64) -> DMatrix<Complex<f64>> {
     let beyond = above.nodes.iter().zip(&above.weights).map(|(t, w)| {
         let s = reach * t;
         let x = u.hypot(s);
-        Place { x, weights: [0.0, (x - s) * s / (x * x) * reach * w] }
+        SamplePoint { x, weights: [0.0, (x - s) * s / (x * x) * reach * w] }
     });
-    let places: Vec<Place> = places.chain(beyond).collect();
+    let places: Vec<SamplePoint> = places.chain(beyond).collect();
     let mut waves = vec![[0.0; LANES]; highest + 1];
     let mut row = vec![0.0; count];
     let mut parts = [vec![0.0; count * count], vec![0.0; count * count]];
@@ -183,7 +183,7 @@ fn impedance(m: usize, count: usize, u: f64) -> DMatrix<Complex<f64>> {
 }
 
 /// A node of the impedance's integrals: the wave number, and the weight's two parts.
-struct Place {
+struct SamplePoint {
     x: f64,
     weights: [f64; 2],
 }
@@ -219,7 +219,7 @@ mod tests {
     use super::*;
 
     const A: f64 = 0.2;
-    const POINT: ListeningPoint = ListeningPoint { distance: 0.5, inclination: 0.6, azimuth: 0.0 };
+    const POINT: ReceiverPosition = ReceiverPosition { distance: 0.5, inclination: 0.6, azimuth: 0.0 };
 
     fn rigid(u: f64) -> Radiated {
         let disc = FreeDisc::new(A, [POINT; 2], 48);
@@ -248,7 +248,7 @@ mod tests {
         let (a, distance) = (plate.spec.radius(), 40.0);
         let rule = GaussLegendre::new(120, 0.0, FRAC_PI_2);
         let disc = |inclination| {
-            FreeDisc::new(a, [ListeningPoint { distance, inclination, azimuth: 0.0 }; 2], nodes)
+            FreeDisc::new(a, [ReceiverPosition { distance, inclination, azimuth: 0.0 }; 2], nodes)
         };
         let shapes = plate.radial_shapes(&tables, disc(0.0).radii());
         for (m, n) in [(0, 1), (1, 1), (4, 5), (0, 8), (10, 9), (5, 18)] {
@@ -276,12 +276,12 @@ mod tests {
 
     #[test]
     fn a_fast_rigid_disc_sounds_as_in_a_baffle_on_its_axis_and_a_slow_one_far_softer() {
-        let point = ListeningPoint { inclination: 0.0, ..POINT };
+        let point = ReceiverPosition { inclination: 0.0, ..POINT };
         let radial = vec![1.0; 64];
         let ratio = |u: f64| {
             let mode = Radiator { m: 0, radial: &radial, omega: u * SPEED_OF_SOUND / A };
             let [a, b] = FreeDisc::new(A, [point; 2], 64).radiate(&mode, 0.0).transfers[0];
-            let [c, d] = crate::listening::Rayleigh::new(A, point, 64).transfer(&mode);
+            let [c, d] = crate::radiation::Rayleigh::new(A, point, 64).transfer(&mode);
             (Complex::new(a, b) / Complex::new(c, d)).to_polar()
         };
         let (size, phase) = ratio(40.0);

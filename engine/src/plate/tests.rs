@@ -4,9 +4,9 @@ use std::f64::consts::PI;
 
 use super::free_disc::FreeDisc;
 use super::*;
-use crate::listening::Radiator;
 use crate::math::quadrature::GaussLegendre;
-use crate::receiver::ListeningPoint;
+use crate::radiation::Radiator;
+use crate::receiver::ReceiverPosition;
 use crate::reference::{self, cap_crash, cap_ride, cap_splash};
 
 fn hz(plate: &PlateModes, m: u32, n: u32) -> f64 {
@@ -125,7 +125,7 @@ fn shell_shapes_have_unit_mean_square_and_are_read_from_tables_within_1e_6() {
 fn a_crash_radiates_little_below_coincidence_and_its_whole_area_above() {
     let plate = PlateModes::new(&reference::cymbal("crash").plate(), 24_000.0).unwrap();
     let (max_order, x_max) = plate.table_extent(24_000.0);
-    let point = ListeningPoint { distance: 0.5, inclination: 0.6, azimuth: 0.0 };
+    let point = ReceiverPosition { distance: 0.5, inclination: 0.6, azimuth: 0.0 };
     let disc = FreeDisc::new(plate.spec.radius(), [point; 2], 140);
     let shapes = plate.radial_shapes(&PlateTables::new(max_order, x_max), disc.radii());
     let shells = plate.shells.iter().zip(shapes.chunks_exact(disc.radii().len()));
@@ -134,7 +134,7 @@ fn a_crash_radiates_little_below_coincidence_and_its_whole_area_above() {
         disc.radiate(&wave, plate.wave_number(shell)).resistance
     };
     let resistances: Vec<f64> = shells.map(resistance).collect();
-    let whole = 2.0 * air::DENSITY * air::SPEED_OF_SOUND * PI * plate.spec.radius().powi(2);
+    let whole = 2.0 * air_load::DENSITY * air_load::SPEED_OF_SOUND * PI * plate.spec.radius().powi(2);
     let mean = |from: f64, to: f64| {
         let inside = |shell: &ShellMode| (from..to).contains(&(shell.omega / TAU));
         let modes = plate.shells.iter().zip(&resistances);

@@ -118,14 +118,14 @@ fn the_true_energy_is_kept_for_seconds() {
 #[test]
 fn a_bent_body_without_a_potential_and_one_with_none_left_sound_alike() {
     let (mut with, mut without) = (surface(1e-6, 1), surface(1e-6, 1));
-    without.beyond_mut().unwrap().set_stiffness(0.0);
+    without.nonlinear_force_mut().unwrap().set_stiffness(0.0);
     for surface in [&mut with, &mut without] {
         surface.strike(&hit(3.0));
     }
     let (a, b) = (run(&mut with, 20_000), run(&mut without, 20_000));
     let peak = b.iter().fold(0.0_f32, |peak, x| peak.max(x.abs()));
     assert!(a.iter().zip(&b).all(|(a, b)| (a - b).abs() < 1e-3 * peak));
-    assert!(!with.beyond().unwrap().is_active());
+    assert!(!with.nonlinear_force().unwrap().is_active());
 }
 
 #[test]

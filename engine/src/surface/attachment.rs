@@ -14,7 +14,7 @@
 
 use std::any::Any;
 
-use crate::modal::{EARS, Heard, Port};
+use crate::modal::{InputVector, Pressure, RECEIVERS};
 
 use super::body::{FreeStep, SoundingBody, StruckBody};
 use super::contacts::Contacts;
@@ -61,7 +61,7 @@ pub trait Attachment: Any + Send {
     fn put(&mut self, _point: usize, _radius: f64, _angle: f64) {}
 
     /// Follows a change of a striker's port, of the body or of what the point belongs to.
-    fn connect(&mut self, _point: usize, _port: &Port, _body: &StruckBody) {}
+    fn connect(&mut self, _point: usize, _port: &InputVector, _body: &StruckBody) {}
 
     /// What it adds to the compliance between two strikers' points, m/N.
     fn compliance(&self, _a: usize, _b: usize) -> f64 {
@@ -96,8 +96,8 @@ pub trait Attachment: Any + Send {
 
     /// Applies its own forces to the body and to itself; what they press the nonlinear force with (N times coupling),
     /// and the pressure that follows at once, Pa.
-    fn press(&mut self, _body: &mut StruckBody) -> (f64, Heard) {
-        (0.0, Heard::default())
+    fn press(&mut self, _body: &mut StruckBody) -> (f64, Pressure) {
+        (0.0, Pressure::default())
     }
 
     /// How far its own forces have parted a striker from the body, m.
@@ -106,17 +106,17 @@ pub trait Attachment: Any + Send {
     }
 
     /// Ends the sample, all forces being known; what is heard of what moves under its own forces, Pa.
-    fn finish(&mut self, _contacts: &Contacts, _free: &FreeStep) -> Heard {
-        Heard::default()
+    fn finish(&mut self, _contacts: &Contacts, _free: &FreeStep) -> Pressure {
+        Pressure::default()
     }
 
     /// What is heard of the body that contact points press on, Pa.
-    fn listen(&self) -> Heard {
-        Heard::default()
+    fn listen(&self) -> Pressure {
+        Pressure::default()
     }
 
     /// Renders while nothing touches from sample `from` on, adding what is heard of it, Pa; before, it has stepped.
-    fn ring(&mut self, _out: [&mut [f32]; EARS], _from: usize) {}
+    fn ring(&mut self, _out: [&mut [f32]; RECEIVERS], _from: usize) {}
 
     /// Whether every sample must be solved although no exciter is about.
     fn is_engaged(&self) -> bool {

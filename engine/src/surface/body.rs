@@ -2,16 +2,16 @@
 //!
 //! Beside contacts act the nonlinear force beyond the modes and the pressure of sound from elsewhere.
 
-use crate::modal::faint::Faint;
+use crate::modal::inaudible_modes::InaudibleModes;
 use crate::modal::simd::Kernels;
-use crate::modal::{EARS, Heard, ModalBody, Mode, Pickup, Port};
+use crate::modal::{InputVector, ModalBody, Mode, Pressure, RECEIVERS, ReceiverWeights};
 use crate::potential::{NonlinearForce, Potential};
 use crate::shapes::ShapeTable;
 
 use super::incident_field::{AirLoad, IncidentPressure};
 
 /// Adds at every receiver, Pa.
-pub fn add(sum: &mut Heard, more: Heard) {
+pub fn add(sum: &mut Pressure, more: Pressure) {
     sum.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
 }
 
@@ -20,14 +20,16 @@ pub struct SoundingBody {
     /// The modes and their motion.
     pub modal: ModalBody,
     /// How they are heard.
-    pub receiver: Pickup,
+    pub receiver: ReceiverWeights,
 }
 
 impl SoundingBody {
-    /// A body at rest; `transfer` as in [`Pickup::new`], Pa s2/m; sample rate in Hz. Allocates.
+    /// A body at rest; `transfer` as in [`ReceiverWeights::new`], Pa s2/m; sample rate in Hz. Allocates.
     pub fn new(modes: Vec<Mode>, transfer: Vec<[f64; 2]>, sample_rate: f64) -> SoundingBody {
-        let mut body =
-            SoundingBody { modal: ModalBody::new(modes, sample_rate), receiver: Pickup::new(transfer) };
+        let mut body = SoundingBody {
+            modal: ModalBody::new(modes, sample_rate),
+            receiver: ReceiverWeights::new(transfer),
+        };
         body.follow();
         body
     }
@@ -41,7 +43,7 @@ impl SoundingBody {
     }
 
     /// What is heard now, Pa, without what follows a force at once.
-    pub fn listen(&self) -> Heard {
+    pub fn listen(&self) -> Pressure {
         self.modal.listen(&self.receiver)
     }
 }
@@ -57,14 +59,14 @@ pub struct FreeStep {
     /// Whether couplings with the nonlinear force have changed.
     pub recoupled: bool,
     /// What is heard at once, Pa.
-    pub heard: Heard,
+    pub heard: Pressure,
 }
 
 /// A body that can be struck.
 pub struct StruckBody {
     sound: SoundingBody,
     /// Below what its modes may sleep.
-    inaudible: Faint,
+    inaudible: InaudibleModes,
     shapes: ShapeTable,
     /// What it does beyond its modes.
     nonlinear_force: Option<NonlinearForce>,
@@ -77,7 +79,7 @@ pub struct StruckBody {
 impl StruckBody {
     /// A body at rest without nonlinear force, out of the air. Allocates.
     pub fn new(sound: SoundingBody, shapes: ShapeTable, sample_rate: f64) -> StruckBody {
-        let inaudible = Faint::new(sound.modal.len());
+        let inaudible = InaudibleModes::new(sound.modal.len());
         StruckBody { sound, inaudible, shapes, nonlinear_force: None, air: None, sample_rate }
     }
 
@@ -97,7 +99,7 @@ impl StruckBody {
     }
 
     /// How the modes are heard.
-    pub fn receiver(&self) -> &Pickup {
+    pub fn receiver(&self) -> &ReceiverWeights {
         &self.sound.receiver
     }
 
@@ -181,7 +183,7 @@ impl StruckBody {
     fn update_thresholds(&mut self) {
         let coupled = self.nonlinear_force.as_ref().map_or(0, |force| force.front().length());
         let driven = self.air.as_ref().map(AirLoad::port);
-        self.sound.modal.learn_faint(&mut self.inaudible, &self.sound.receiver, coupled, driven);
+        self.sound.modal.update_thresholds(&mut self.inaudible, &self.sound.receiver, coupled, driven);
     }
 
     /// Follows a change of the modes, or of how they are heard.
@@ -211,29 +213,29 @@ impl StruckBody {
     }
 
     /// Adds the pressure of a sample to the modes, just stepped; returns what is heard of it at once.
-    fn press(&mut self, incident: Option<IncidentPressure<'_>>, sample: usize) -> Heard {
+    fn press(&mut self, incident: Option<IncidentPressure<'_>>, sample: usize) -> Pressure {
         let pressure = incident.map_or(0.0, |incident| incident[sample]);
         match &self.air {
             Some(air) if pressure != 0.0 => {
                 self.sound.modal.push(air.port(), pressure);
                 air.echo(pressure)
             }
-            _ => Heard::default(),
+            _ => Pressure::default(),
         }
     }
 
     /// Adds what is beyond the modes, given what contacts press it with; what is heard of it at once, Pa.
-    pub(super) fn finish(&mut self, pressed: f64) -> Heard {
+    pub(super) fn finish(&mut self, pressed: f64) -> Pressure {
         match self.nonlinear_force.as_mut().filter(|force| force.is_active()) {
             Some(force) => force.finish(&mut self.sound.modal, pressed),
-            None => Heard::default(),
+            None => Pressure::default(),
         }
     }
 
     /// Renders while nothing touches, from sample `from` of what arrives on.
     pub(super) fn ring(
         &mut self,
-        mut out: [&mut [f32]; EARS],
+        mut out: [&mut [f32]; RECEIVERS],
         incident: Option<IncidentPressure<'_>>,
         from: usize,
     ) {
@@ -256,7 +258,7 @@ impl StruckBody {
     }
 
     /// Coupling of a place with the nonlinear force; 0 without one.
-    pub(super) fn coupling(&self, port: &Port) -> f64 {
+    pub(super) fn coupling(&self, port: &InputVector) -> f64 {
         self.nonlinear_force.as_ref().map_or(0.0, |force| force.coupling(&self.sound.modal, port))
     }
 
@@ -279,7 +281,7 @@ impl StruckBody {
     /// nothing.
     pub(super) fn settle(&mut self, left_alone: bool) {
         match left_alone {
-            true => self.sound.modal.flush_faint(&self.inaudible),
+            true => self.sound.modal.flush_inaudible(&self.inaudible),
             false => self.sound.modal.flush_quiet(),
         }
         self.nonlinear_force.iter_mut().for_each(NonlinearForce::settle);

@@ -9,12 +9,12 @@
 //! beyond this equilibrium, and only what a force is beyond the preload acts.
 
 use crate::contact::{ContactLaw, ContactStep, Material};
-use crate::modal::{Heard, Port};
+use crate::modal::{InputVector, Pressure};
 use crate::stick::Stick;
 use crate::strike::{Across, Striker, StrikerSpec};
 
+use super::local_compliance::BANDS;
 use super::oscillator::Oscillator;
-use super::patch::BANDS;
 
 /// Oscillators of one exciter: two of a rigid stick, three of its bending.
 pub const PARTS: usize = 5;
@@ -39,9 +39,9 @@ pub struct ContactPoint {
     /// By which law.
     pub law: ContactLaw,
     /// Where it touches.
-    pub port: Port,
+    pub port: InputVector,
     /// Pressure at the pickup at once per unit force, Pa/N.
-    pub direct: Heard,
+    pub direct: Pressure,
     /// How much it feels of each part of its exciter: shares.
     pub weights: [f64; PARTS],
     /// The head right under it, so many bands of it.
@@ -78,8 +78,8 @@ impl ContactPoint {
             present: false,
             ground: Ground::Body,
             law: ContactLaw::new(&spec.tip, &Material::FILM, spec.restitution),
-            port: Port::new(modes),
-            direct: Heard::default(),
+            port: InputVector::new(modes),
+            direct: Pressure::default(),
             weights: [0.0; PARTS],
             bands: [Oscillator::free(1.0, dt); BANDS],
             band_count: 0,

@@ -14,8 +14,8 @@
 
 use std::f64::consts::PI;
 
-use crate::air::DENSITY;
-use crate::modal::{EARS, Heard, ModalBody, Pickup, Port};
+use crate::air_load::DENSITY;
+use crate::modal::{InputVector, ModalBody, Pressure, RECEIVERS, ReceiverWeights};
 
 /// Pressure over the samples of a run, Pa.
 pub type IncidentPressure<'a> = &'a [f32];
@@ -25,17 +25,17 @@ pub const AUDIBLE: f32 = 0.02;
 
 /// What the air presses on, and what follows from it.
 pub(super) struct AirLoad {
-    port: Port,
+    port: InputVector,
     /// Share of each mode's sound that goes all around.
     shares: Vec<f32>,
     /// Pressure heard at once per unit of pressure felt.
-    direct: Heard,
+    direct: Pressure,
 }
 
 impl AirLoad {
     /// For so many modes, none of which the air presses on yet. Allocates.
     pub(super) fn new(modes: usize) -> AirLoad {
-        AirLoad { port: Port::new(modes), shares: vec![0.0; modes], direct: [0.0; EARS] }
+        AirLoad { port: InputVector::new(modes), shares: vec![0.0; modes], direct: [0.0; RECEIVERS] }
     }
 
     /// Volume by which each mode makes the drum smaller, per modal displacement, m2, and the share of its sound that goes
@@ -48,23 +48,23 @@ impl AirLoad {
     }
 
     /// Works out what other pieces hear.
-    pub(super) fn send(&self, receiver: &mut Pickup) {
+    pub(super) fn send(&self, receiver: &mut ReceiverWeights) {
         for (k, share) in self.shares.iter().enumerate() {
             let far = receiver.transfer_mut(1)[k];
             let (volume, left) = (f64::from(self.port.shape()[k]), 1.0 - f64::from(*share));
-            receiver.transfer_mut(EARS - 1)[k] =
+            receiver.transfer_mut(RECEIVERS - 1)[k] =
                 [left * far[0] - DENSITY * volume / (4.0 * PI), left * far[1]];
         }
     }
 
     /// Follows the modes.
-    pub(super) fn follow(&mut self, body: &ModalBody, receiver: &Pickup) {
+    pub(super) fn follow(&mut self, body: &ModalBody, receiver: &ReceiverWeights) {
         body.connect(&mut self.port);
         self.direct = receiver.direct_at(body, &self.port);
     }
 
     /// Where the air presses.
-    pub(super) fn port(&self) -> &Port {
+    pub(super) fn port(&self) -> &InputVector {
         &self.port
     }
 
@@ -73,13 +73,13 @@ impl AirLoad {
         &'a self,
         incident: IncidentPressure<'a>,
         from: usize,
-    ) -> Option<(&'a Port, &'a [f32])> {
+    ) -> Option<(&'a InputVector, &'a [f32])> {
         let pressures = &incident[from..];
         pressures.iter().any(|&p| p != 0.0).then_some((&self.port, pressures))
     }
 
     /// What is heard at once of a pressure.
-    pub(super) fn echo(&self, pressure: f32) -> Heard {
+    pub(super) fn echo(&self, pressure: f32) -> Pressure {
         self.direct.map(|direct| direct * pressure)
     }
 }

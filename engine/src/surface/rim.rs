@@ -1,7 +1,7 @@
 //! The [rim](Rim) as an attachment: a modal body of its own that the shafts of sticks meet.
 
 use crate::modal::simd::MAX_RUN;
-use crate::modal::{EARS, Heard, Mode};
+use crate::modal::{Mode, Pressure, RECEIVERS};
 use crate::rim::Rim;
 
 use super::attachment::{Attachment, Site};
@@ -50,16 +50,16 @@ impl Attachment for AttachedRim {
         self.sound.modal.step();
     }
 
-    fn listen(&self) -> Heard {
+    fn listen(&self) -> Pressure {
         self.sound.listen()
     }
 
-    fn ring(&mut self, out: [&mut [f32]; EARS], from: usize) {
+    fn ring(&mut self, out: [&mut [f32]; RECEIVERS], from: usize) {
         if self.sound.modal.is_still() {
             return;
         }
         let samples = out[0].len() - from;
-        let mut heard = [[0.0; MAX_RUN]; EARS];
+        let mut heard = [[0.0; MAX_RUN]; RECEIVERS];
         let rows = heard.each_mut().map(|row| &mut row[..samples]);
         self.sound.modal.ring(0, &self.sound.receiver, rows);
         for (out, heard) in out.into_iter().zip(&heard) {

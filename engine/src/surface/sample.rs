@@ -1,6 +1,6 @@
 //! One sample with something touching: everything steps freely, then all forces are found together.
 
-use crate::modal::Heard;
+use crate::modal::Pressure;
 
 use super::Surface;
 use super::attachment::Attachment;
@@ -73,7 +73,7 @@ impl Surface {
     }
 
     /// One sample with something about; which of the run, and what arrives over it.
-    pub(super) fn step(&mut self, sample: usize, incident: Option<IncidentPressure<'_>>) -> Heard {
+    pub(super) fn step(&mut self, sample: usize, incident: Option<IncidentPressure<'_>>) -> Pressure {
         let free = self.body.step(sample, incident);
         self.contacts.stiffen(&self.body, &free);
         for attachment in &mut self.attachments {
@@ -115,7 +115,7 @@ impl Surface {
     }
 
     /// Applies the forces that were found; what is heard at once, Pa, `direct` included.
-    fn push(&mut self, sample: usize, mut direct: Heard) -> Heard {
+    fn push(&mut self, sample: usize, mut direct: Pressure) -> Pressure {
         let Surface { body, contacts, attachments, observers, .. } = self;
         let mut pressed = 0.0;
         for n in 0..contacts.present().len() {
@@ -152,7 +152,7 @@ impl Surface {
     }
 
     /// Ends the sample; what is heard, Pa.
-    fn finish(&mut self, free: &FreeStep, direct: Heard) -> Heard {
+    fn finish(&mut self, free: &FreeStep, direct: Pressure) -> Pressure {
         let Surface { contacts, attachments, .. } = self;
         for n in 0..contacts.present().len() {
             let i = contacts.present()[n];
@@ -164,7 +164,7 @@ impl Surface {
             }
             contacts.points[i].finish(others);
         }
-        let mut after = Heard::default();
+        let mut after = Pressure::default();
         for attachment in attachments {
             add(&mut after, attachment.finish(contacts, free));
         }

@@ -176,7 +176,7 @@ mod tests {
     use crate::build_context::BuildOptions;
     use crate::drum::Drum;
     use crate::instrument::Instrument as _;
-    use crate::modal::EARS;
+    use crate::modal::RECEIVERS;
     use crate::reference;
     use crate::strike::Striker;
 
@@ -189,7 +189,7 @@ mod tests {
             let mut drum = Drum::new(build.spec.drum().unwrap(), &context).unwrap();
             for speed in [1.5, 3.0, 5.0] {
                 drum.strike(&Strike { speed, radius: 0.3, angle: 0.0, striker: Striker::Stick });
-                let mut out = [[0.0; 32]; EARS];
+                let mut out = [[0.0; 32]; RECEIVERS];
                 (0..32).for_each(|_| {
                     let ears = out.each_mut().map(|ear| &mut ear[..]);
                     drum.surface_mut().render_in_air(ears, None);

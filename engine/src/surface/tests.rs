@@ -4,7 +4,7 @@ use super::attachment::{Attachment, Site};
 use super::body::{FreeStep, StruckBody};
 use super::contacts::Contacts;
 use super::*;
-use crate::modal::{Heard, Port};
+use crate::modal::{InputVector, Pressure};
 use crate::piece::Member;
 use crate::shapes::ShapeIndex;
 use crate::strike::{Strike, Striker};
@@ -23,13 +23,13 @@ fn surface() -> Surface {
 }
 
 fn run(surface: &mut Surface, samples: usize) {
-    let mut out = [[0.0; 32]; EARS];
+    let mut out = [[0.0; 32]; RECEIVERS];
     surface.render_in_air(out.each_mut().map(|row| &mut row[..samples]), None);
 }
 
 /// Pulls the body up by a steady force, N, while it is engaged; notes what it is asked.
 struct Pull {
-    port: Port,
+    port: InputVector,
     force: f32,
     engaged: bool,
     asked: Vec<&'static str>,
@@ -37,7 +37,7 @@ struct Pull {
 
 impl Pull {
     fn new(force: f32) -> Pull {
-        let mut port = Port::new(1);
+        let mut port = InputVector::new(1);
         port.shape_mut()[0] = 1.0;
         Pull { port, force, engaged: false, asked: Vec::new() }
     }
@@ -72,15 +72,15 @@ impl Attachment for Pull {
         self.asked.push("push");
     }
 
-    fn press(&mut self, body: &mut StruckBody) -> (f64, Heard) {
+    fn press(&mut self, body: &mut StruckBody) -> (f64, Pressure) {
         self.asked.push("press");
         body.modal_mut().push(&self.port, -self.force);
-        (0.0, Heard::default())
+        (0.0, Pressure::default())
     }
 
-    fn finish(&mut self, _contacts: &Contacts, _free: &FreeStep) -> Heard {
+    fn finish(&mut self, _contacts: &Contacts, _free: &FreeStep) -> Pressure {
         self.asked.push("finish");
-        Heard::default()
+        Pressure::default()
     }
 
     fn is_engaged(&self) -> bool {

@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::contact::{ContactLaw, Material, Tip};
 use crate::fitted;
-use crate::modal::Heard;
+use crate::modal::Pressure;
 use crate::numbers::{Numbers, Visitor};
 use crate::shapes::ShapeTable;
 use crate::snapshot::WireSnapshot;
@@ -24,8 +24,8 @@ use super::attachment::{Attachment, Site};
 use super::body::FreeStep;
 use super::contacts::{Contacts, owner};
 use super::exciter::{ContactPoint, Exciter, Ground};
+use super::local_compliance::LocalHeadCompliance;
 use super::oscillator::Oscillator;
-use super::patch::Film;
 
 /// Groups of strands.
 pub const GROUPS: usize = 8;
@@ -102,7 +102,7 @@ pub struct SnareWires {
     /// The law of every group.
     law: ContactLaw,
     /// The head right under a group.
-    head: Option<Film>,
+    head: Option<LocalHeadCompliance>,
     /// Place of the first group's point among the contacts.
     first: usize,
     spec: WiresSpec,
@@ -169,7 +169,7 @@ impl SnareWires {
     ///
     /// # Real-time
     /// Linear in the number of modes.
-    pub fn lay(&mut self, head: Option<Film>, far: &ShapeTable, site: Site<'_>) {
+    pub fn lay(&mut self, head: Option<LocalHeadCompliance>, far: &ShapeTable, site: Site<'_>) {
         let Site { body, contacts, observers } = site;
         self.head = head;
         let disc = head.map_or(0.0, |film| PATCH / film.radius);
@@ -264,7 +264,7 @@ impl Attachment for SnareWires {
         self.count = Landings::default();
     }
 
-    fn finish(&mut self, contacts: &Contacts, _free: &FreeStep) -> Heard {
+    fn finish(&mut self, contacts: &Contacts, _free: &FreeStep) -> Pressure {
         for point in contacts.points[self.points()].iter().filter(|point| point.present) {
             match (point.touched, point.touching) {
                 (false, true) => self.count.landings = self.count.landings.saturating_add(1),
@@ -273,7 +273,7 @@ impl Attachment for SnareWires {
             }
         }
         self.count.age += 1;
-        Heard::default()
+        Pressure::default()
     }
 
     fn energy(&self, contacts: &Contacts) -> f64 {

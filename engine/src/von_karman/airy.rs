@@ -18,7 +18,7 @@ use crate::modal::simd::polar::SLOTS;
 use crate::plate::dome::curvature_overlap;
 use crate::plate::edges::clamped_modes;
 use crate::plate::radial::RadialMode;
-use crate::plate::uneven::{Section, StressModes, stiffness_unit};
+use crate::plate::thickness_taper::{Section, StressModes, stiffness_unit};
 use crate::plate::{PlateModes, PlateTables, ShellMode};
 
 /// Airy functions of one order, ascending by wave number, which may be none.

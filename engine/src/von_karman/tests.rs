@@ -3,7 +3,7 @@ use std::f64::consts::TAU;
 use super::oracle::{Oracle, wash};
 use super::reference::{Dense, Modes};
 use super::*;
-use crate::modal::{ModalBody, Mode, Pickup};
+use crate::modal::{ModalBody, Mode, ReceiverWeights};
 use crate::plate::PlateSpec;
 use crate::potential::NonlinearForce;
 use crate::reference::{cap_crash, cap_ride, cap_splash, cymbal};
@@ -152,7 +152,7 @@ fn both_schemes(size: f64, seconds: f64, rate: f64, stride: u32) -> (Vec<f64>, V
     let body_modes: Vec<Mode> =
         omegas.iter().map(|&omega| Mode { omega, sigma: 0.0, mass: plate.spec.mass }).collect();
     let mut body = ModalBody::new(body_modes, rate);
-    let mut pickup = Pickup::new(vec![[0.0; 2]; modes]);
+    let mut pickup = ReceiverWeights::new(vec![[0.0; 2]; modes]);
     body.tune(&mut pickup);
     let potential = Box::new(VonKarman::new(&plate, &tables, &pairs));
     let mut force = NonlinearForce::new(potential, modes, stride, (&body, &pickup), rate);

@@ -4,8 +4,8 @@ use anyhow::Result;
 use overhear_engine::strike::Striker;
 use serde::Serialize;
 
-use super::ears::Ear;
 use super::features::{Feature, Features};
+use super::recording_chain::RecordingChain;
 use super::reference::{self, Figure};
 use super::request::Request;
 use super::subject::Subject;
@@ -30,7 +30,7 @@ pub struct PieceReport {
     /// Name of the piece.
     pub piece: &'static str,
     /// Its recording chain.
-    pub heard: Ear,
+    pub heard: RecordingChain,
     /// Name of the striker.
     pub striker: &'static str,
     /// Places, shares of the radius.
@@ -143,7 +143,7 @@ impl PieceReport {
     /// Sets a piece's strokes with a striker, `[speed][place]`, beside the recordings; speeds are in m/s.
     pub fn new(
         (subject, striker): (&Subject, Striker),
-        heard: Ear,
+        heard: RecordingChain,
         speeds: &[f64],
         strokes: &[Vec<Stroke>],
     ) -> PieceReport {
@@ -192,7 +192,7 @@ impl Report {
             let striker = subject.strike(&request.kit, subject.slot(&request.kit)?).striker;
             let (own, others) = rest.split_at(rest.len().min(speeds.len() * subject.places.len()));
             rest = others;
-            for (ear, heard) in Ear::ALL.into_iter().enumerate() {
+            for (ear, heard) in RecordingChain::ALL.into_iter().enumerate() {
                 let by_speed = own.chunks(subject.places.len());
                 let heard_so = |places: &[[Stroke; 2]]| places.iter().map(|both| both[ear].clone()).collect();
                 let strokes: Vec<Vec<Stroke>> = by_speed.map(heard_so).collect();
@@ -203,7 +203,7 @@ impl Report {
     }
 
     /// Sum of a count over all pieces as one ear hears them.
-    pub fn all(&self, heard: Ear, count: fn(&PieceReport) -> Count) -> Count {
+    pub fn all(&self, heard: RecordingChain, count: fn(&PieceReport) -> Count) -> Count {
         let pieces = self.pieces.iter().filter(|piece| piece.heard == heard);
         pieces.map(count).fold(Count::default(), Count::add)
     }
@@ -243,7 +243,8 @@ mod tests {
     #[test]
     fn what_is_missing_is_outside_and_what_is_in_range_inside() {
         let strokes = [vec![stroke(-20.0, 355.0)], vec![stroke(-10.0, 3550.0)]];
-        let report = PieceReport::new((&SUBJECTS[2], Striker::Stick), Ear::Close, &[1.5, 5.0], &strokes);
+        let report =
+            PieceReport::new((&SUBJECTS[2], Striker::Stick), RecordingChain::Close, &[1.5, 5.0], &strokes);
         let row = |key: &str| report.features.iter().find(|row| row.feature == key).unwrap();
         assert_eq!(row("attack_ms").inside, [true, true]);
         assert_eq!(row("centroid_0_50_ms_hz").inside, [true, false]);

@@ -9,7 +9,7 @@ use crate::settings::Setting;
 
 use super::subject::Subject;
 
-/// What to measure.
+/// Request for a measurement.
 #[derive(Debug, Clone)]
 pub struct Request {
     /// The pieces, as they were recorded.
@@ -20,14 +20,14 @@ pub struct Request {
     pub kit: KitDocument,
     /// Parameters that are not at their default.
     pub settings: Vec<Setting>,
-    /// Whether the kit is bounced or played, which is what its cymbals' quality goes by.
+    /// Whether the kit is bounced or played live; this selects the quality of its cymbals.
     pub pace: Pace,
 }
 
 /// One stroke of a subject.
 #[derive(Debug, Clone, Copy)]
 pub struct Job {
-    /// What is struck.
+    /// The struck subjects.
     pub subject: Subject,
     /// Its slot.
     pub slot: Slot,

@@ -59,7 +59,7 @@ impl Subject {
     /// Position of the pedal of a slot, from 0 (up) to 1 (down).
     pub fn pedal(&self, document: &KitDocument, slot: Slot) -> Option<f64> {
         match document.notes.foot(self.note?)? {
-            (moved, Foot::Brought(pedal)) if moved == slot => Some(pedal),
+            (moved, Foot::Position(pedal)) if moved == slot => Some(pedal),
             _ => None,
         }
     }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::Ear;
+use super::RecordingChain;
 use super::report::{Count, PieceReport, Report, Row};
 
 impl fmt::Display for Report {
@@ -16,7 +16,7 @@ impl fmt::Display for Report {
             "[a .. b]  10-90 % of real kits        (a .. b)  near the median of real kits; their range is unknown"
         )?;
         writeln!(f, "< > outside        - cannot be measured; counts as outside")?;
-        for heard in Ear::ALL {
+        for heard in RecordingChain::ALL {
             self.write_shares(f, heard)?;
         }
         Ok(())
@@ -24,7 +24,7 @@ impl fmt::Display for Report {
 }
 
 impl Report {
-    fn write_shares(&self, f: &mut fmt::Formatter, heard: Ear) -> fmt::Result {
+    fn write_shares(&self, f: &mut fmt::Formatter, heard: RecordingChain) -> fmt::Result {
         let all = |f: &mut fmt::Formatter, name: &str, [ranges, medians, firm]: [Count; 3], goal: &str| {
             let [ranges, medians, firm] = [ranges, medians, firm].map(share);
             writeln!(f, "{name:<14}{ranges:>22}{medians:>22}{firm:>24}  {goal}")

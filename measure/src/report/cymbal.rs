@@ -315,13 +315,13 @@ fn shortcuts(sheet: &mut Sheet, Body(crash, on): &Body) {
         });
     };
     left_out("resting the coupling against never resting, .02 to .3 m/s", 3.0, [0.02, 0.1, 0.3], |piece| {
-        piece.surface_mut().beyond_mut().into_iter().for_each(|force| force.set_negligible(0.0));
+        piece.surface_mut().nonlinear_force_mut().into_iter().for_each(|force| force.set_negligible(0.0));
     });
     left_out(
         "one evaluation for two while the stretching is weak, .3 to 2 m/s",
         1.5,
         [0.3, 1.0, 2.0],
-        |piece| piece.surface_mut().beyond_mut().into_iter().for_each(|force| force.set_weak(0.0)),
+        |piece| piece.surface_mut().nonlinear_force_mut().into_iter().for_each(|force| force.set_weak(0.0)),
     );
 }
 

@@ -3,7 +3,7 @@
 use crate::{Chance, kit, slot, standard, stroke};
 use anyhow::{Context, Result};
 use overhear::kit_document::KitDocument;
-use overhear_engine::air::SPEED_OF_SOUND;
+use overhear_engine::air_load::SPEED_OF_SOUND;
 use overhear_engine::kit::{BLOCK, Control, Kit};
 use overhear_engine::kit_spec::{KitSpec, PieceSpec};
 use overhear_engine::piece::Piece;
@@ -75,9 +75,10 @@ fn wires(sheet: &mut Sheet, kit: &mut Kit) {
         source: EARLIER,
         met: Some(near.into_iter().all(|near| near) && counts[0] < counts[1] && counts[1] < counts[2]),
     });
-    for (what, control) in
-        [("pieces deaf", Control::Hearing), ("wires thrown off", Control::Wires(slot("snare")))]
-    {
+    for (what, control) in [
+        ("pieces uncoupled", Control::SympatheticCoupling),
+        ("wires thrown off", Control::Wires(slot("snare"))),
+    ] {
         kit.set(control, 0.0);
         kit.finish_controls();
         let count = landings(kit, 6.0, 0.2);
@@ -198,7 +199,7 @@ fn storm(sheet: &mut Sheet, kit: &mut Kit) {
 
 fn delays(sheet: &mut Sheet) -> Result<()> {
     let (spec, layout) = (standard(), standard().layout());
-    let way = |from: Slot, to: Slot| layout.way(from, to).filter(|_| from != to);
+    let way = |from: Slot, to: Slot| layout.path_length(from, to).filter(|_| from != to);
     let drums: Vec<Slot> = spec.drums().map(|(slot, _)| slot).collect();
     let pairs = drums.iter().flat_map(|&from| drums.iter().map(move |&to| (from, to)));
     let ways = pairs.filter_map(|(from, to)| Some((way(from, to)?, [from, to])));

@@ -11,7 +11,7 @@ use anyhow::Result;
 use overhear_engine::contact::Material;
 use overhear_engine::damping::LossLaw;
 use overhear_engine::membrane::{Membrane, MembraneSpec, ModeRange, Surroundings, vacuum_tension};
-use overhear_engine::modal::{ModalBody, Mode, Port};
+use overhear_engine::modal::{InputVector, ModalBody, Mode};
 use overhear_engine::piece::{Member, ModeInfo, ModeKind, Piece};
 use overhear_engine::shapes::{ShapeIndex, ShapeTable};
 use overhear_engine::strike::Striker;
@@ -135,7 +135,7 @@ const LOOK: usize = 2048;
 
 /// One mode of a piece left to ring, against what the piece says of it.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Rung {
+pub struct ModeAtPitch {
     /// Frequency error, cents.
     pub off: f64,
     /// Error of the decay rate, 1/s.
@@ -150,13 +150,13 @@ struct Phase {
     hz: f64,
     start: (f64, f64),
     gained: f64,
-    rung: Rung,
+    rung: ModeAtPitch,
 }
 
 impl Phase {
     /// From now on; nothing for a mode at rest.
     fn new(body: &ModalBody, mode: usize, hz: f64) -> Option<Phase> {
-        state(body, mode).map(|start| Phase { mode, hz, start, gained: 0.0, rung: Rung::default() })
+        state(body, mode).map(|start| Phase { mode, hz, start, gained: 0.0, rung: ModeAtPitch::default() })
     }
 
     /// Where it is after `time` s.
@@ -166,7 +166,7 @@ impl Phase {
         let angle = TAU * self.hz * time;
         let off = q.atan2(p) - q0.atan2(p0) - angle - self.gained;
         self.gained += off - TAU * (off / TAU).round();
-        self.rung = Rung {
+        self.rung = ModeAtPitch {
             off: cents(1.0 + self.gained / angle, 1.0),
             sigma: (p0.hypot(q0) / p.hypot(q)).ln() / time,
             turns: angle / TAU,
@@ -184,7 +184,7 @@ fn state(body: &ModalBody, k: usize) -> Option<(f64, f64)> {
 /// Sets every mode in motion, about equally strongly.
 fn push_all(body: &mut ModalBody) {
     let count = body.len();
-    let mut port = Port::new(count);
+    let mut port = InputVector::new(count);
     port.shape_mut()[..count].fill(1.0);
     body.connect(&mut port);
     body.push(&port, 100.0);
@@ -199,7 +199,7 @@ pub fn body_modes(piece: &Piece) -> Vec<ModeInfo> {
 
 /// Strikes every mode of a piece and follows its phase and size while the piece renders for `seconds`:
 /// each mode that moved, and what it did.
-pub fn follow(piece: &mut Piece, seconds: f64) -> Vec<(ModeInfo, Rung)> {
+pub fn follow(piece: &mut Piece, seconds: f64) -> Vec<(ModeInfo, ModeAtPitch)> {
     let modes = body_modes(piece);
     let body = piece.surface_mut().body_mut();
     push_all(body);
@@ -229,7 +229,7 @@ fn worst_ringing() -> (f64, f64) {
 }
 
 /// Share by which a mode decayed faster than it was said to.
-pub fn decay_error(mode: &ModeInfo, rung: &Rung) -> f64 {
+pub fn decay_error(mode: &ModeInfo, rung: &ModeAtPitch) -> f64 {
     rung.sigma * mode.t60 / 1000.0_f64.ln() - 1.0
 }
 
@@ -238,7 +238,7 @@ pub fn worst_deflection(name: &str) -> f64 {
     const FORCE: f64 = 3.0;
     let mut piece = piece(name, RATE);
     let surface = piece.surface_mut();
-    let mut port = Port::new(surface.body().len());
+    let mut port = InputVector::new(surface.body().len());
     surface.shapes().fill(0.37, 0.8, port.shape_mut());
     let body = surface.body_mut();
     body.connect(&mut port);

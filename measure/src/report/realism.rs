@@ -14,7 +14,7 @@ use super::plot::{Axis, Line, Plot};
 use super::{Claim, Page, Sheet};
 use crate::picture;
 use crate::realism::reference::SLOPE_WITHIN;
-use crate::realism::{self, Count, Ear, PieceReport, RATE, Report, SPEEDS, SUBJECTS, Subject};
+use crate::realism::{self, Count, PieceReport, RATE, RecordingChain, Report, SPEEDS, SUBJECTS, Subject};
 
 /// Source of the figures of recordings.
 const RECORDINGS: &str = "3,123 recorded strokes";
@@ -60,7 +60,7 @@ pub fn page() -> Result<Page> {
     for (report, how) in [(&report, "bounced"), (&live, "played live")] {
         brightening(&mut sheet, report, how);
     }
-    for heard in Ear::ALL {
+    for heard in RecordingChain::ALL {
         let [ranges, medians] =
             [report.all(heard, |piece| piece.ranges), report.all(heard, |piece| piece.medians)];
         for (what, count) in [("in the range of recordings", ranges), ("near their median", medians)] {
@@ -86,7 +86,7 @@ pub fn page() -> Result<Page> {
 
 /// Claims: how many figures lie where recordings have them.
 fn shares(sheet: &mut Sheet, report: &Report, how: &str) {
-    for heard in Ear::ALL {
+    for heard in RecordingChain::ALL {
         for piece in report.pieces.iter().filter(|piece| piece.heard == heard) {
             let (share, goal) = (piece.firm.share(), heard.goal());
             sheet.claim(Claim {
@@ -201,7 +201,7 @@ fn short(value: f64) -> String {
 
 /// Decay times at the first and the last speed and of recordings, by octave.
 fn decays(report: &Report, name: &str) -> Vec<Line> {
-    let in_mix = |piece: &&PieceReport| piece.piece == name && piece.heard == Ear::Mix;
+    let in_mix = |piece: &&PieceReport| piece.piece == name && piece.heard == RecordingChain::Mix;
     let Some(piece) = report.pieces.iter().find(in_mix) else { return Vec::new() };
     let octaves = [125.0, 500.0, 1000.0, 2000.0, 4000.0, 8000.0];
     let row = |hz: f64| piece.features.iter().find(|row| row.feature == format!("t60_{hz}_hz_s"));

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crossbeam::queue::ArrayQueue;
-use overhear_engine::kit::Crew;
+use overhear_engine::kit::RenderWorkers;
 use overhear_engine::piece::Piece;
 use overhear_engine::slot::{SLOTS, Slot};
 
@@ -43,7 +43,7 @@ pub(super) struct Sent {
 /// Who is to render beside the audio thread, if anybody.
 pub(super) struct Hired {
     pub(super) order: u32,
-    pub(super) crew: Option<Box<dyn Crew>>,
+    pub(super) crew: Option<Box<dyn RenderWorkers>>,
 }
 
 /// The queues of one builder.
@@ -54,7 +54,7 @@ pub(super) struct Queues {
     put_away: ArrayQueue<Setup>,
     /// Workers on their way to the kit, one change at a time, and those that it has dismissed.
     pub(super) hired: ArrayQueue<Hired>,
-    dismissed: ArrayQueue<Box<dyn Crew>>,
+    dismissed: ArrayQueue<Box<dyn RenderWorkers>>,
 }
 
 impl Queues {
@@ -132,13 +132,16 @@ impl Delivery {
         true
     }
 
-    /// Hands who is to render, if that has changed, to `hire` and sends back who did so far.
+    /// Hands who is to render, if that has changed, to `attach` and sends back who did so far.
     ///
     /// # Real-time
     /// No allocation, no lock, nothing dropped.
-    pub fn take_crew(&self, hire: impl FnOnce(Option<Box<dyn Crew>>) -> Option<Box<dyn Crew>>) {
+    pub fn take_workers(
+        &self,
+        attach: impl FnOnce(Option<Box<dyn RenderWorkers>>) -> Option<Box<dyn RenderWorkers>>,
+    ) {
         let Some(Hired { order, crew }) = self.queues.hired.pop() else { return };
-        let free = if order == self.order { hire(crew) } else { crew };
+        let free = if order == self.order { attach(crew) } else { crew };
         if let Some(Err(homeless)) = free.map(|crew| self.queues.dismissed.push(crew)) {
             // As for pieces.
             std::mem::forget(homeless);

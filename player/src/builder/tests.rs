@@ -6,7 +6,7 @@ use crate::deadline::Deadlines;
 use crate::kit_document::standard_slot;
 use crate::midi_map::NoteTable;
 use crate::parameters::parameters;
-use overhear_engine::kit::Crew;
+use overhear_engine::kit::RenderWorkers;
 use overhear_engine::kit_spec::InstrumentSpec;
 
 const RATE: f64 = 48_000.0;
@@ -331,12 +331,12 @@ fn workers_come_when_they_are_wanted_and_go_when_not() {
     let mut builder = with(quick, Arc::new(wanted));
     let mut delivery = ordered(&mut builder, RATE);
     assert_eq!(builder.wait(LONG), Outcome::Finished);
-    delivery.take_crew(|_| unreachable!("nobody was wanted"));
-    let hired = |wanted: bool, former: Option<Box<dyn Crew>>| {
+    delivery.take_workers(|_| unreachable!("nobody was wanted"));
+    let hired = |wanted: bool, former: Option<Box<dyn RenderWorkers>>| {
         WANTED.store(wanted, Ordering::Relaxed);
         assert_eq!(builder.wait(LONG), Outcome::Finished);
         let mut present = None;
-        delivery.take_crew(|crew| {
+        delivery.take_workers(|crew| {
             present = crew;
             former
         });

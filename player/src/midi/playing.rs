@@ -263,7 +263,7 @@ impl Playing {
         let (slot, foot) = self.document.notes.foot(self.reference(note).filter(|_| heard)?)?;
         let speed = FOOT.0 * libm::pow(FOOT.1 / FOOT.0, f64::from(velocity.min(1.0)));
         Some((slot, foot, speed))
-            .filter(|_| !(self.state.pedal.is_some() && matches!(foot, Foot::Brought(_))))
+            .filter(|_| !(self.state.pedal.is_some() && matches!(foot, Foot::Position(_))))
     }
 
     /// Where a controller brings the pedals of all hi-hats, 0 (up) to 1 (down), if it is the one for that; from then on

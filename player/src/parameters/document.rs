@@ -102,7 +102,7 @@ pub fn about(parameter: &Parameter) -> &'static str {
         Drives::Control(Balance(_)) => "Balance of the pair of microphones, left to right.",
         Drives::Control(Mute(_)) => "Mutes the microphone.",
         Drives::Control(Solo(_)) => "If any microphone has solo, only those with solo are in the mix.",
-        Drives::Control(Hearing) => "Whether the drums respond to the sound of the other pieces.",
+        Drives::Control(SympatheticCoupling) => "Whether the drums respond to the sound of the other pieces.",
         Drives::Control(Sympathy) => "Share of the other pieces' sound that reaches the drums.",
         Drives::Control(SafetyClip) => "Clips softly what exceeds full scale; the samples are counted.",
         Drives::Control(Master) => "Level of the mix.",

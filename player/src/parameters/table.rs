@@ -105,7 +105,7 @@ pub static TABLE: [Parameter; GLOBALS] = [
     microphones("cllevl", "close_level", "Close", 0.0, Control::CloseLevel),
     microphones("ohlevl", "overheads_level", "Overheads", 0.0, OVERHEADS),
     microphones("rmlevl", "room_level", "Room", -9.0, ROOM),
-    switch("hear", "sympathetic_resonance", "Sympathetic resonance", 1.0, Control::Hearing),
+    switch("hear", "sympathetic_resonance", "Sympathetic resonance", 1.0, Control::SympatheticCoupling),
     Parameter {
         id: "sympat",
         name: "sympathetic_amount",

@@ -57,7 +57,7 @@ fn on_a_worker() -> bool {
 fn a_worker_that_sleeps_is_waited_for_until_the_deadline_once_and_then_not_again() {
     static CLAIMED: AtomicUsize = AtomicUsize::new(0);
     static RELEASED: AtomicBool = AtomicBool::new(false);
-    let sleepy = |post: &mut Post| {
+    let sleepy = |post: &mut RenderJob| {
         if on_a_worker() {
             CLAIMED.fetch_add(1, Ordering::SeqCst);
             while !RELEASED.load(Ordering::SeqCst) {
@@ -74,7 +74,7 @@ fn a_worker_that_sleeps_is_waited_for_until_the_deadline_once_and_then_not_again
     let clock = Arc::new(Counting { asked: AtomicU64::new(0), allowed: 1_000 });
     let workers = Workers::new(1, Patience::RealTime, sleepy).unwrap().until(clock.clone());
     let mut kit = struck();
-    assert!(kit.hire(Some(Box::new(workers))).is_none());
+    assert!(kit.attach(Some(Box::new(workers))).is_none());
     let asked = || clock.asked.load(Ordering::Relaxed);
 
     let (_, missed) = rendered(&mut kit);
@@ -105,9 +105,9 @@ fn a_deadline_that_has_passed_changes_no_bit_if_every_job_is_back() {
         }
     }
     // Without threads the audio thread takes every job back from the queue.
-    let workers = Workers::new(0, Patience::RealTime, Post::render).unwrap().until(Arc::new(Over));
+    let workers = Workers::new(0, Patience::RealTime, RenderJob::render).unwrap().until(Arc::new(Over));
     let (mut kit, mut alone) = (struck(), struck());
-    assert!(kit.hire(Some(Box::new(workers))).is_none());
+    assert!(kit.attach(Some(Box::new(workers))).is_none());
     for _ in 0..200 {
         let ((sound, missed), (expected, _)) = (rendered(&mut kit), rendered(&mut alone));
         assert_eq!(missed, 0);
@@ -118,7 +118,7 @@ fn a_deadline_that_has_passed_changes_no_bit_if_every_job_is_back() {
 #[test]
 fn whoever_renders_a_file_has_no_deadline() {
     static RENDERED: AtomicUsize = AtomicUsize::new(0);
-    let slow = |post: &mut Post| {
+    let slow = |post: &mut RenderJob| {
         if on_a_worker() {
             RENDERED.fetch_add(1, Ordering::SeqCst);
             thread::sleep(Duration::from_millis(20));
@@ -132,7 +132,7 @@ fn whoever_renders_a_file_has_no_deadline() {
     let clock = Arc::new(Counting { asked: AtomicU64::new(0), allowed: 1 });
     let workers = Workers::new(1, Patience::Offline, slow).unwrap().until(clock.clone());
     let mut kit = struck();
-    assert!(kit.hire(Some(Box::new(workers))).is_none());
+    assert!(kit.attach(Some(Box::new(workers))).is_none());
     let (_, missed) = rendered(&mut kit);
     assert_eq!((clock.asked.load(Ordering::Relaxed), missed, kit.is_whole()), (0, 0, true));
 }

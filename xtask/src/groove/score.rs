@@ -206,7 +206,7 @@ impl Person {
             _ => return,
         };
         // Cymbals under a crash's force are struck more gently than drums of the same mark.
-        let eased = match key {
+        let softened = match key {
             RIDE => velocity - velocity / 5,
             CRASH => velocity - 8,
             _ => velocity,
@@ -214,7 +214,7 @@ impl Person {
         // A tick is about 1.3 ms.
         let shift = late + self.wobble(4);
         let at = tick.saturating_add_signed(shift);
-        let loud = (eased + self.wobble(7)).clamp(12, 124) as u8;
+        let loud = (softened + self.wobble(7)).clamp(12, 124) as u8;
         if mark == 'f' {
             // The other hand's grace note, about 25 ms ahead.
             let grace = Stroke { tick: at.saturating_sub(21), key, velocity: loud / 3 };

@@ -4,8 +4,8 @@ use crate::contact::ContactLaw;
 use crate::contact::solver::Compliances;
 use crate::hi_hat::rigid::{Rigid, Weights};
 use crate::hi_hat::rim_points::{self, POINTS};
-use crate::modal::simd::folded::{Amplitudes, Folded};
-use crate::modal::{EARS, ModalBody, Pickup};
+use crate::modal::simd::rim_harmonics::{Amplitudes, RimHarmonics};
+use crate::modal::{ModalBody, RECEIVERS, ReceiverWeights};
 
 /// What the pair knows of a striker's point.
 #[derive(Debug, Clone, Copy, Default)]
@@ -25,7 +25,7 @@ pub(crate) struct Dynamics {
     /// `shells` times the preloads, m.
     pub(crate) preload_offset: [f64; POINTS],
     /// Pressure at each ear at once per force amplitude, of both, Pa/N.
-    pub(crate) direct: [[Amplitudes; EARS]; 2],
+    pub(crate) direct: [[Amplitudes; RECEIVERS]; 2],
     /// Coupling of the places with the force beyond the upper cymbal's modes, into it as a place presses.
     pub(crate) coupling: [f64; POINTS],
 }
@@ -34,8 +34,8 @@ impl Dynamics {
     /// Follows the modes of the upper and the lower cymbal, and how they are heard.
     pub(crate) fn follow(
         &mut self,
-        bodies: [(&ModalBody, &Pickup); 2],
-        folded: &[Folded; 2],
+        bodies: [(&ModalBody, &ReceiverWeights); 2],
+        folded: &[RimHarmonics; 2],
         rigid: &[Rigid; 2],
         weights: &[Weights; POINTS],
     ) {

@@ -6,7 +6,7 @@ use crate::contact::static_equilibrium;
 use crate::hi_hat::rigid::{Rigid, Weights};
 use crate::hi_hat::rim_points::{self, POINTS};
 use crate::modal::ModalBody;
-use crate::modal::simd::folded::Folded;
+use crate::modal::simd::rim_harmonics::RimHarmonics;
 
 use super::rest::Rest;
 
@@ -42,7 +42,7 @@ impl Statics {
     pub(crate) fn follow(
         &mut self,
         bodies: [&ModalBody; 2],
-        folded: &[Folded; 2],
+        folded: &[RimHarmonics; 2],
         rigid: &[Rigid; 2],
     ) -> bool {
         let before = self.whole;

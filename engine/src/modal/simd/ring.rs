@@ -33,12 +33,12 @@ pub struct Ring<'a> {
     /// Rotation.
     pub turn_im: &'a [f32],
     /// Where it is heard; all `out` of one length.
-    pub heard: [Heard<'a>; EARS],
+    pub heard: [PressureSum<'a>; RECEIVERS],
 }
 
 /// Points at which a body is heard at once: two that hear all of it, near and far, and one that hears its first modes
 /// alone, as few as its weights are long.
-pub const EARS: usize = 3;
+pub const RECEIVERS: usize = 3;
 
 /// Ears that hear all modes.
 const FULL: usize = 2;
@@ -47,7 +47,7 @@ const FULL: usize = 2;
 pub const REST: usize = GROUPS * LANES;
 
 /// One point at which a body is heard.
-pub struct Heard<'a> {
+pub struct PressureSum<'a> {
     /// What of the state is heard, `[mode]`.
     pub weight_re: &'a [f32],
     /// What of the state is heard, `[mode]`.
@@ -124,7 +124,7 @@ fn ring_all<S: Simd>(
     drives: &[Drive<'_>],
 ) {
     let n = ring.samples();
-    let mut sums = [[simd.splat_f32s(0.0); EARS]; MAX_RUN];
+    let mut sums = [[simd.splat_f32s(0.0); RECEIVERS]; MAX_RUN];
     let state = (S::as_mut_simd_f32s(ring.re).0, S::as_mut_simd_f32s(ring.im).0);
     let rows = RingRows::new(ring.turn_re, ring.turn_im, &ring.heard, drives);
     let groups = state.0.len();
@@ -147,7 +147,7 @@ fn ring_some<S: Simd, const G: usize>(
     first: usize,
     (re, im): (&mut [S::f32s], &mut [S::f32s]),
     rows: &RingRows<'_, S>,
-    sums: &mut [[S::f32s; EARS]],
+    sums: &mut [[S::f32s; RECEIVERS]],
 ) {
     let at = first..first + G;
     let moves = any(simd, &re[at.clone()]) || any(simd, &im[at.clone()]);
@@ -155,9 +155,9 @@ fn ring_some<S: Simd, const G: usize>(
         rows.drives().any(|drive| any(simd, &drive.0[at.clone()]) || any(simd, &drive.1[at.clone()]));
     match (moves || driven, driven, rows.reach_all(first + G)) {
         (false, ..) => {}
-        (_, false, true) => ring_groups::<S, G, EARS, false>(simd, fma, first, (re, im), rows, sums),
+        (_, false, true) => ring_groups::<S, G, RECEIVERS, false>(simd, fma, first, (re, im), rows, sums),
         (_, false, false) => ring_groups::<S, G, FULL, false>(simd, fma, first, (re, im), rows, sums),
-        (_, true, true) => ring_groups::<S, G, EARS, true>(simd, fma, first, (re, im), rows, sums),
+        (_, true, true) => ring_groups::<S, G, RECEIVERS, true>(simd, fma, first, (re, im), rows, sums),
         (_, true, false) => ring_groups::<S, G, FULL, true>(simd, fma, first, (re, im), rows, sums),
     }
 }
@@ -174,7 +174,7 @@ fn any<S: Simd>(simd: S, row: &[S::f32s]) -> bool {
 /// The rows a ring reads.
 struct RingRows<'a, S: Simd> {
     turn: [&'a [S::f32s]; 2],
-    heard: [[&'a [S::f32s]; 2]; EARS],
+    heard: [[&'a [S::f32s]; 2]; RECEIVERS],
     drives: [DriveRows<'a, S>; MAX_DRIVES],
     driven: usize,
 }
@@ -187,11 +187,11 @@ impl<'a, S: Simd> RingRows<'a, S> {
     fn new(
         turn_re: &'a [f32],
         turn_im: &'a [f32],
-        heard: &'a [Heard<'_>; EARS],
+        heard: &'a [PressureSum<'_>; RECEIVERS],
         drives: &'a [Drive<'_>],
     ) -> Self {
         let pair =
-            |heard: &'a Heard<'_>| [heard.weight_re, heard.weight_im].map(|row| S::as_simd_f32s(row).0);
+            |heard: &'a PressureSum<'_>| [heard.weight_re, heard.weight_im].map(|row| S::as_simd_f32s(row).0);
         let mut rows: [DriveRows<'a, S>; MAX_DRIVES] = [(&[], &[], &[]); MAX_DRIVES];
         for (row, drive) in rows.iter_mut().zip(drives) {
             *row = (S::as_simd_f32s(drive.gain_re).0, S::as_simd_f32s(drive.gain_im).0, drive.forces);
@@ -212,13 +212,13 @@ impl<'a, S: Simd> RingRows<'a, S> {
     /// Whether every ear hears groups up to there.
     #[inline(always)]
     fn reach_all(&self, groups: usize) -> bool {
-        groups <= self.heard[EARS - 1][0].len()
+        groups <= self.heard[RECEIVERS - 1][0].len()
     }
 }
 
 /// Adds up the lanes of every sample's sums.
 #[inline(always)]
-fn write_sums<S: Simd>(simd: S, sums: &[[S::f32s; EARS]], heard: &mut [Heard<'_>; EARS]) {
+fn write_sums<S: Simd>(simd: S, sums: &[[S::f32s; RECEIVERS]], heard: &mut [PressureSum<'_>; RECEIVERS]) {
     for (ear, heard) in heard.iter_mut().enumerate() {
         for (out, sum) in heard.out.iter_mut().zip(sums) {
             *out = simd.reduce_sum_f32s(sum[ear]);
@@ -235,7 +235,7 @@ fn ring_groups<S: Simd, const G: usize, const E: usize, const DRIVEN: bool>(
     first: usize,
     (re, im): (&mut [S::f32s], &mut [S::f32s]),
     rows: &RingRows<'_, S>,
-    sums: &mut [[S::f32s; EARS]],
+    sums: &mut [[S::f32s; RECEIVERS]],
 ) {
     let load = |row: &[S::f32s]| -> [S::f32s; G] {
         let row = &row[first..first + G];

@@ -4,11 +4,11 @@ use std::f64::consts::PI;
 
 use crate::spectra::PowerSpectrum;
 use crate::{alone, build, decibels, kit_of, reference, spec, stroke};
-use overhear_engine::air::SPEED_OF_SOUND;
+use overhear_engine::air_load::SPEED_OF_SOUND;
 use overhear_engine::kit::{Control, Microphone, OUTPUTS, Stereo};
 use overhear_engine::kit_spec::PieceSpec;
 use overhear_engine::piece::BuildOptions;
-use overhear_engine::receiver::ListeningPoint;
+use overhear_engine::receiver::ReceiverPosition;
 use overhear_engine::slot::SLOTS;
 use overhear_engine::strike::{Strike, Striker};
 
@@ -50,7 +50,7 @@ pub fn rack_toms() -> [(PieceSpec, &'static str); 2] {
 
 /// A stroke on a drum at every output, the pairs and the close microphone so far (m) from its middle.
 pub fn heard(drum: &PieceSpec, distance: f64, rate: f64) -> Vec<Vec<f32>> {
-    let point = ListeningPoint { distance, inclination: 0.3, azimuth: 0.4 };
+    let point = ReceiverPosition { distance, inclination: 0.3, azimuth: 0.4 };
     let close = drum.close.moved_to(point, drum.instrument.radius());
     let drum = PieceSpec { close, ..drum.clone() };
     let strike = stroke(Striker::Stick, 4.0, 0.5, 0.3);

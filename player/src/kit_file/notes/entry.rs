@@ -67,7 +67,7 @@ impl Entry {
                 let reason = format!("is {}, accepted: {CHICK}, {SPLASH}, or 0 to 1", quoted(&text));
                 return Err(Fault::of(&format!("{path}.foot"), origins, &reason));
             }
-            Some(value) => Some(Foot::Brought(number(&value, "foot")?)),
+            Some(value) => Some(Foot::Position(number(&value, "foot")?)),
             None => None,
         };
         let entry: Entry = typed::read(&Value::Table(own), path, &PEDAL, origins)?;

@@ -31,7 +31,7 @@ pub(crate) fn write(text: &mut String, table: &NoteTable, slot: Slot) {
                 format!("at = {at}, angle_rad = {angle}, stick = {stick}{pedal}{said}")
             }
             Meaning::Steps(stepped, foot) if stepped == slot => match foot {
-                Foot::Brought(place) => format!("foot = {}", number(place)),
+                Foot::Position(place) => format!("foot = {}", number(place)),
                 Foot::Chick => format!("foot = {}", string(CHICK)),
                 Foot::Splash => format!("foot = {}", string(SPLASH)),
             },

@@ -8,7 +8,7 @@ use overhear_engine::kit_spec::{InstrumentSpec, KitSpec, PieceSpec};
 use overhear_engine::microphones::CloseSpec;
 use overhear_engine::numbers::{Numbers as _, Visitor};
 use overhear_engine::piece::Idealization;
-use overhear_engine::receiver::ListeningPoint;
+use overhear_engine::receiver::ReceiverPosition;
 use overhear_engine::slot::Slot;
 use overhear_engine::strike::Striker;
 
@@ -119,7 +119,7 @@ fn piece(draw: &mut Draw, standard: &KitSpec, slot: usize) -> PieceSpec {
 /// Parts that it may have or not, and of which kind they are.
 fn parts(draw: &mut Draw, piece: &mut PieceSpec) {
     if draw.one_in(3) {
-        let point = ListeningPoint { distance: 0.4, inclination: 0.5, azimuth: -0.3 };
+        let point = ReceiverPosition { distance: 0.4, inclination: 0.5, azimuth: -0.3 };
         piece.close = draw.of(&[CloseSpec::OVER_RIM, CloseSpec::beside(point)]);
     }
     let mut yes = || draw.one_in(5);
@@ -166,7 +166,7 @@ fn notes(draw: &mut Draw, kit: &KitSpec) -> NoteTable {
         let place = draw.number(&(0.0..=1.0));
         let angle = draw.number(&(-6.0..=6.0));
         let stroke = Meaning::Strikes(Stroke { slot, radius: place, angle, striker: draw.of(&Striker::ALL) });
-        let foot = draw.of(&[Foot::Chick, Foot::Splash, Foot::Brought(place)]);
+        let foot = draw.of(&[Foot::Chick, Foot::Splash, Foot::Position(place)]);
         let meaning = match draw.below(6) {
             0 | 1 => continue,
             2 => Meaning::Silent,

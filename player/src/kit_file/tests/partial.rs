@@ -157,8 +157,9 @@ fn notes_take_the_place_and_stick_of_the_standard_notes() {
 
 #[test]
 fn notes_of_a_piece_replace_those_that_it_had() {
-    let document =
-        changed("[pieces.snare]\nnotes = [{ note = 70, name = \"Tap\", angle_deg = 90, stick = \"nylon\" }]");
+    let document = changed(
+        "[pieces.snare]\nnotes = [{ note = 70, name = \"DelayTap\", angle_deg = 90, stick = \"nylon\" }]",
+    );
     assert_eq!(struck(&document, 70), Some(("snare", 0.25, Striker::Nylon)));
     let angle = document.notes.stroke(70).unwrap().angle;
     assert!((angle - std::f64::consts::FRAC_PI_2).abs() < 1e-12);
@@ -195,12 +196,12 @@ fn feet_and_pedals() {
          [pieces.kick]\nposition_controller = 17",
     );
     let foot = |note| document.notes.foot(note).map(|(_, foot)| foot);
-    assert_eq!(foot(42), Some(Foot::Brought(0.8)));
+    assert_eq!(foot(42), Some(Foot::Position(0.8)));
     assert_eq!(foot(46), None);
     assert_eq!(foot(44), Some(Foot::Chick));
     assert_eq!(foot(20), Some(Foot::Splash));
-    assert_eq!(foot(21), Some(Foot::Brought(0.5)));
-    assert_eq!(foot(22), Some(Foot::Brought(1.0)));
+    assert_eq!(foot(21), Some(Foot::Position(0.5)));
+    assert_eq!(foot(22), Some(Foot::Position(1.0)));
     assert_eq!(struck(&document, 97).map(|(_, at, _)| at), Some(0.5));
     let controller = |name| document.notes.position_controller(document.kit.find(name).unwrap().0);
     assert_eq!((controller("hi-hat"), controller("kick"), controller("snare")), (None, Some(17), Some(16)));

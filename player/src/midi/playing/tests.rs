@@ -188,7 +188,7 @@ fn two_hi_hats_have_pedals_of_their_own_and_share_the_controller() {
     let stepped = |playing: &Playing, note| playing.foot(note, 1.0, 9).map(|(slot, foot, _)| (slot, foot));
     assert_eq!(stepped(&playing, 44), Some((hat, Foot::Chick)));
     assert_eq!(stepped(&playing, 20), Some((second, Foot::Chick)));
-    assert_eq!(stepped(&playing, 42), Some((hat, Foot::Brought(0.8))));
+    assert_eq!(stepped(&playing, 42), Some((hat, Foot::Position(0.8))));
     assert_eq!(playing.pedal(4, 0.25, 9), Some(0.25));
     assert_eq!(playing.pedal_at(), Some(0.25));
     assert_eq!(stepped(&playing, 42), None, "a foot is there");

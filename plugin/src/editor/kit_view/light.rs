@@ -15,7 +15,7 @@ const LAMP: V3 = [-0.42, 0.83, -0.37];
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Finish {
     /// Coated film: scatters.
-    Film,
+    LocalHeadCompliance,
     /// Wood under lacquer: a broad shine over its colour.
     Lacquer,
     /// Mirrors sky and floor.
@@ -30,7 +30,7 @@ pub fn lit(colour: Color32, finish: Finish, place: V3, normal: V3, along: V3, ey
     let lamp = dot(normal, LAMP).max(0.0);
     let half = || unit(add(unit(sub(eye, place)), LAMP));
     match finish {
-        Finish::Film => shade(colour, 0.40 + 0.20 * sky + 0.46 * lamp, 0.0),
+        Finish::LocalHeadCompliance => shade(colour, 0.40 + 0.20 * sky + 0.46 * lamp, 0.0),
         Finish::Lacquer => {
             let shine = power(dot(normal, half()).max(0.0), 5);
             shade(colour, 0.26 + 0.30 * sky + 0.55 * lamp, 0.42 * shine)
@@ -65,7 +65,7 @@ mod tests {
 
     #[test]
     fn what_faces_the_lamp_is_lighter() {
-        for finish in [Finish::Film, Finish::Lacquer, Finish::Chrome, Finish::Bronze] {
+        for finish in [Finish::LocalHeadCompliance, Finish::Lacquer, Finish::Chrome, Finish::Bronze] {
             let grey = Color32::from_gray(120);
             let seen =
                 |normal: V3| lit(grey, finish, [0.0; 3], unit(normal), [1.0, 0.0, 0.0], [0.0, 3.0, -3.0]).g();

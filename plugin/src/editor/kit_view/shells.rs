@@ -173,7 +173,8 @@ fn other_head(scene: &mut Scene, frame: &Frame, radius: f32, depth: f32, palette
     let middle = frame.at(0.0, 0.0, -depth);
     let down = frame.direction(0.0, 0.0, -1.0);
     if scene.eye.faces(middle, down) {
-        let colour = lit(palette.film, Finish::Film, middle, down, frame.right, scene.eye.place());
+        let colour =
+            lit(palette.film, Finish::LocalHeadCompliance, middle, down, frame.right, scene.eye.place());
         ring(scene, frame, [0.0, radius], -depth, shade(colour, 0.92, 0.0));
     }
 }

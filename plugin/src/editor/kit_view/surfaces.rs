@@ -39,7 +39,7 @@ pub fn moving(scene: &mut Scene, body: &Body, motion: &Motion<'_>, palette: &Pal
     let points = points(body, motion.heights);
     let seen_from_above = scene.eye.faces(body.frame.centre, body.frame.normal);
     let finish = finish(body);
-    let colour = if finish == Finish::Film { palette.film } else { palette.bronze };
+    let colour = if finish == Finish::LocalHeadCompliance { palette.film } else { palette.bronze };
     let tallest = body.tallest();
     grid(scene, &points, |scene, ring, angle| {
         let point = points[ring][angle];
@@ -83,7 +83,7 @@ pub fn still(scene: &mut Scene, body: &Body, palette: &Palette) {
 }
 
 fn finish(body: &Body) -> Finish {
-    if body.plate().is_some() { Finish::Bronze } else { Finish::Film }
+    if body.plate().is_some() { Finish::Bronze } else { Finish::LocalHeadCompliance }
 }
 
 fn points(body: &Body, heights: &Refined) -> Points {

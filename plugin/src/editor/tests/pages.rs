@@ -75,7 +75,7 @@ fn a_note_is_learned_by_clicks_and_given_back_by_one() {
     window.click_on("Ride Bell");
     window.click_on("Learn");
     assert_eq!(window.parameters.assignments().learning(), Some(53));
-    assert!(window.find("Strike the pad that is to play Ride Bell").is_some());
+    assert!(window.find("Strike the pad that should play Ride Bell").is_some());
     // A pad is struck: the audio thread takes its note, the page shows it.
     window.parameters.assignments().heard(20);
     window.frame(Vec::new());

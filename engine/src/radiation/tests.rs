@@ -16,7 +16,7 @@ fn the_quick_sine_and_cosine_are_right_to_1e_8() {
 fn on_the_axis_a_piston_has_its_closed_form() {
     // p = rho c v (1 - e^(-i k (s - z))) e^(-i k z), s the distance to the rim.
     let (a, z) = (0.2, 0.35);
-    let point = ListeningPoint { distance: z, inclination: 0.0, azimuth: 0.0 };
+    let point = ReceiverPosition { distance: z, inclination: 0.0, azimuth: 0.0 };
     let rayleigh = Rayleigh::new(a, point, 48);
     let ones = vec![1.0; 48];
     for omega in [300.0, 3000.0, 30_000.0] {
@@ -34,7 +34,7 @@ fn on_the_axis_a_piston_has_its_closed_form() {
 
 #[test]
 fn far_away_only_the_volume_counts_at_low_frequency() {
-    let point = ListeningPoint { distance: 50.0, inclination: 0.5, azimuth: 0.0 };
+    let point = ReceiverPosition { distance: 50.0, inclination: 0.5, azimuth: 0.0 };
     let rayleigh = Rayleigh::new(0.2, point, 32);
     let radial: Vec<f64> = rayleigh.radii().iter().map(|r| 1.0 - r * r).collect();
     let [re, im] = rayleigh.transfer(&Radiator { m: 0, radial: &radial, omega: 100.0 });
@@ -46,7 +46,7 @@ fn far_away_only_the_volume_counts_at_low_frequency() {
 }
 
 /// The integral as it is written, over a fine polar grid of midpoints; the delay from the centre taken out.
-fn summed(radius: f64, point: &ListeningPoint, m: u32, shape: impl Fn(f64) -> f64, omega: f64) -> [f64; 2] {
+fn summed(radius: f64, point: &ReceiverPosition, m: u32, shape: impl Fn(f64) -> f64, omega: f64) -> [f64; 2] {
     const RINGS: usize = 500;
     const SPOKES: usize = 720;
     let k = omega / SPEED_OF_SOUND;
@@ -75,11 +75,11 @@ fn summed(radius: f64, point: &ListeningPoint, m: u32, shape: impl Fn(f64) -> f6
 #[test]
 fn transfers_are_the_rayleigh_integral_summed_point_by_point_from_a_few_centimetres_to_a_room_away() {
     let points = [
-        ListeningPoint::over(0.05, 0.10, 2.0),
-        ListeningPoint::over(0.07, 0.14, -1.0),
-        ListeningPoint::over(0.08, 0.0, 0.0),
-        ListeningPoint { distance: 0.5, inclination: 0.6, azimuth: 0.4 },
-        ListeningPoint::far(1.45, -3.0),
+        ReceiverPosition::over(0.05, 0.10, 2.0),
+        ReceiverPosition::over(0.07, 0.14, -1.0),
+        ReceiverPosition::over(0.08, 0.0, 0.0),
+        ReceiverPosition { distance: 0.5, inclination: 0.6, azimuth: 0.4 },
+        ReceiverPosition::far(1.45, -3.0),
     ];
     for (radius, hz) in [(0.152, 140.0), (0.178, 900.0), (0.279, 60.0), (0.279, 1500.0)] {
         for point in &points {
@@ -107,7 +107,7 @@ fn transfers_are_the_rayleigh_integral_summed_point_by_point_from_a_few_centimet
 fn far_away_a_mode_with_nodal_diameters_fades_as_the_power_of_the_angle_and_the_frequency() {
     // Of the far field, `2 pi i^m int J_m(k r sin) R r dr`, the leading term is `(k a sin)^m`.
     let heard = |m: u32, sin: f64, omega: f64| {
-        let point = ListeningPoint { distance: 200.0, inclination: sin.asin(), azimuth: 0.0 };
+        let point = ReceiverPosition { distance: 200.0, inclination: sin.asin(), azimuth: 0.0 };
         let rayleigh = Rayleigh::new(0.15, point, 32);
         let zero = bessel::zero(m, 1);
         let radial: Vec<f64> = rayleigh.radii().iter().map(|&r| libm::jn(m as i32, zero * r)).collect();
@@ -126,11 +126,11 @@ fn far_away_a_mode_with_nodal_diameters_fades_as_the_power_of_the_angle_and_the_
 
 #[test]
 fn a_disc_fills_the_half_space_right_over_it_and_half_of_it_at_its_rim() {
-    let on_axis = ListeningPoint { distance: 0.5, inclination: 0.0, azimuth: 0.0 };
+    let on_axis = ReceiverPosition { distance: 0.5, inclination: 0.0, azimuth: 0.0 };
     assert!((on_axis.fills(0.2) - (1.0 - 0.5 / 0.29_f64.sqrt())).abs() < 1e-9);
-    assert!((ListeningPoint::over(0.02, 0.1, 0.0).fills(0.2) - 0.86).abs() < 0.02);
-    assert!((ListeningPoint::over(0.02, 0.2, 0.0).fills(0.2) - 0.46).abs() < 0.03);
+    assert!((ReceiverPosition::over(0.02, 0.1, 0.0).fills(0.2) - 0.86).abs() < 0.02);
+    assert!((ReceiverPosition::over(0.02, 0.2, 0.0).fills(0.2) - 0.46).abs() < 0.03);
     // Far off, its area as it is seen over 2 pi.
-    let far = ListeningPoint { distance: 10.0, inclination: 1.0, azimuth: 0.0 };
+    let far = ReceiverPosition { distance: 10.0, inclination: 1.0, azimuth: 0.0 };
     assert!((far.fills(0.2) / (0.5 * 0.04 * far.inclination.cos() / 100.0) - 1.0).abs() < 0.01);
 }

@@ -8,18 +8,18 @@
 //! and cymbals, which are dipoles, are given to the side what they send up.
 
 use super::arrangement::Arrangement;
+use super::delay_line::{DelayLine, DelayTap, MovingDelayTap};
 use super::gain::GainRuns;
-use super::line::{Line, MovingTap, Tap};
-use super::mix::{Desk, PAIRS};
-use super::post::Post;
+use super::mixer::{Mixer, PAIRS};
+use super::render_job::RenderJob;
 use super::room::{self, SILENT_RUN, Tail};
-use crate::air::SPEED_OF_SOUND;
+use crate::air_load::SPEED_OF_SOUND;
 use crate::block::BLOCK;
 use crate::kit_spec::Kind;
 use crate::kit_spec::room::RoomSpec;
 use crate::layout::{CLOSE, Layout, Pair, Placement, distance};
 use crate::microphones::CloseMicrophone;
-use crate::modal::EARS;
+use crate::modal::RECEIVERS;
 use crate::piece::Piece;
 use crate::slot::{SLOTS, Slot};
 
@@ -30,40 +30,40 @@ const IMAGES: usize = 6;
 pub(super) type PairRun = [[f32; BLOCK]; 2];
 
 /// The kit's air.
-pub(super) struct Air {
+pub(super) struct Propagation {
     sample_rate: f64,
     layout: Layout,
     room: RoomSpec,
     /// What each piece sends out: to its close microphone, far away, and to other pieces.
-    lines: [[Line; EARS]; SLOTS],
+    lines: [[DelayLine; RECEIVERS]; SLOTS],
     /// Of each piece, from the others: `[listener][source]`.
-    heard: Box<[[Tap; SLOTS]; SLOTS]>,
+    heard: Box<[[DelayTap; SLOTS]; SLOTS]>,
     /// To the close microphone.
-    close: [Tap; SLOTS],
+    close: [DelayTap; SLOTS],
     /// Distance from each piece at which its sound is time zero of the mix, m.
     time_zero: [f64; SLOTS],
     /// `[pair][side][piece]`.
-    pairs: Box<[[[MovingTap; SLOTS]; 2]; PAIRS]>,
+    pairs: Box<[[[MovingDelayTap; SLOTS]; 2]; PAIRS]>,
     /// `[side][piece][image]`, of the room pair.
-    images: Box<[[[MovingTap; IMAGES]; SLOTS]; 2]>,
+    images: Box<[[[MovingDelayTap; IMAGES]; SLOTS]; 2]>,
     tail: Tail,
     /// Which slots hold drums: they hear the others, and are heard by what goes all around.
     drums: [bool; SLOTS],
     min_delay: usize,
 }
 
-impl Air {
+impl Propagation {
     /// Still air in a room. Allocates.
-    pub(super) fn new(sample_rate: f64, layout: &Layout, room: &RoomSpec) -> Air {
-        let still = Tap::new(0.0, 0.0, sample_rate);
-        let moving = MovingTap::new(still, sample_rate);
-        let mut air = Air {
+    pub(super) fn new(sample_rate: f64, layout: &Layout, room: &RoomSpec) -> Propagation {
+        let still = DelayTap::new(0.0, 0.0, sample_rate);
+        let moving = MovingDelayTap::new(still, sample_rate);
+        let mut air = Propagation {
             sample_rate,
             layout: *layout,
             room: *room,
-            lines: std::array::from_fn(|_| std::array::from_fn(|_| Line::new(sample_rate))),
+            lines: std::array::from_fn(|_| std::array::from_fn(|_| DelayLine::new(sample_rate))),
             heard: Box::new([[still; SLOTS]; SLOTS]),
-            close: [Tap::new(0.0, 1.0, sample_rate); SLOTS],
+            close: [DelayTap::new(0.0, 1.0, sample_rate); SLOTS],
             time_zero: [CLOSE; SLOTS],
             pairs: Box::new([[[moving; SLOTS]; 2]; PAIRS]),
             images: Box::new([[[moving; IMAGES]; SLOTS]; 2]),
@@ -82,8 +82,8 @@ impl Air {
     fn lay_ways(&mut self) {
         let mut shortest = None;
         for (to, from) in Slot::ALL.into_iter().flat_map(|to| Slot::ALL.map(|from| (to, from))) {
-            if let Some(way) = self.layout.way(from, to).filter(|_| from != to) {
-                let tap = Tap::way(way, 0.0, self.sample_rate);
+            if let Some(way) = self.layout.path_length(from, to).filter(|_| from != to) {
+                let tap = DelayTap::along(way, 0.0, self.sample_rate);
                 self.heard[to.index()][from.index()] = tap;
                 // Only drums have a radius, and only they listen.
                 if self.layout.pieces[to.index()].is_some_and(|piece| piece.radius > 0.0) {
@@ -123,7 +123,7 @@ impl Air {
         let [overheads, room] = [self.layout.overheads, self.layout.room];
         self.place_piece(piece, 0, overheads);
         self.place_piece(piece, 1, room);
-        if self.lines[piece].iter().all(Line::is_silent) {
+        if self.lines[piece].iter().all(DelayLine::is_silent) {
             self.jump_piece(piece);
         }
     }
@@ -138,7 +138,7 @@ impl Air {
         let CloseMicrophone { point, time_zero, gain } = *microphone;
         // What distance does to the level is in the piece's own sound.
         let late = (point.distance - time_zero).max(0.0) / SPEED_OF_SOUND;
-        self.close[piece] = Tap::new(late, f64::from(gain), self.sample_rate);
+        self.close[piece] = DelayTap::new(late, f64::from(gain), self.sample_rate);
         if std::mem::replace(&mut self.time_zero[piece], time_zero) == time_zero {
             return;
         }
@@ -161,11 +161,11 @@ impl Air {
         let Some(Placement { centre, .. }) = self.layout.pieces[piece] else { return };
         let (rate, lead) = (self.sample_rate, self.time_zero[piece]);
         for (side, place) in places.iter().enumerate() {
-            self.pairs[pair][side][piece].set(Tap::way(distance(&centre, place), lead, rate));
+            self.pairs[pair][side][piece].set(DelayTap::along(distance(&centre, place), lead, rate));
             if pair == 1 {
                 let images = room::images(&self.room, &centre);
                 for (tap, (image, share)) in self.images[side][piece].iter_mut().zip(images) {
-                    tap.set(Tap::way(distance(&image, place), lead, rate).weakened(share as f32));
+                    tap.set(DelayTap::along(distance(&image, place), lead, rate).weakened(share as f32));
                 }
             }
         }
@@ -179,18 +179,18 @@ impl Air {
     /// Moved microphones arrive at once.
     pub(super) fn jump(&mut self) {
         let pairs = self.pairs.iter_mut().flatten().flatten();
-        pairs.chain(self.images.iter_mut().flatten().flatten()).for_each(MovingTap::jump);
+        pairs.chain(self.images.iter_mut().flatten().flatten()).for_each(MovingDelayTap::jump);
     }
 
     /// Of one piece alone.
     fn jump_piece(&mut self, piece: usize) {
         let pairs = self.pairs.iter_mut().flatten().map(|side| &mut side[piece]);
         let images = self.images.iter_mut().flat_map(|side| &mut side[piece]);
-        pairs.chain(images).for_each(MovingTap::jump);
+        pairs.chain(images).for_each(MovingDelayTap::jump);
     }
 
     /// Lets a piece hear the others over its run, so much of them.
-    pub(super) fn arrive(&self, listener: usize, clock: u64, amount: &[f32; BLOCK], post: &mut Post) {
+    pub(super) fn arrive(&self, listener: usize, clock: u64, amount: &[f32; BLOCK], post: &mut RenderJob) {
         post.hears = false;
         for (from, lines) in self.lines.iter().enumerate() {
             // A cymbal sends the same everywhere: nobody's hearing comes back to it.
@@ -209,7 +209,7 @@ impl Air {
     }
 
     /// Takes up what a piece sends out.
-    pub(super) fn send(&mut self, piece: usize, clock: u64, post: &Post) {
+    pub(super) fn send(&mut self, piece: usize, clock: u64, post: &RenderJob) {
         for (line, sound) in self.lines[piece].iter_mut().zip(&post.sound) {
             line.send(clock, &sound[..post.run]);
         }
@@ -235,12 +235,12 @@ impl Air {
         clock: u64,
         samples: usize,
         levels: &GainRuns,
-        desk: &Desk,
+        desk: &Mixer,
     ) -> PairRun {
         let mut heard = [SILENT_RUN; 2];
         if desk.is_shut(pair) {
             // What moves has arrived when somebody listens again.
-            self.pairs[pair].iter_mut().flatten().for_each(MovingTap::jump);
+            self.pairs[pair].iter_mut().flatten().for_each(MovingDelayTap::jump);
             return heard;
         }
         for (piece, lines) in self.lines.iter().enumerate() {
@@ -275,17 +275,17 @@ impl Air {
 
     /// Whether nothing of a slot is under way.
     pub(super) fn is_slot_silent(&self, slot: usize) -> bool {
-        self.lines[slot].iter().all(Line::is_silent)
+        self.lines[slot].iter().all(DelayLine::is_silent)
     }
 
     /// Whether nothing is under way anywhere.
     pub(super) fn is_silent(&self) -> bool {
-        self.tail.is_silent() && self.lines.iter().flatten().all(Line::is_silent)
+        self.tail.is_silent() && self.lines.iter().flatten().all(DelayLine::is_silent)
     }
 
     /// Still again; moved microphones have arrived.
     pub(super) fn reset(&mut self) {
-        self.lines.iter_mut().flatten().for_each(Line::reset);
+        self.lines.iter_mut().flatten().for_each(DelayLine::reset);
         self.tail.reset();
         self.jump();
     }

@@ -3,7 +3,7 @@
 use super::row::{Row, zero_row};
 
 /// A place on the body where a force may act: mode shapes there, and what follows from them.
-pub struct Port {
+pub struct InputVector {
     /// Mode shapes at the place, `[mode]`.
     pub(super) shape: Row,
     /// `b` times the shape.
@@ -11,10 +11,10 @@ pub struct Port {
     pub(super) gain_im: Row,
 }
 
-impl Port {
+impl InputVector {
     /// A port with all shapes zero. Allocates.
-    pub fn new(modes: usize) -> Port {
-        Port { shape: zero_row(modes), gain_re: zero_row(modes), gain_im: zero_row(modes) }
+    pub fn new(modes: usize) -> InputVector {
+        InputVector { shape: zero_row(modes), gain_re: zero_row(modes), gain_im: zero_row(modes) }
     }
 
     /// Mode shapes at the place, `[mode]`, relative to the modal displacement; call [`ModalBody::connect`](super::ModalBody::connect) after a

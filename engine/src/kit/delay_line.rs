@@ -1,12 +1,12 @@
 //! The air between two places: a delay and what distance leaves of a sound.
 //!
-//! A [`Line`] keeps what a piece has sent out of late; a [`Tap`] reads it some way off. Between samples it reads by a cubic
+//! A [`DelayLine`] keeps what a piece has sent out of late; a [`DelayTap`] reads it some way off. Between samples it reads by a cubic
 //! through four of them (Lagrange): above a quarter of the sample rate it loses some highs, 1 dB at 11 kHz of 44.1 at
 //! worst, less than air and distance do.
 //!
 //! Positions on a line are counted by the kit's clock, so that nothing depends on how time is cut.
 
-use crate::air::SPEED_OF_SOUND;
+use crate::air_load::SPEED_OF_SOUND;
 use crate::block::BLOCK;
 use crate::layout::FARTHEST;
 
@@ -18,7 +18,7 @@ const TAPS: usize = 4;
 const MOVE_TIME: f64 = 0.03;
 
 /// What was sent out over the longest way that there is.
-pub(super) struct Line {
+pub(super) struct DelayLine {
     /// A power of two and, after it, its first samples once more.
     samples: Box<[f32]>,
     mask: usize,
@@ -29,12 +29,12 @@ pub(super) struct Line {
 /// Samples repeated at the end: a tap reads in one stretch.
 const REPEATED: usize = BLOCK + TAPS;
 
-impl Line {
+impl DelayLine {
     /// A silent line at a sample rate (Hz). Allocates.
-    pub(super) fn new(sample_rate: f64) -> Line {
+    pub(super) fn new(sample_rate: f64) -> DelayLine {
         let longest = (sample_rate * FARTHEST / SPEED_OF_SOUND) as usize + 2 * REPEATED;
         let length = longest.next_power_of_two();
-        Line { samples: vec![0.0; length + REPEATED].into(), mask: length - 1, silence: length }
+        DelayLine { samples: vec![0.0; length + REPEATED].into(), mask: length - 1, silence: length }
     }
 
     /// Whether nothing is under way.
@@ -62,7 +62,7 @@ impl Line {
     }
 
     /// Adds what arrives from a time on.
-    pub(super) fn hear(&self, clock: u64, tap: &Tap, out: &mut [f32]) {
+    pub(super) fn hear(&self, clock: u64, tap: &DelayTap, out: &mut [f32]) {
         let first = (clock as usize).wrapping_sub(tap.whole + TAPS - 1 - AHEAD) & self.mask;
         let past = &self.samples[first..first + out.len() + TAPS - 1];
         let [a, b, c, d] = tap.weights;
@@ -83,22 +83,22 @@ impl Line {
 
 /// A place on a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Tap {
+pub(super) struct DelayTap {
     /// Whole samples of the delay.
     whole: usize,
     /// Of the samples about it, oldest first.
     weights: [f32; TAPS],
 }
 
-impl Tap {
+impl DelayTap {
     /// So late (s) and with that gain.
-    pub(super) fn new(delay: f64, gain: f64, sample_rate: f64) -> Tap {
+    pub(super) fn new(delay: f64, gain: f64, sample_rate: f64) -> DelayTap {
         let samples = (delay * sample_rate).clamp(0.0, FARTHEST / SPEED_OF_SOUND * sample_rate);
         if samples < AHEAD as f64 {
             // Nothing newer is there yet: a straight line between the two that are.
             let part = samples as f32;
             let gain = gain as f32;
-            return Tap { whole: AHEAD, weights: [0.0, 0.0, part * gain, (1.0 - part) * gain] };
+            return DelayTap { whole: AHEAD, weights: [0.0, 0.0, part * gain, (1.0 - part) * gain] };
         }
         let whole = samples.floor();
         // From the sample that is `whole` late, toward the older one.
@@ -109,18 +109,18 @@ impl Tap {
             (1.0 - x * x) * (2.0 - x) / 2.0,
             -x * (1.0 - x) * (2.0 - x) / 6.0,
         ];
-        Tap { whole: whole as usize, weights: weights.map(|weight| (weight * gain) as f32) }
+        DelayTap { whole: whole as usize, weights: weights.map(|weight| (weight * gain) as f32) }
     }
 
     /// A way through free air, m; sound at a metre is what a line carries. What arrives is earlier by `lead`, m.
-    pub(super) fn way(metres: f64, lead: f64, sample_rate: f64) -> Tap {
+    pub(super) fn along(metres: f64, lead: f64, sample_rate: f64) -> DelayTap {
         let late = (metres - lead).max(0.0) / SPEED_OF_SOUND;
-        Tap::new(late, 1.0 / metres.max(crate::layout::NEAREST), sample_rate)
+        DelayTap::new(late, 1.0 / metres.max(crate::layout::NEAREST), sample_rate)
     }
 
     /// The same, weaker.
-    pub(super) fn weakened(self, share: f32) -> Tap {
-        Tap { weights: self.weights.map(|weight| weight * share), ..self }
+    pub(super) fn weakened(self, share: f32) -> DelayTap {
+        DelayTap { weights: self.weights.map(|weight| weight * share), ..self }
     }
 
     /// Longest run (samples) that can be heard before it is sent.
@@ -131,23 +131,23 @@ impl Tap {
 
 /// A tap that moves from place to place by fading over.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct MovingTap {
-    from: Tap,
-    to: Tap,
+pub(super) struct MovingDelayTap {
+    from: DelayTap,
+    to: DelayTap,
     /// Where to after that.
-    next: Tap,
+    next: DelayTap,
     /// Share of the way, and its change in a sample.
     share: f32,
     step: f32,
 }
 
-impl MovingTap {
-    pub(super) fn new(tap: Tap, sample_rate: f64) -> MovingTap {
+impl MovingDelayTap {
+    pub(super) fn new(tap: DelayTap, sample_rate: f64) -> MovingDelayTap {
         let step = (1.0 / (MOVE_TIME * sample_rate)) as f32;
-        MovingTap { from: tap, to: tap, next: tap, share: 1.0, step }
+        MovingDelayTap { from: tap, to: tap, next: tap, share: 1.0, step }
     }
 
-    pub(super) fn set(&mut self, tap: Tap) {
+    pub(super) fn set(&mut self, tap: DelayTap) {
         self.next = tap;
     }
 
@@ -157,7 +157,7 @@ impl MovingTap {
     }
 
     /// Adds what arrives from a time on, and moves.
-    pub(super) fn hear(&mut self, line: &Line, clock: u64, out: &mut [f32]) {
+    pub(super) fn hear(&mut self, line: &DelayLine, clock: u64, out: &mut [f32]) {
         let mut done = 0;
         while done < out.len() {
             if self.share >= 1.0 && self.next != self.to {
@@ -191,8 +191,8 @@ mod tests {
     const RATE: f64 = 44_100.0;
 
     /// What arrives of an impulse at time 0, in runs of that length.
-    fn arrival(tap: Tap, run: usize) -> Vec<f32> {
-        let mut line = Line::new(RATE);
+    fn arrival(tap: DelayTap, run: usize) -> Vec<f32> {
+        let mut line = DelayLine::new(RATE);
         let mut heard = vec![0.0; 960];
         for (i, out) in heard.chunks_mut(run).enumerate() {
             let mut sound = vec![0.0; out.len()];
@@ -208,7 +208,7 @@ mod tests {
     #[test]
     fn sound_arrives_when_its_way_over_its_speed_has_passed() {
         for metres in [0.3, 0.441, 1.0, 3.43] {
-            let heard = arrival(Tap::way(metres, 0.0, RATE), 32);
+            let heard = arrival(DelayTap::along(metres, 0.0, RATE), 32);
             let total: f64 = heard.iter().map(|&x| f64::from(x)).sum();
             let mean = heard.iter().enumerate().map(|(i, &x)| i as f64 * f64::from(x)).sum::<f64>() / total;
             assert!((mean - metres / SPEED_OF_SOUND * RATE).abs() < 1e-3, "{metres}: {mean}");
@@ -218,13 +218,13 @@ mod tests {
 
     #[test]
     fn how_time_is_cut_does_not_change_what_arrives() {
-        let tap = Tap::new(0.0102, 0.7, RATE);
+        let tap = DelayTap::new(0.0102, 0.7, RATE);
         assert_eq!(arrival(tap, 32), arrival(tap, 5));
         // Nor while it moves.
         let moving = |run: usize| {
-            let mut line = Line::new(RATE);
-            let mut tap = MovingTap::new(Tap::new(0.001, 1.0, RATE), RATE);
-            tap.set(Tap::new(0.004, 0.5, RATE));
+            let mut line = DelayLine::new(RATE);
+            let mut tap = MovingDelayTap::new(DelayTap::new(0.001, 1.0, RATE), RATE);
+            tap.set(DelayTap::new(0.004, 0.5, RATE));
             let mut heard = vec![0.0; 4_800];
             for (i, out) in heard.chunks_mut(run).enumerate() {
                 let at = i * run;
@@ -239,6 +239,6 @@ mod tests {
 
     #[test]
     fn a_way_of_no_length_is_no_delay() {
-        assert_eq!(arrival(Tap::new(0.0, 1.0, RATE), 32)[..3], [1.0, 0.0, 0.0]);
+        assert_eq!(arrival(DelayTap::new(0.0, 1.0, RATE), 32)[..3], [1.0, 0.0, 0.0]);
     }
 }

@@ -38,7 +38,7 @@ struct Strip {
 }
 
 /// The desk.
-pub(super) struct Desk {
+pub(super) struct Mixer {
     strips: [Strip; STRIPS],
     close: f32,
     /// Of each piece in every microphone.
@@ -58,8 +58,8 @@ fn strip(microphone: Microphone) -> usize {
     }
 }
 
-impl Desk {
-    pub(super) fn new(sample_rate: f64, kit: &KitSpec) -> Desk {
+impl Mixer {
+    pub(super) fn new(sample_rate: f64, kit: &KitSpec) -> Mixer {
         let strips = std::array::from_fn(|i| {
             let side = kit.pieces.get(i).map_or(0.0, |piece| piece.defaults.pan);
             let mut pan = Pan::new(sample_rate, side);
@@ -69,7 +69,7 @@ impl Desk {
             }
             Strip { level: 1.0, muted: false, solo: false, gain: Gain::new(sample_rate), pan, peak: 0.0 }
         });
-        let mut desk = Desk {
+        let mut desk = Mixer {
             strips,
             close: 1.0,
             levels: [Gain::new(sample_rate); SLOTS],

@@ -1,14 +1,14 @@
 //! A piece that another has replaced: it fades out under the new one instead of stopping short.
 
 use crate::block::BLOCK;
-use crate::modal::EARS;
+use crate::modal::RECEIVERS;
 use crate::piece::Piece;
 
 /// Length of the fade, s. *By ear*: no click, even of a kick; over before a new stroke has decayed.
 const FADE_TIME: f64 = 0.05;
 
 /// The piece on its way out, if there is one.
-pub struct Leaving {
+pub struct FadeOut {
     piece: Option<Box<Piece>>,
     /// Samples still to sound.
     left: u32,
@@ -16,14 +16,14 @@ pub struct Leaving {
     length: u32,
 }
 
-impl Leaving {
+impl FadeOut {
     /// Nobody leaves; the sample rate is in Hz.
-    pub fn new(sample_rate: f64) -> Leaving {
-        Leaving { piece: None, left: 0, length: (FADE_TIME * sample_rate).ceil() as u32 }
+    pub fn new(sample_rate: f64) -> FadeOut {
+        FadeOut { piece: None, left: 0, length: (FADE_TIME * sample_rate).ceil() as u32 }
     }
 
     /// Lets a piece leave; hands back one that need not be heard any more.
-    pub fn see_off(&mut self, piece: Box<Piece>) -> Option<Box<Piece>> {
+    pub fn start(&mut self, piece: Box<Piece>) -> Option<Box<Piece>> {
         if piece.is_asleep() {
             return Some(piece);
         }
@@ -47,9 +47,9 @@ impl Leaving {
     }
 
     /// Adds what is still heard at every ear, Pa, within one block.
-    pub fn render(&mut self, sound: [&mut [f32]; EARS]) {
+    pub fn render(&mut self, sound: [&mut [f32]; RECEIVERS]) {
         let Some(piece) = self.piece.as_mut().filter(|_| self.left > 0) else { return };
-        let mut fading = [[0.0_f32; BLOCK]; EARS];
+        let mut fading = [[0.0_f32; BLOCK]; RECEIVERS];
         let samples = sound[0].len();
         piece.render_in_air(fading.each_mut().map(|row| &mut row[..samples]), None);
         let before = self.left;

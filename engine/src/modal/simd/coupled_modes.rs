@@ -4,7 +4,7 @@ use pulp::Simd;
 
 use super::dispatch::{Kernel, Kernels};
 use super::primitives::turn;
-use super::ring::EARS;
+use super::ring::RECEIVERS;
 
 /// Forces that act in one sample, at most.
 pub const FORCES: usize = 2;
@@ -35,7 +35,7 @@ pub struct PushAndHear<'a> {
     /// What acts, as long as the state or longer.
     pub forces: [HeldForce<'a>; FORCES],
     /// What of the state each ear hears, real and imaginary part; what is missing is not heard.
-    pub weights: [[&'a [f32]; 2]; EARS],
+    pub weights: [[&'a [f32]; 2]; RECEIVERS],
 }
 
 impl Kernels {
@@ -45,7 +45,7 @@ impl Kernels {
     }
 
     /// Adds what forces leave to the state, and listens to it.
-    pub fn push_and_hear(&self, work: PushAndHear<'_>) -> [f32; EARS] {
+    pub fn push_and_hear(&self, work: PushAndHear<'_>) -> [f32; RECEIVERS] {
         self.run(work)
     }
 }
@@ -68,13 +68,13 @@ impl Kernel for Along<'_> {
 }
 
 impl Kernel for PushAndHear<'_> {
-    type Output = [f32; EARS];
+    type Output = [f32; RECEIVERS];
     #[inline(always)]
     fn with<S: Simd>(
         self,
         simd: S,
         fma: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s + Copy,
-    ) -> [f32; EARS] {
+    ) -> [f32; RECEIVERS] {
         let (re, im) = (S::as_mut_simd_f32s(self.re).0, S::as_mut_simd_f32s(self.im).0);
         let groups = re.len();
         let both = self.forces[1].0 != 0.0;
@@ -83,8 +83,8 @@ impl Kernel for PushAndHear<'_> {
         let gains = [first_gains, second_gains].map(|gains| gains.map(|row| S::as_simd_f32s(row).0));
         let weights = self.weights.map(|ear| ear.map(|row| S::as_simd_f32s(row).0));
         // The last ear hears the first modes alone.
-        let reached = weights[EARS - 1][0].len().min(groups);
-        let mut sums = [[simd.splat_f32s(0.0); 2]; EARS];
+        let reached = weights[RECEIVERS - 1][0].len().min(groups);
+        let mut sums = [[simd.splat_f32s(0.0); 2]; RECEIVERS];
         for i in 0..groups {
             let (mut z_re, mut z_im) = (re[i], im[i]);
             z_re = fma(gains[0][0][i], held[0], z_re);
@@ -94,17 +94,17 @@ impl Kernel for PushAndHear<'_> {
                 z_im = fma(gains[1][1][i], held[1], z_im);
             }
             (re[i], im[i]) = (z_re, z_im);
-            for ear in 0..EARS - 1 {
+            for ear in 0..RECEIVERS - 1 {
                 let [w_re, w_im] = weights[ear];
                 sums[ear] = [fma(w_re[i], z_re, sums[ear][0]), fma(w_im[i], z_im, sums[ear][1])];
             }
             if i < reached {
-                let [w_re, w_im] = weights[EARS - 1];
-                sums[EARS - 1] =
-                    [fma(w_re[i], z_re, sums[EARS - 1][0]), fma(w_im[i], z_im, sums[EARS - 1][1])];
+                let [w_re, w_im] = weights[RECEIVERS - 1];
+                sums[RECEIVERS - 1] =
+                    [fma(w_re[i], z_re, sums[RECEIVERS - 1][0]), fma(w_im[i], z_im, sums[RECEIVERS - 1][1])];
             }
         }
-        let mut heard = [0.0; EARS];
+        let mut heard = [0.0; RECEIVERS];
         for (heard, [re, im]) in heard.iter_mut().zip(sums) {
             *heard = simd.reduce_sum_f32s(simd.add_f32s(re, im));
         }

@@ -15,7 +15,7 @@ use std::f64::consts::{PI, TAU};
 
 use pulp::{Arch, Simd, WithSimd};
 
-use crate::receiver::ListeningPoint;
+use crate::receiver::ReceiverPosition;
 
 /// Places that go side by side.
 const LANES: usize = 8;
@@ -39,7 +39,7 @@ pub(crate) struct Rings {
 impl Rings {
     /// For `m` nodal diameters and a wave number (1/m) on a disc of `radius` (m). As many places as waves ask for, and
     /// `close` more if that is more than the usual reserve.
-    pub fn new(point: &ListeningPoint, radius: f64, m: u32, k: f64, close: f64) -> Rings {
+    pub fn new(point: &ReceiverPosition, radius: f64, m: u32, k: f64, close: f64) -> Rings {
         let [height, offset] = point.height_and_offset();
         // Midpoints around half the circle: exact once they outnumber the waves around it.
         let waves = f64::from(m) + k * radius * point.inclination.sin();

@@ -20,11 +20,11 @@ pub(crate) mod rings;
 
 use std::f64::consts::TAU;
 
-use crate::air::{DENSITY, SPEED_OF_SOUND};
+use crate::air_load::{DENSITY, SPEED_OF_SOUND};
 use crate::cache::Shared;
 use crate::math::quadrature::{self, GaussLegendre};
 use crate::mode::Member;
-use crate::receiver::ListeningPoint;
+use crate::receiver::ReceiverPosition;
 use rings::Rings;
 
 /// One pair of modes as it is heard.
@@ -41,13 +41,13 @@ pub struct Radiator<'a> {
 /// Integrates modes of one disc to one point.
 pub struct Rayleigh {
     radius: f64,
-    point: ListeningPoint,
+    point: ReceiverPosition,
     rule: Shared<GaussLegendre>,
 }
 
 impl Rayleigh {
     /// For a disc of `radius` (m). `nodes` along the radius: three a wavelength of the finest shape.
-    pub fn new(radius: f64, point: ListeningPoint, nodes: usize) -> Rayleigh {
+    pub fn new(radius: f64, point: ReceiverPosition, nodes: usize) -> Rayleigh {
         Rayleigh { radius, point, rule: quadrature::shared_unit(nodes) }
     }
 

@@ -2,7 +2,7 @@ use super::*;
 use crate::reference;
 
 /// How loud the lowest modes of the batter with so many nodal diameters are at a point, over the loudest without.
-fn shares(spec: &DrumSpec, point: ListeningPoint) -> [f64; 4] {
+fn shares(spec: &DrumSpec, point: ReceiverPosition) -> [f64; 4] {
     let drum = DrumModes::new(spec).unwrap();
     let place = drum.heads.scale.place(spec.pitch_hz);
     let ears = Ears::new(&drum, spec, point, TAU * spec.batter.modes_to_hz);

@@ -1,18 +1,18 @@
 //! A piece at its post: what it needs for a run and what it leaves.
 //!
 //! Within a run no piece can hear another: whatever it hears was sent before. So posts can be rendered in any
-//! order and on any thread; whoever does it is a [`Crew`].
+//! order and on any thread; whoever does it is a [`RenderWorkers`].
 
-use super::leaving::Leaving;
+use super::fade_out::FadeOut;
 use crate::block::BLOCK;
-use crate::modal::EARS;
+use crate::modal::RECEIVERS;
 use crate::piece::Piece;
 
 /// A piece with its run.
-pub struct Post {
+pub struct RenderJob {
     pub(super) piece: Option<Box<Piece>>,
     /// What it has replaced.
-    pub(super) leaving: Leaving,
+    pub(super) leaving: FadeOut,
     /// Resets of the kit that it knows of.
     resets: u32,
     /// When the run begins, and its samples.
@@ -23,20 +23,20 @@ pub struct Post {
     /// Pressure that arrives, Pa.
     pub(super) incident: [f32; BLOCK],
     /// What it sends out: at the close microphone, far away as at a metre, and to other pieces as at a metre, Pa.
-    pub(super) sound: [[f32; BLOCK]; EARS],
+    pub(super) sound: [[f32; BLOCK]; RECEIVERS],
 }
 
-impl Post {
-    pub(super) fn new(sample_rate: f64) -> Post {
-        Post {
+impl RenderJob {
+    pub(super) fn new(sample_rate: f64) -> RenderJob {
+        RenderJob {
             piece: None,
-            leaving: Leaving::new(sample_rate),
+            leaving: FadeOut::new(sample_rate),
             resets: 0,
             due: 0,
             run: 0,
             hears: false,
             incident: [0.0; BLOCK],
-            sound: [[0.0; BLOCK]; EARS],
+            sound: [[0.0; BLOCK]; RECEIVERS],
         }
     }
 
@@ -66,7 +66,7 @@ impl Post {
     /// # Real-time
     /// No allocation, no lock.
     pub fn render(&mut self) {
-        let Post { piece, leaving, run, hears, incident, sound, .. } = self;
+        let RenderJob { piece, leaving, run, hears, incident, sound, .. } = self;
         let out = sound.each_mut().map(|row| &mut row[..*run]);
         match piece {
             Some(piece) => piece.render_in_air(out, hears.then_some(&incident[..*run])),
@@ -98,11 +98,11 @@ impl Post {
 }
 
 /// Whoever renders posts.
-pub trait Crew: Send {
+pub trait RenderWorkers: Send {
     /// Renders every post. All that are there at the start must be back at the end; one that is not is silent for
     /// the run and for as long as it stays away.
     ///
     /// # Real-time
     /// Called by the audio thread: must not allocate, lock, call the system or wait for long.
-    fn render(&mut self, posts: &mut [Option<Box<Post>>]);
+    fn render(&mut self, posts: &mut [Option<Box<RenderJob>>]);
 }

@@ -17,7 +17,7 @@
 //! the distance `d` from the rim. Its modes part within the inverse of its width: the band decays at half of it.
 //! Without `P` the compliance would grow without bound, as that of a point on a membrane does.
 //!
-//! How large the disc is, follows from the head if it [wraps](Film::wraps) itself around the tip. Stiffness against
+//! How large the disc is, follows from the head if it [patch_grows](LocalHeadCompliance::patch_grows) itself around the tip. Stiffness against
 //! bending, `D`, alone lets a point press no less than a disc of
 //!
 //! ```text
@@ -34,7 +34,7 @@
 //! ```
 //!
 //! The disc is as large as that from the first touch on, which is why beaters keep their own: around a ball of some
-//! centimetres a head wraps itself only in the course of its long contact. A hard stroke so meets a stiffer head than a
+//! centimetres a head patch_grows itself only in the course of its long contact. A hard stroke so meets a stiffer head than a
 //! soft one and is shorter and brighter.
 //!
 //! Neglected: that film about a hard stroke's dent stretches more than the whole head does, which would stiffen it more. At
@@ -57,19 +57,19 @@ pub const BANDS: usize = 6;
 
 /// A head as its surroundings see it from near.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Film {
+pub struct LocalHeadCompliance {
     /// Radius, m.
     pub radius: f64,
     /// Tension, N/m.
     pub tension: f64,
-    /// Film and the air it carries, kg/m2.
+    /// LocalHeadCompliance and the air it carries, kg/m2.
     pub density: f64,
     /// Flexural rigidity under a tip, N m.
     pub rigidity: f64,
     /// Angular frequency the modes of the body reach, rad/s.
     pub reached: f64,
-    /// Whether it wraps itself around a stick's tip; else every tip presses on [its own disc](StrikerSpec::patch).
-    pub wraps: bool,
+    /// Whether it patch_grows itself around a stick's tip; else every tip presses on [its own disc](StrikerSpec::patch).
+    pub patch_grows: bool,
 }
 
 /// `2 exp(1/4 - gamma)`, dimensionless: a point on a stiff head gives way like a disc of so many `sqrt(D / T)`.
@@ -83,7 +83,7 @@ pub fn pressed_share(x: f64) -> f64 {
 /// What discs feel of each of many waves, worked out beforehand for some of them and blended between: a stroke has no
 /// time for Bessel functions.
 #[derive(Debug, Clone, Default)]
-pub struct Discs {
+pub struct PatchFactors {
     /// Radii, ascending, and the share of every wave that a disc of that size feels.
     discs: Vec<(f64, Vec<f64>)>,
 }
@@ -97,13 +97,13 @@ fn ladder() -> impl Iterator<Item = f64> {
 /// Up to 40 mm.
 const LADDER: i32 = 39;
 
-impl Discs {
+impl PatchFactors {
     /// For every striker's own disc and a ladder of others, in units of `unit` (m); `share` of a disc, `[wave]`. Allocates.
-    pub fn new(unit: f64, share: impl Fn(f64) -> Vec<f64>) -> Discs {
+    pub fn new(unit: f64, share: impl Fn(f64) -> Vec<f64>) -> PatchFactors {
         let radii = Striker::patches().chain(ladder()).map(|radius| radius / unit);
         let mut discs: Vec<(f64, Vec<f64>)> = radii.map(|disc| (disc, share(disc))).collect();
         discs.sort_by(|(a, _), (b, _)| a.total_cmp(b));
-        Discs { discs }
+        PatchFactors { discs }
     }
 
     /// The shares of a disc, unless it is smaller or larger than all that are known.
@@ -140,13 +140,14 @@ const FINEST: f64 = 3.832;
 /// Rounds in which patch and force settle: each is moved little by the other.
 const ROUNDS: usize = 4;
 
-impl Film {
+impl LocalHeadCompliance {
     /// Radius of the disc that a stroke at `speed` (m/s) presses, m.
     ///
     /// # Real-time
     /// No allocation; some logarithms.
     pub fn patch(&self, striker: &StrikerSpec, speed: f64) -> f64 {
-        let (true, Some(_), Tip::Solid { radius, .. }) = (self.wraps, &striker.stick, striker.tip) else {
+        let (true, Some(_), Tip::Solid { radius, .. }) = (self.patch_grows, &striker.stick, striker.tip)
+        else {
             return striker.patch;
         };
         let spread = SPREAD * SPREAD * self.rigidity / self.tension;
@@ -198,8 +199,14 @@ impl Film {
 mod tests {
     use super::*;
 
-    const HEAD: Film =
-        Film { radius: 0.15, tension: 2400.0, density: 0.5, rigidity: 0.02, reached: 18_850.0, wraps: true };
+    const HEAD: LocalHeadCompliance = LocalHeadCompliance {
+        radius: 0.15,
+        tension: 2400.0,
+        density: 0.5,
+        rigidity: 0.02,
+        reached: 18_850.0,
+        patch_grows: true,
+    };
 
     #[test]
     fn the_bands_yield_as_much_as_the_modes_they_stand_for() {
@@ -274,7 +281,7 @@ mod tests {
             assert!((pressed / force - 1.0).abs() < 1e-3, "{speed}: {pressed} {force}");
             assert_eq!(HEAD.patch(&felt, speed), felt.patch);
             assert_eq!(HEAD.patch(&ball, speed), ball.patch);
-            assert_eq!(Film { wraps: false, ..HEAD }.patch(&stick, speed), stick.patch);
+            assert_eq!(LocalHeadCompliance { patch_grows: false, ..HEAD }.patch(&stick, speed), stick.patch);
         }
     }
 
@@ -282,7 +289,7 @@ mod tests {
     fn a_disc_between_two_known_ones_feels_what_it_would_by_itself() {
         let waves: Vec<f64> = (0..40).map(|i| 25.0 * f64::from(i)).collect();
         let share = |disc: f64| waves.iter().map(|k| pressed_share(k * disc)).collect();
-        let discs = Discs::new(1.0, share);
+        let discs = PatchFactors::new(1.0, share);
         for i in 0..200 {
             let disc = 0.5e-3 * 1.02_f64.powi(i);
             let known = discs.of(disc).unwrap();

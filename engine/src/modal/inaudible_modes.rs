@@ -6,7 +6,7 @@
 //! given as a port. Once all modes of some lanes sleep, they are passed over ([`ModalBody::ring`]).
 
 use super::simd::flush::QUIET;
-use super::{ModalBody, Pickup, Port, Row, zero_row};
+use super::{InputVector, ModalBody, ReceiverWeights, Row, zero_row};
 
 /// Pressure that nobody misses, Pa: 120 dB under full scale, which is
 /// [`FULL_SCALE`](crate::level::FULL_SCALE).
@@ -17,17 +17,17 @@ const INAUDIBLE: f64 = 1e-6 * crate::level::FULL_SCALE as f64;
 const LARGEST: f64 = 1e-13;
 
 /// The state of each mode below which it may sleep.
-pub struct Faint {
+pub struct InaudibleModes {
     /// `[mode]`, m.
     below: Row,
 }
 
-impl Faint {
+impl InaudibleModes {
     /// For so many modes, none of which may sleep before it is gone. Allocates.
-    pub fn new(modes: usize) -> Faint {
+    pub fn new(modes: usize) -> InaudibleModes {
         let mut below = zero_row(modes);
         below.fill(QUIET);
-        Faint { below }
+        InaudibleModes { below }
     }
 }
 
@@ -37,7 +37,13 @@ impl ModalBody {
     ///
     /// # Real-time
     /// Linear in the number of modes.
-    pub fn learn_faint(&self, faint: &mut Faint, pickup: &Pickup, first: usize, driven: Option<&Port>) {
+    pub fn update_thresholds(
+        &self,
+        faint: &mut InaudibleModes,
+        pickup: &ReceiverWeights,
+        first: usize,
+        driven: Option<&InputVector>,
+    ) {
         let share = INAUDIBLE / self.modes.len().max(1) as f64;
         for (k, below) in faint.below.iter_mut().enumerate() {
             let undriven = driven.is_none_or(|port| port.shape.get(k) == Some(&0.0));
@@ -55,7 +61,7 @@ impl ModalBody {
     ///
     /// # Real-time
     /// Linear in the number of modes; meant for once a block.
-    pub fn flush_faint(&mut self, faint: &Faint) {
+    pub fn flush_inaudible(&mut self, faint: &InaudibleModes) {
         self.kernels.flush(&mut self.state.re, &mut self.state.im, Some(&faint.below));
     }
 }

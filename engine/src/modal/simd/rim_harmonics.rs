@@ -16,7 +16,7 @@ pub const MAX_CLASSES: usize = 9;
 pub type Amplitudes = [[f32; 2]; MAX_CLASSES];
 
 /// Which modes make up each amplitude.
-pub struct Folded {
+pub struct RimHarmonics {
     /// Groups of lanes with modes of a class in them, class by class.
     groups: Vec<Group>,
     /// What a mode adds to its class's cosine and sine, [`LANES`] values for every group.
@@ -32,20 +32,20 @@ struct Group {
     lanes: usize,
 }
 
-impl Default for Folded {
+impl Default for RimHarmonics {
     /// Of no modes.
-    fn default() -> Folded {
-        Folded { groups: Vec::new(), cos: zero_row(0), sin: zero_row(0) }
+    fn default() -> RimHarmonics {
+        RimHarmonics { groups: Vec::new(), cos: zero_row(0), sin: zero_row(0) }
     }
 }
 
-impl Folded {
+impl RimHarmonics {
     /// From every mode's class and its shares of the cosine and the sine, `[mode]`. Fastest where modes of a
     /// class lie together. Allocates.
     ///
     /// # Panics
     /// If there are more than [`MAX_CLASSES`] classes.
-    pub fn new(modes: &[(usize, [f64; 2])]) -> Folded {
+    pub fn new(modes: &[(usize, [f64; 2])]) -> RimHarmonics {
         assert!(modes.iter().all(|&(class, _)| class < MAX_CLASSES));
         let mut groups = Vec::new();
         for class in 0..MAX_CLASSES {
@@ -60,7 +60,7 @@ impl Folded {
                 (cos[at * LANES + lane], sin[at * LANES + lane]) = (c as f32, s as f32);
             }
         }
-        Folded { groups, cos, sin }
+        RimHarmonics { groups, cos, sin }
     }
 
     /// Square of every mode's amplitude at the rim, `(mode, square)`, but those that have none.
@@ -81,7 +81,7 @@ impl Folded {
 }
 
 struct Gather<'a> {
-    folded: &'a Folded,
+    folded: &'a RimHarmonics,
     x: &'a [f32],
 }
 
@@ -98,19 +98,19 @@ pub struct Spread<'a> {
 }
 
 struct SpreadAll<'a, 'b> {
-    folded: &'a Folded,
+    folded: &'a RimHarmonics,
     forces: &'a Amplitudes,
     body: Spread<'b>,
 }
 
 impl Kernels {
     /// Sums a row `[mode]` into amplitudes; modes that it does not reach count as zero.
-    pub fn gather_folded(&self, folded: &Folded, x: &[f32]) -> Amplitudes {
+    pub fn gather_folded(&self, folded: &RimHarmonics, x: &[f32]) -> Amplitudes {
         self.run(Gather { folded, x })
     }
 
     /// Adds to a body's state what forces on the amplitudes do in a sample.
-    pub fn spread_folded(&self, folded: &Folded, forces: &Amplitudes, body: Spread<'_>) {
+    pub fn spread_folded(&self, folded: &RimHarmonics, forces: &Amplitudes, body: Spread<'_>) {
         self.run(SpreadAll { folded, forces, body });
     }
 }

@@ -17,14 +17,14 @@ use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
-use crate::air::SPEED_OF_SOUND;
+use crate::air_load::SPEED_OF_SOUND;
 use crate::drum::coupled::Outside;
+use crate::drum::diffraction;
 use crate::drum::modes::DrumModes;
-use crate::drum::shadow;
 use crate::drum::spec::DrumSpec;
-use crate::drum::tuned::{Place, TunedMode};
-use crate::listening::{Radiator, Rayleigh};
-use crate::receiver::ListeningPoint;
+use crate::drum::tuned::{PitchPosition, TunedMode};
+use crate::radiation::{Radiator, Rayleigh};
+use crate::receiver::ReceiverPosition;
 use crate::split::Splitting;
 
 /// Modes up to so many times the default pitch are heard one by one. *By ear*.
@@ -35,7 +35,7 @@ const LEAST: f32 = 1e-3;
 
 /// Pressure over modal acceleration of the member of a pair that points at the listener, Pa s2/m.
 #[derive(Serialize, Deserialize)]
-enum PairHearing {
+enum PairTransfer {
     /// `[pitch of the mode's grid]`.
     Singly(Vec<[f32; 2]>),
     /// Among many.
@@ -49,27 +49,32 @@ enum PairHearing {
 
 /// Everything needed to hear a drum at any of its pitches.
 #[derive(Serialize, Deserialize)]
-pub struct Hearing {
+pub struct ModeTransfer {
     /// `[pair]`.
-    pairs: Vec<PairHearing>,
+    pairs: Vec<PairTransfer>,
     /// `[mode of the body]`: its pair, and what it shows of itself toward the listener.
     members: Vec<(u32, f32)>,
     /// Logarithms of the lowest, the default and the highest pitch (Hz).
     pitches: [f64; 3],
 }
 
-impl Hearing {
+impl ModeTransfer {
     /// Works it out for a point. Allocates; takes hundredths of a second.
-    pub fn new(drum: &DrumModes, spec: &DrumSpec, point: ListeningPoint) -> Hearing {
-        Hearing::with(drum, spec, point, None)
+    pub fn new(drum: &DrumModes, spec: &DrumSpec, point: ReceiverPosition) -> ModeTransfer {
+        ModeTransfer::with(drum, spec, point, None)
     }
 
     /// The same for another point, where modes among many change with the pitch as they do here: three times as fast.
-    pub fn from(&self, drum: &DrumModes, spec: &DrumSpec, point: ListeningPoint) -> Hearing {
-        Hearing::with(drum, spec, point, Some(self))
+    pub fn from(&self, drum: &DrumModes, spec: &DrumSpec, point: ReceiverPosition) -> ModeTransfer {
+        ModeTransfer::with(drum, spec, point, Some(self))
     }
 
-    fn with(drum: &DrumModes, spec: &DrumSpec, point: ListeningPoint, near: Option<&Hearing>) -> Hearing {
+    fn with(
+        drum: &DrumModes,
+        spec: &DrumSpec,
+        point: ReceiverPosition,
+        near: Option<&ModeTransfer>,
+    ) -> ModeTransfer {
         let [lowest, default, highest] = spec.pitches();
         let place = drum.heads.scale.place(default);
         let ends = [lowest, highest].map(|pitch| drum.heads.scale.place(pitch));
@@ -80,17 +85,17 @@ impl Hearing {
         let hear = |(pair, mode): (usize, &TunedMode)| {
             if mode.at(&place).omega > limit {
                 let default = all.transfer(mode, &place);
-                if let Some(PairHearing::Together { ends, .. }) = near.map(|near| &near.pairs[pair]) {
-                    return PairHearing::Together { default, ends: *ends };
+                if let Some(PairTransfer::Together { ends, .. }) = near.map(|near| &near.pairs[pair]) {
+                    return PairTransfer::Together { default, ends: *ends };
                 }
                 let size = |[re, im]: [f32; 2]| re.hypot(im);
                 let least = LEAST * size(default);
                 let end = |place| (size(all.transfer(mode, place)).max(least) / size(default)).ln();
                 let ends = [end(&ends[0]), end(&ends[1])].map(|x| if x.is_finite() { x } else { 0.0 });
-                return PairHearing::Together { default, ends };
+                return PairTransfer::Together { default, ends };
             }
             let at = |pitch: usize| few.transfer(mode, &drum.heads.scale.place(pitches[pitch]));
-            PairHearing::Singly(mode.grid().pitches().map(at).collect())
+            PairTransfer::Singly(mode.grid().pitches().map(at).collect())
         };
         let pairs = drum.modes.iter().enumerate().map(hear).collect();
         let mut members = Vec::new();
@@ -100,7 +105,7 @@ impl Hearing {
                 members.push((pair as u32, point.toward(mode.m, member, axis) as f32));
             }
         }
-        Hearing { pairs, members, pitches: [lowest, default, highest].map(f64::ln) }
+        ModeTransfer { pairs, members, pitches: [lowest, default, highest].map(f64::ln) }
     }
 
     /// How every mode of the body is heard at a pitch (Hz): told one by one, pressure over modal acceleration, real and
@@ -111,7 +116,7 @@ impl Hearing {
     pub fn transfers<'a>(
         &'a self,
         modes: &'a [TunedMode],
-        place: &'a Place,
+        place: &'a PitchPosition,
         pitch_hz: f64,
     ) -> impl Iterator<Item = [f64; 2]> + 'a {
         let [low, default, high] = self.pitches;
@@ -122,11 +127,11 @@ impl Hearing {
         self.members.iter().map(move |&(pair, shown)| {
             let (pair, shown) = (pair as usize, f64::from(shown));
             match &self.pairs[pair] {
-                PairHearing::Singly(row) => {
+                PairTransfer::Singly(row) => {
                     let stencil = place.of(modes[pair].grid());
                     [0, 1].map(|i| shown * stencil.blend(|pitch| f64::from(row[pitch][i])))
                 }
-                PairHearing::Together { default, ends } => {
+                PairTransfer::Together { default, ends } => {
                     let size = shown * (share * f64::from(ends[end])).exp();
                     default.map(|part| size * f64::from(part))
                 }
@@ -152,7 +157,7 @@ struct Ears<'a> {
 
 impl<'a> Ears<'a> {
     /// For modes up to an angular frequency `top` (rad/s) at any pitch.
-    fn new(drum: &'a DrumModes, spec: &'a DrumSpec, point: ListeningPoint, top: f64) -> Ears<'a> {
+    fn new(drum: &'a DrumModes, spec: &'a DrumSpec, point: ReceiverPosition, top: f64) -> Ears<'a> {
         let radius = spec.radius();
         let head = &drum.heads.batter.membrane;
         let slackest = drum.heads.batter.tensions.iter().copied().fold(f64::INFINITY, f64::min);
@@ -170,7 +175,7 @@ impl<'a> Ears<'a> {
 
     /// A head's motion in a mode, along the radius: head modes `first..first + count` of the head, `skip..` of the
     /// mode's shares.
-    fn radial(&self, mode: &TunedMode, place: &Place, shapes: &[f64], head: [usize; 3]) -> Vec<f64> {
+    fn radial(&self, mode: &TunedMode, place: &PitchPosition, shapes: &[f64], head: [usize; 3]) -> Vec<f64> {
         let nodes = self.near.radii().len();
         let [first, count, skip] = head;
         let shares: Vec<f64> = (0..count).map(|i| mode.share(skip + i, place)).collect();
@@ -183,7 +188,7 @@ impl<'a> Ears<'a> {
     }
 
     /// Transfer of a member of a pair that points at the listener.
-    fn transfer(&self, mode: &TunedMode, place: &Place) -> [f32; 2] {
+    fn transfer(&self, mode: &TunedMode, place: &PitchPosition) -> [f32; 2] {
         let omega = mode.at(place).omega;
         let (first, count) = self.drum.heads.batter.order(mode.m);
         let radial = self.radial(mode, place, &self.near_shapes, [first, count, 0]);
@@ -191,8 +196,8 @@ impl<'a> Ears<'a> {
         if let Outside::Free { .. } = self.spec.outside() {
             let radius = self.spec.radius();
             let ka = omega * radius / SPEED_OF_SOUND;
-            let space = 0.5 * shadow::baffling(ka);
-            let gain = shadow::near_gain(ka, self.fills);
+            let space = 0.5 * diffraction::baffling(ka);
+            let gain = diffraction::near_gain(ka, self.fills);
             (re, im) = (re * gain, im * gain);
             let radial = match (&self.drum.heads.resonant, &self.far_shapes) {
                 (Some(head), Some(shapes)) => {

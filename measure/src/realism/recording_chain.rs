@@ -18,30 +18,30 @@ use crate::settings::Setting;
 /// Recording chain of a piece.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Ear {
+pub enum RecordingChain {
     /// Its close microphone alone.
     Close,
     /// The full mix: close microphones, overheads, room.
     Mix,
 }
 
-impl Ear {
+impl RecordingChain {
     /// In the order of the report.
-    pub const ALL: [Ear; 2] = [Ear::Close, Ear::Mix];
+    pub const ALL: [RecordingChain; 2] = [RecordingChain::Close, RecordingChain::Mix];
 
     /// Its key in the JSON, also how people read it.
     pub fn name(self) -> &'static str {
         match self {
-            Ear::Close => "close",
-            Ear::Mix => "mix",
+            RecordingChain::Close => "close",
+            RecordingChain::Mix => "mix",
         }
     }
 
     /// The least share of the figures that is to be inside.
     pub fn goal(self) -> f64 {
         match self {
-            Ear::Close => 0.7,
-            Ear::Mix => 0.8,
+            RecordingChain::Close => 0.7,
+            RecordingChain::Mix => 0.8,
         }
     }
 }
@@ -69,7 +69,7 @@ impl Stand {
     }
 
     /// Strikes the piece of a slot, which is at rest, its pedal brought there before, and returns what each of
-    /// [`Ear::ALL`] hears for so many seconds.
+    /// [`RecordingChain::ALL`] hears for so many seconds.
     pub fn strike(&mut self, slot: Slot, strike: &Strike, pedal: Option<f64>, seconds: f64) -> [Vec<f32>; 2] {
         self.performer.reset();
         if let Some(pedal) = pedal {

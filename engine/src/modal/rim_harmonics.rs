@@ -1,19 +1,19 @@
-//! A body felt and pushed at all places around its rim at once; see [`Folded`].
+//! A body felt and pushed at all places around its rim at once; see [`RimHarmonics`].
 
-use super::simd::folded::{Amplitudes, Folded, MAX_CLASSES, Spread};
-use super::{EARS, ModalBody, Pickup, Port};
+use super::simd::rim_harmonics::{Amplitudes, MAX_CLASSES, RimHarmonics, Spread};
+use super::{InputVector, ModalBody, RECEIVERS, ReceiverWeights};
 
 /// Compliances of each class between its cosine and its sine, `[class][cosine, sine][cosine, sine]`, m/N.
 pub type ClassCompliances = [[[f64; 2]; 2]; MAX_CLASSES];
 
 impl ModalBody {
     /// Displacement around the rim, m.
-    pub fn folded_displacement(&self, folded: &Folded) -> Amplitudes {
+    pub fn folded_displacement(&self, folded: &RimHarmonics) -> Amplitudes {
         self.kernels.gather_folded(folded, &self.state.im)
     }
 
     /// Adds what forces around the rim (N), held over the sample just stepped, did.
-    pub fn push_folded(&mut self, folded: &Folded, forces: &Amplitudes) {
+    pub fn push_folded(&mut self, folded: &RimHarmonics, forces: &Amplitudes) {
         let body = Spread {
             re: &mut self.state.re,
             im: &mut self.state.im,
@@ -24,22 +24,22 @@ impl ModalBody {
     }
 
     /// How far a unit force held at a port has moved the rim by the end of the sample, m/N.
-    pub fn folded_compliance(&self, folded: &Folded, from: &Port) -> Amplitudes {
+    pub fn folded_compliance(&self, folded: &RimHarmonics, from: &InputVector) -> Amplitudes {
         self.kernels.gather_folded(folded, &from.gain_im)
     }
 
     /// Pressure at each ear at once per unit of force on each amplitude, Pa/N.
-    pub fn folded_direct(&self, folded: &Folded, pickup: &Pickup) -> [Amplitudes; EARS] {
+    pub fn folded_direct(&self, folded: &RimHarmonics, pickup: &ReceiverWeights) -> [Amplitudes; RECEIVERS] {
         pickup.ears.each_ref().map(|ear| self.kernels.gather_folded(folded, &ear.direct))
     }
 
     /// One-sample compliances of the rim, m/N.
-    pub fn class_compliances(&self, folded: &Folded) -> ClassCompliances {
+    pub fn class_compliances(&self, folded: &RimHarmonics) -> ClassCompliances {
         self.sum_classes(folded, |k| f64::from(self.coefs.hold_im[k]))
     }
 
     /// Compliances of the rim to a steady force, m/N.
-    pub fn static_compliances(&self, folded: &Folded) -> ClassCompliances {
+    pub fn static_compliances(&self, folded: &RimHarmonics) -> ClassCompliances {
         self.sum_classes(folded, |k| self.steady_compliance(k))
     }
 
@@ -49,7 +49,7 @@ impl ModalBody {
         if self.coefs.hold_im[k] == 0.0 { 0.0 } else { 1.0 / (mode.mass * mode.omega * mode.omega) }
     }
 
-    fn sum_classes(&self, folded: &Folded, of_mode: impl Fn(usize) -> f64) -> ClassCompliances {
+    fn sum_classes(&self, folded: &RimHarmonics, of_mode: impl Fn(usize) -> f64) -> ClassCompliances {
         let mut out = ClassCompliances::default();
         for (k, class, share) in folded.shares() {
             let yields = of_mode(k);
@@ -64,7 +64,7 @@ impl ModalBody {
 
     /// Sum over all modes of how far each can be from rest, weighted by its largest share of the rim, m:
     /// no place on the rim is farther.
-    pub fn folded_reach(&self, folded: &Folded) -> f64 {
+    pub fn folded_reach(&self, folded: &RimHarmonics) -> f64 {
         let far = |k: usize| self.state.re[k] * self.state.re[k] + self.state.im[k] * self.state.im[k];
         f64::from(folded.sizes().map(|(k, square)| (square * far(k)).sqrt()).sum::<f32>())
     }
