@@ -1,7 +1,7 @@
 //! Pieces that nobody has thought of: any within the accepted ranges, though no larger than can be built quickly.
 //!
 //! Each begins as a piece of the standard kit, gains or loses parts, and has every number of its description moved: by a
-//! factor of up to [`FACTOR`] either way, sometimes to the very end of its accepted range. What the description refuses,
+//! factor of up to three either way, sometimes to the very end of its accepted range. What the description refuses,
 //! and what has too many modes, is drawn anew.
 
 use std::f64::consts::TAU;
