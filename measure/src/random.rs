@@ -1,7 +1,7 @@
 //! Random pieces within the accepted ranges, no larger than can be built quickly.
 //!
 //! Each begins as a piece of the standard kit, gains or loses parts, and has every number of its description moved: by a
-//! factor of up to [`FACTOR`] either way, sometimes to the very end of its accepted range. Pieces that the description refuses,
+//! factor of up to three either way, sometimes to the very end of its accepted range. Pieces that the description refuses,
 //! or that have too many modes, are drawn again.
 
 use std::f64::consts::TAU;
