@@ -51,7 +51,7 @@ fn imports_of(member: &str) -> Imports {
 /// The engine's imports without those that are excused.
 fn of_engine() -> Imports {
     let mut imports = imports_of("engine");
-    let excused = |from: &str, to: &str| EXCEPTIONS.iter().any(|known| *known == (from, to));
+    let excused = |from: &str, to: &str| EXCEPTIONS.contains(&(from, to));
     imports.retain(|(from, to), _| !excused(from, to));
     imports
 }
