@@ -2,8 +2,8 @@
 //!
 //! Model: the shell modes of the plate, up to the edge of hearing, and the plate's rigid motions on its
 //! stand, a bounce and a rock. Bent by more than its thickness the plate stretches, which couples the
-//! modes up to a frequency that the quality chooses ([`VonKarman`]); above, they stay linear. The
-//! rigid motions are too slow to be heard. The plate stands in free air ([`FreeDisc`]).
+//! modes up to a frequency that the quality chooses ([`VonKarman`](crate::von_karman::VonKarman)); above, they stay linear. The
+//! rigid motions are too slow to be heard. The plate stands in free air ([`FreeDisc`](crate::plate::free_disc::FreeDisc)).
 
 use std::f64::consts::TAU;
 

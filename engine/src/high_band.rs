@@ -28,7 +28,7 @@
 //! `J_0^2 + 2 sum J_m^2 = 1`. It is what the strip along the rim sends out; the point hears it from the rim's
 //! distances, by chance in any phase.
 //!
-//! Contact: the head patch_grows itself around a tip, whose pressure on it is even, over a patch that grows with the force.
+//! Contact: the head wraps itself around a tip, whose pressure on it is even, over a patch that grows with the force.
 //! An even pressure moves a wave by `2 J_1(k b) / (k b)`; averaged over the areas a stroke goes through, up to its
 //! largest patch of radius `b`, that is `4 (1 - J_0(k b)) / (k b)^2`.
 //!

@@ -64,7 +64,7 @@ pub struct StrikerSpec {
     pub tip: Tip,
     /// Restitution against a rigid wall, 0 to 1.
     pub restitution: f64,
-    /// Radius of the disc that the tip presses on a head, m. *Derived*: a head patch_grows around a solid tip of
+    /// Radius of the disc that the tip presses on a head, m. *Derived*: a head wraps around a solid tip of
     /// radius `R` to `sqrt(F R / (2 pi T))`, felt that gives way by `d` is flat to `sqrt(2 R d)`; both at the
     /// force of a firm stroke. Where [heads wrap](crate::surface::local_compliance::LocalHeadCompliance::patch_grows), a stick's follows the stroke.
     pub patch: f64,

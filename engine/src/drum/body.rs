@@ -21,7 +21,7 @@ pub struct BodyMode {
     pub member: Member,
     /// Factor on the pair's frequency.
     pub detuning: f64,
-    /// How it goes around at the muffler's direction.
+    /// How it goes around at the muffler's direction, a factor from -1 to 1.
     pub gel_turn: f64,
 }
 

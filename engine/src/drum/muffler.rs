@@ -63,7 +63,7 @@ impl MufflerCoefs {
         }
     }
 
-    /// What some of it takes from the high band.
+    /// What so much of it, 0 to 1, takes from the high band.
     pub fn above(&self, amount: f64) -> HighMuffling {
         match *self {
             MufflerCoefs::Pillow(sigma, _) => HighMuffling { even: amount * sigma, ..HighMuffling::NONE },

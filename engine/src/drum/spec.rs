@@ -67,7 +67,7 @@ pub enum PitchOf {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum HeadContact {
-    /// The head patch_grows itself around a stick's tip, the farther the harder the stroke, and its stiffness spreads the force.
+    /// The head wraps itself around a stick's tip, the farther the harder the stroke, and its stiffness spreads the force.
     Wraps,
     /// Every stroke presses on the striker's own disc, whatever its force.
     FixedDisc,

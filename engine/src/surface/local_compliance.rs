@@ -17,7 +17,7 @@
 //! the distance `d` from the rim. Its modes part within the inverse of its width: the band decays at half of it.
 //! Without `P` the compliance would grow without bound, as that of a point on a membrane does.
 //!
-//! How large the disc is, follows from the head if it [patch_grows](LocalHeadCompliance::patch_grows) itself around the tip. Stiffness against
+//! How large the disc is, follows from the head if it [wraps](LocalHeadCompliance::patch_grows) itself around the tip. Stiffness against
 //! bending, `D`, alone lets a point press no less than a disc of
 //!
 //! ```text
@@ -34,7 +34,7 @@
 //! ```
 //!
 //! The disc is as large as that from the first touch on, which is why beaters keep their own: around a ball of some
-//! centimetres a head patch_grows itself only in the course of its long contact. A hard stroke so meets a stiffer head than a
+//! centimetres a head wraps itself only in the course of its long contact. A hard stroke so meets a stiffer head than a
 //! soft one and is shorter and brighter.
 //!
 //! Neglected: that film about a hard stroke's dent stretches more than the whole head does, which would stiffen it more. At
@@ -68,7 +68,7 @@ pub struct LocalHeadCompliance {
     pub rigidity: f64,
     /// Angular frequency the modes of the body reach, rad/s.
     pub reached: f64,
-    /// Whether it patch_grows itself around a stick's tip; else every tip presses on [its own disc](StrikerSpec::patch).
+    /// Whether it wraps itself around a stick's tip; else every tip presses on [its own disc](StrikerSpec::patch).
     pub patch_grows: bool,
 }
 

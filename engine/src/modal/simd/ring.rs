@@ -91,7 +91,7 @@ impl Kernels {
     /// [`ring`](Self::ring) with forces, each held over its sample.
     ///
     /// # Panics
-    /// If a run is longer than [`MAX_RUN`](super::MAX_RUN), a drive shorter than it, or of more than [`MAX_DRIVES`].
+    /// If a run is longer than [`MAX_RUN`], a drive shorter than it, or of more than [`MAX_DRIVES`].
     pub fn ring_driven(&self, ring: &mut Ring<'_>, drives: &[Drive<'_>]) {
         ring.check();
         assert!(drives.len() <= MAX_DRIVES, "{} drives", drives.len());

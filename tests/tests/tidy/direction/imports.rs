@@ -53,7 +53,7 @@ pub fn imports(files: &[(String, String)]) -> Imports {
     let is_of_tests = |path: &Module| (1..=path.len()).any(|n| of_tests.contains(&path[..n]));
     // Beside a library a `main.rs` is a crate of its own.
     let library = files.iter().any(|(file, _)| file == "lib.rs");
-    let counts = |file: &str| !file.starts_with("bin/") && !(library && file == "main.rs");
+    let counts = |file: &str| !(file.starts_with("bin/") || library && file == "main.rs");
     let mut known = Crate { modules: BTreeMap::new() };
     for (file, _) in parsed.iter().filter(|(file, _)| counts(file)) {
         let path = module(file);
