@@ -77,7 +77,7 @@ pub struct StruckBody {
 }
 
 impl StruckBody {
-    /// A body at rest without nonlinear force, out of the air. Allocates.
+    /// A body at rest without nonlinear force, out of the air; sample rate in Hz. Allocates.
     pub fn new(sound: SoundingBody, shapes: ShapeTable, sample_rate: f64) -> StruckBody {
         let inaudible = InaudibleModes::new(sound.modal.len());
         StruckBody { sound, inaudible, shapes, nonlinear_force: None, air: None, sample_rate }

@@ -150,7 +150,7 @@ impl Contacts {
         self.stiffened[i][j]
     }
 
-    /// A point's coupling with the nonlinear force, as [`NonlinearForce::coupling`] has it.
+    /// A point's coupling with the nonlinear force, m over the root of J, as [`NonlinearForce::coupling`] has it.
     ///
     /// [`NonlinearForce::coupling`]: crate::potential::NonlinearForce::coupling
     pub fn coupling(&self, i: usize) -> f64 {

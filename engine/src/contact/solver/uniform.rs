@@ -30,7 +30,7 @@ pub struct UniformContacts<'a, const N: usize> {
     pub law: &'a ContactLaw,
     /// Compliance between any two contacts, symmetric, m/N.
     pub yields: &'a [[f64; N]; N],
-    /// What the nonlinear force stiffens them by: `yields` less `u u / divisor`.
+    /// What the nonlinear force stiffens them by: `yields` less `u u / divisor`, m over the root of J.
     pub coupling: &'a [f64; N],
     /// See `coupling`; dimensionless.
     pub divisor: f64,
