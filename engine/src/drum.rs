@@ -12,7 +12,6 @@ pub mod heads;
 pub mod mode_transfer;
 pub mod modes;
 pub mod muffler;
-pub mod diffraction;
 pub mod spec;
 pub mod stretch;
 pub mod tuned;

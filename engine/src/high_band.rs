@@ -54,7 +54,7 @@ use std::f64::consts::{SQRT_2, TAU};
 use crate::air_load::SPEED_OF_SOUND;
 use crate::modal::simd::MAX_RUN;
 use crate::modal::{InputVector, MAX_DRIVES, ModalBody, Mode, RECEIVERS, ReceiverWeights};
-use crate::surface::local_compliance::PatchFactors;
+use crate::patch_factors::PatchFactors;
 
 pub use slices::{HighBandSpec, Receiver};
 use slices::{Slice, away, endless_sheet, loudness, mode, rim_strip, slices, taken, top_hz};

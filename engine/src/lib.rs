@@ -40,15 +40,17 @@ pub mod damping;
 pub mod plate;
 pub mod cavity;
 pub mod split;
+pub mod patch_factors;
 
 // What they are made of: a body of modes, forces, contacts, strikers, the air about.
 pub mod potential;
-pub mod modal;
 pub mod strike;
 pub mod stick;
 pub mod contact;
+pub mod modal;
 pub mod radiation;
 pub mod air_load;
+pub mod diffraction;
 pub mod glide;
 
 // Where everything stands and how it is built.
@@ -67,10 +69,12 @@ pub mod numbers;
 pub mod error;
 pub mod fitted;
 pub mod schema;
-pub mod cache;
 
 // Functions and numerical methods.
 pub mod math;
+
+// Results of long calculations, shared.
+pub mod cache;
 
 #[cfg(test)]
 mod reference;

@@ -5,7 +5,7 @@
 
 use crate::math::cubic::Stencil;
 use crate::mode::Member;
-use crate::surface::local_compliance::{PatchFactors, pressed_share};
+use crate::patch_factors::{PatchFactors, pressed_share};
 
 /// Intervals of the table. *Measured*: the finest shape of a cymbal at 22 kHz (wavelength a tenth
 /// of the radius) is met within 1e-4.

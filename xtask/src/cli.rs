@@ -122,16 +122,17 @@ fn dispatch(task: Task) -> Result<()> {
         Task::Realism(arguments) => realism::run(arguments),
         Task::Report { pages, output } => report::run(&pages, &output.unwrap_or_else(report::folder)),
         Task::Docs => manual::write(),
-        Task::Shots { out, plugin, cost, glance, here } => {
+        Task::Shots { plugin: Some(plugin), cost: true, here: true, .. } => shots::cost::here(&plugin),
+        Task::Shots { out, plugin: Some(plugin), glance, here: true, .. } => {
+            shots::here(&out, glance, &plugin)
+        }
+        Task::Shots { out, plugin, cost, glance, .. } => {
             let aim = match (cost, glance) {
                 (true, _) => shots::Aim::Cost,
                 (_, true) => shots::Aim::Glance(out),
                 _ => shots::Aim::Pictures(out),
             };
-            match plugin {
-                Some(plugin) if here => shots::here(&aim, &plugin),
-                plugin => shots::run(&aim, plugin),
-            }
+            shots::run(&aim, plugin)
         }
         Task::Groove { output } => output::write(&output, &groove::file()),
         Task::Program(Command::Bench(_)) => program::in_release(std::env::args_os().skip(1)),

@@ -3,7 +3,7 @@
 //! Opens the editor of the built CLAP in the embedded host, in a window on a virtual display, plays, and writes
 //! screenshots. The page is selected as a project selects it: by the view in the plugin's state.
 
-mod cost;
+pub mod cost;
 mod window;
 
 use std::path::{Path, PathBuf};
@@ -120,16 +120,13 @@ pub fn run(aim: &Aim, plugin: Option<PathBuf>) -> Result<()> {
     Ok(())
 }
 
-/// The same on the display of the environment.
+/// Takes the pictures on the display of the environment, in the dark palette at 1x only if it is a glance.
 ///
 /// # Errors
 /// If the plugin does not load or its editor does not show.
-pub fn here(aim: &Aim, plugin: &Path) -> Result<()> {
-    match aim {
-        Aim::Pictures(folder) => pictures(folder, plugin, &[(false, 1), (false, 2), (true, 1), (true, 2)]),
-        Aim::Glance(folder) => pictures(folder, plugin, &[(false, 1)]),
-        Aim::Cost => cost::here(plugin),
-    }
+pub fn here(folder: &Path, glance: bool, plugin: &Path) -> Result<()> {
+    let looks = [(false, 1), (false, 2), (true, 1), (true, 2)];
+    pictures(folder, plugin, if glance { &looks[..1] } else { &looks })
 }
 
 /// Takes every picture in each of the looks: whether it is light, and how large everything is.

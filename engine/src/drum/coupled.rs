@@ -33,22 +33,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::air_load::{self, DENSITY, HankelShape, SPEED_OF_SOUND};
 use crate::cavity::CavityOrder;
-use crate::drum::diffraction;
+use crate::diffraction::{self, Outside};
 use crate::math::bessel::JTable;
 use crate::math::{eigen, quadrature};
 use crate::membrane::{Membrane, MembraneMode};
-
-/// What surrounds the drum.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Outside {
-    /// The struck head lies in a baffle: a kettle, or a head on its own.
-    Baffle,
-    /// The drum stands free.
-    Free {
-        /// Length of the shell, m.
-        length: f64,
-    },
-}
 
 /// A head stretched to a tension (N/m).
 #[derive(Clone, Copy)]

@@ -18,8 +18,8 @@ use std::f64::consts::TAU;
 use serde::{Deserialize, Serialize};
 
 use crate::air_load::SPEED_OF_SOUND;
-use crate::drum::coupled::Outside;
-use crate::drum::diffraction;
+use crate::diffraction;
+use crate::diffraction::Outside;
 use crate::drum::modes::DrumModes;
 use crate::drum::spec::DrumSpec;
 use crate::drum::tuned::{PitchPosition, TunedMode};

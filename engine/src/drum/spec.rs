@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::cavity::CavitySpec;
 use crate::contact::Material;
 use crate::damping::{LossLaw, Muffler};
-use crate::drum::coupled::Outside;
+use crate::diffraction::Outside;
 use crate::error::SpecError;
 use crate::membrane::MembraneSpec;
 use crate::numbers::{self, Numbers, Visitor};

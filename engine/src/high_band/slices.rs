@@ -5,8 +5,8 @@
 use std::f64::consts::{PI, TAU};
 
 use crate::air_load::{DENSITY, SPEED_OF_SOUND};
-use crate::drum::coupled::Outside;
-use crate::drum::diffraction;
+use crate::diffraction;
+use crate::diffraction::Outside;
 use crate::membrane::MembraneSpec;
 use crate::modal::Mode;
 use crate::receiver::ReceiverPosition;

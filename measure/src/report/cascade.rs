@@ -15,8 +15,8 @@ use overhear_engine::strike::Strike;
 
 use super::page::bodies::{CAP, PLAYED};
 use super::page::sources::{EARLIER, MEASURED};
+use super::page::{Claim, Page, Sheet};
 use super::plot::{Axis, Line, Plot};
-use super::{Claim, Page, Sheet};
 use crate::analysis::envelope;
 use crate::analysis::one_shot::OneShot;
 use crate::hear;

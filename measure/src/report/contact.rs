@@ -13,8 +13,8 @@ use overhear_engine::strike::{Strike, Striker};
 
 use super::page::bodies;
 use super::page::sources::{EARLIER, EXACT};
+use super::page::{Claim, Page, Sheet};
 use super::plot::{Axis, Line, Plot};
-use super::{Claim, Page, Sheet};
 
 /// A step so short that shorter ones change nothing, s.
 const FINE: f64 = 1e-8;

@@ -10,8 +10,8 @@ use overhear_engine::strike::{Strike, Striker};
 
 use super::page::bodies::{CAP, PLAYED};
 use super::page::sources::{EARLIER, EXACT, GOAL};
+use super::page::{Claim, Page, Sheet};
 use super::plot::{Axis, Line, Plot};
-use super::{Claim, Page, Sheet};
 
 use crate::spectra::third_octaves::{centre, mean_difference, third_octaves, worst_difference};
 

@@ -12,8 +12,8 @@ use overhear_engine::strike::{Strike, Striker};
 
 use super::page::bodies::{FIXED_DISC, PLAYED};
 use super::page::sources::{EARLIER, EXACT, GOAL, MEASURED};
+use super::page::{Claim, Page, Sheet};
 use super::plot::{Axis, Plot};
-use super::{Claim, Page, Sheet};
 use crate::hear;
 
 const RATE: f64 = 44_100.0;

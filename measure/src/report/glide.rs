@@ -10,8 +10,8 @@ use overhear_engine::strike::Striker;
 
 use super::page::bodies::{FIXED_DISC, PLAYED};
 use super::page::sources::EARLIER;
+use super::page::{Claim, Page, Sheet};
 use super::plot::{Axis, Line, Plot};
-use super::{Claim, Page, Sheet};
 use crate::analysis::glide::{frequency, strongest_mode};
 use crate::hear::{self, ALONE, Measurement, Request, Sound};
 use crate::settings::PieceSetting;

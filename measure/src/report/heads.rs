@@ -12,8 +12,8 @@ use overhear_engine::strike::Striker;
 
 use super::page::bodies;
 use super::page::sources::{EARLIER, EXACT, MEASURED};
+use super::page::{Claim, Page, Sheet};
 use super::plot::{Axis, Line, Plot, comb};
-use super::{Claim, Page, Sheet};
 use crate::bad_input;
 use crate::spectra::OnsetSpectrum;
 

@@ -9,8 +9,8 @@ use overhear_engine::strike::Striker;
 
 use super::page::bodies::PLAYED;
 use super::page::sources::{EXACT, GOAL};
+use super::page::{Claim, Page, Sheet};
 use super::plot::{Axis, Plot};
-use super::{Claim, Page, Sheet};
 use crate::analysis::{OneShot, envelope, octave_decays};
 
 const RATE: f64 = 44_100.0;

@@ -13,8 +13,8 @@ use overhear_engine::strike::{Strike, Striker};
 
 use super::page::bodies::PLAYED;
 use super::page::sources::{EARLIER, EXACT, GOAL};
+use super::page::{Claim, Page, Sheet};
 use super::plot::{Axis, Line, Plot};
-use super::{Claim, Page, Sheet};
 use crate::hear;
 
 const RATE: f64 = 44_100.0;

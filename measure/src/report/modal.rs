@@ -19,8 +19,8 @@ use overhear_engine::surface::{Surface, SurfaceParts};
 
 use super::page::bodies;
 use super::page::sources::EXACT;
+use super::page::{Claim, Page, Sheet};
 use super::plot::{Axis, Plot};
-use super::{Claim, Page, Sheet};
 
 const RATE: f64 = 44_100.0;
 

@@ -8,8 +8,8 @@ use overhear_engine::plate::{PlateModes, PlateSpec, edges};
 
 use super::page::bodies;
 use super::page::sources::{EARLIER, EXACT};
+use super::page::{Claim, Page, Sheet};
 use super::plot::{Axis, Plot};
-use super::{Claim, Page, Sheet};
 use crate::bad_input;
 
 /// `lambda²` of a free disc of Poisson's ratio .33: nodal diameters, circles. Leissa, Vibration of Plates (1969), table 2.5.

@@ -12,8 +12,8 @@ use overhear_engine::receiver::ReceiverPosition;
 use super::heads::mode_of;
 use super::page::bodies::{EQUATION, ROUND};
 use super::page::sources::{EXACT, GOAL, MEASURED};
+use super::page::{Claim, Page, Sheet};
 use super::plot::{Axis, Line, Plot};
-use super::{Claim, Page, Sheet};
 
 pub mod microphones;
 
@@ -35,7 +35,7 @@ pub fn page() -> Result<Page> {
         ROUND,
         "Closed forms of a rigid disc in free air; radiation losses of drums; sound at the microphones. The drums are those of the\n\
          standard kit; where single modes are distinguished, without mode splitting.\n\
-         `engine/src/plate/free_disc.rs`, `engine/src/listening/tests.rs`, `tests/tests/damping.rs` and `tests/tests/microphones.rs`\n\
+         `engine/src/plate/free_disc.rs`, `engine/src/radiation/tests.rs`, `tests/tests/damping.rs` and `tests/tests/microphones.rs`\n\
          hold these figures.",
     );
     rigid_disc(&mut sheet);

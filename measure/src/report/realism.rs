@@ -10,8 +10,8 @@ use overhear::kit_document::KitDocument;
 
 use super::page::bodies::PLAYED;
 use super::page::sources::GOAL;
+use super::page::{Claim, Page, Sheet};
 use super::plot::{Axis, Line, Plot};
-use super::{Claim, Page, Sheet};
 use crate::picture;
 use crate::realism::reference::SLOPE_WITHIN;
 use crate::realism::{self, Count, PieceReport, RATE, RecordingChain, Report, SPEEDS, SUBJECTS, Subject};

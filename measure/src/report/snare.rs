@@ -14,8 +14,8 @@ use overhear_engine::surface::wires::PRELOAD;
 
 use super::page::bodies::{FIXED_DISC, PLAYED};
 use super::page::sources::{EARLIER, EXACT};
+use super::page::{Claim, Page, Sheet};
 use super::plot::{Axis, Plot};
-use super::{Claim, Page, Sheet};
 use crate::bad_input;
 
 const RATE: f64 = 44_100.0;

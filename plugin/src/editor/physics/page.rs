@@ -22,7 +22,7 @@ pub struct Seen<'a> {
     pub sound: &'a Sound,
 }
 
-/// Two parts of a rectangle with a gap between, beside each other or one over the other.
+/// Two parts of a rectangle with a gap between, beside each other or one over the other; the first has the `share` (0 to 1).
 pub fn halves(rect: Rect, share: f32, beside: bool) -> (Rect, Rect) {
     let gap = 0.5 * GAP;
     if beside {

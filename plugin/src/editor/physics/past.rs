@@ -17,7 +17,7 @@ pub struct Moment {
     pub time: f64,
     /// How far pitch is above its own, cents, by slot.
     pub cents: [f32; SLOTS],
-    /// Largest displacement over thickness, by slot; of plates.
+    /// Largest displacement of a plate over its thickness, no unit, by slot.
     pub bending: [f32; SLOTS],
     /// Energy of the modes of each octave, J, by slot.
     pub octaves: [[f32; OCTAVES]; SLOTS],

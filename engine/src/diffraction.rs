@@ -16,6 +16,18 @@
 //!
 //! Source: Morse & Ingard, Theoretical Acoustics, sec. 7.2 (point source on a sphere).
 
+/// What surrounds the drum.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Outside {
+    /// The struck head lies in a baffle: a kettle, or a head on its own.
+    Baffle,
+    /// The drum stands free.
+    Free {
+        /// Length of the shell, m.
+        length: f64,
+    },
+}
+
 /// Power of a source on the body over that of the same source in free air, 1 to 2, at `ka`.
 pub fn baffling(ka: f64) -> f64 {
     let slopes = Slopes::new(ka);
