@@ -45,6 +45,6 @@ impl Sound {
 
     /// Nothing is heard any more of what was.
     pub(super) fn reset(&mut self) {
-        self.lag = Pressure::default();
+        (self.lag, self.rescale_velocity) = (Pressure::default(), Pressure::default());
     }
 }

@@ -101,7 +101,8 @@ impl ContactPoint {
         self.present = true;
         (self.ground, self.law, self.weights) = (ground, law, weights);
         (self.preload, self.static_compression, self.compression, self.force) = (0.0, 0.0, 0.0, 0.0);
-        self.touching = false;
+        // A point that others push into contact before it flies into it has no approach speed: it loses nothing.
+        (self.touching, self.lambda) = (false, 0.0);
         self.band_count = 0;
     }
 
