@@ -45,13 +45,13 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 }
 
 /// Parses a command line, the program's name first, does what it says, and tells how that ended.
-pub fn run_as<Line: Parser>(
+pub fn run_as<Invocation: Parser>(
     arguments: impl IntoIterator<Item = OsString>,
-    work: impl FnOnce(Line) -> Result<()>,
+    work: impl FnOnce(Invocation) -> Result<()>,
 ) -> ExitCode {
-    let line = match Line::try_parse_from(arguments) {
+    let line = match Invocation::try_parse_from(arguments) {
         Ok(line) => line,
-        Err(refusal) => return refused::<Line>(&refusal),
+        Err(refusal) => return refused::<Invocation>(&refusal),
     };
     match work(line) {
         Ok(()) => ExitCode::SUCCESS,
@@ -65,7 +65,7 @@ pub fn run_as<Line: Parser>(
 }
 
 /// Prints help where it was asked for, and anything else as one line.
-fn refused<Line: Parser>(refusal: &clap::Error) -> ExitCode {
+fn refused<Invocation: Parser>(refusal: &clap::Error) -> ExitCode {
     if matches!(refusal.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) {
         print!("{refusal}");
         return ExitCode::SUCCESS;
@@ -80,7 +80,7 @@ fn refused<Line: Parser>(refusal: &clap::Error) -> ExitCode {
     let reason = reason.split("\n\nFor more").next().unwrap_or(reason);
     let mut line = reason.split_whitespace().collect::<Vec<_>>().join(" ");
     if refusal.kind() == ErrorKind::InvalidSubcommand {
-        let command = Line::command();
+        let command = Invocation::command();
         let names: Vec<_> = command.get_subcommands().map(|command| command.get_name()).collect();
         line = format!("{line}, accepted: {}", names.join(", "));
     }

@@ -78,7 +78,7 @@ pub struct Kit {
     retained: [RetainedControls; SLOTS],
     /// Slots that are to hold a piece.
     wanted: [bool; SLOTS],
-    crew: Option<Box<dyn RenderWorkers>>,
+    workers: Option<Box<dyn RenderWorkers>>,
     air: Propagation,
     desk: Mixer,
     /// How much the drums hear of each other: the switch, the amount.
@@ -99,7 +99,7 @@ impl Kit {
             posts: std::array::from_fn(|_| Some(Box::new(RenderJob::new(sample_rate)))),
             retained: Slot::ALL.map(|slot| RetainedControls::of(spec.piece(slot))),
             wanted: Slot::ALL.map(|slot| spec.piece(slot).is_some()),
-            crew: None,
+            workers: None,
             air: Propagation::new(sample_rate, &spec.layout(), &spec.room),
             desk: Mixer::new(sample_rate, spec),
             hearing: true,
@@ -113,15 +113,15 @@ impl Kit {
     }
 
     /// Lets somebody else render the posts, and returns who did so far, to be dropped elsewhere. Output does
-    /// not depend on who does. Meant for a kit that [is whole](Self::is_whole): what a dismissed crew still has is lost.
+    /// not depend on who does. Meant for a kit that [is whole](Self::is_whole): what a dismissed workers still has is lost.
     ///
     /// # Real-time
     /// No allocation; nothing is dropped here.
-    pub fn attach(&mut self, crew: Option<Box<dyn RenderWorkers>>) -> Option<Box<dyn RenderWorkers>> {
-        std::mem::replace(&mut self.crew, crew)
+    pub fn attach(&mut self, workers: Option<Box<dyn RenderWorkers>>) -> Option<Box<dyn RenderWorkers>> {
+        std::mem::replace(&mut self.workers, workers)
     }
 
-    /// Whether nobody has a post away: the crew has brought back all it took.
+    /// Whether nobody has a post away: the workers has brought back all it took.
     pub fn is_whole(&self) -> bool {
         self.posts.iter().all(Option::is_some)
     }
@@ -139,7 +139,7 @@ impl Kit {
     /// Puts a piece in its slot and returns what stood there, to be dropped elsewhere.
     ///
     /// The piece takes over the slot's present tuning and muffling. What stood there and still sounds fades out
-    /// first; it is handed back by [`retire`](Self::retire) once it has. A piece of a slot that is away with the crew is
+    /// first; it is handed back by [`retire`](Self::retire) once it has. A piece of a slot that is away with the workers is
     /// handed back.
     ///
     /// # Real-time

@@ -61,7 +61,7 @@ const SHORT_OF: f64 = 1.0 - 1e-9;
 pub struct CoupledPair {
     /// Which of the plate's shell modes.
     pub shell: usize,
-    /// Place of the cosine member among the body's modes; the sine one follows if there is one.
+    /// PairIndex of the cosine member among the body's modes; the sine one follows if there is one.
     pub mode: usize,
     /// Direction of the pair's axes, rad.
     pub axis: f64,
@@ -69,7 +69,7 @@ pub struct CoupledPair {
 
 /// Where a pair's amplitudes are, and how its axes are turned.
 #[derive(Debug, Clone, Copy)]
-struct Place {
+struct PairIndex {
     /// In the body; the sine member follows unless `m` is 0.
     mode: usize,
     m: u32,
@@ -82,7 +82,7 @@ struct Place {
 /// The stretching energy of a plate and its gradient.
 pub struct VonKarman {
     kernels: Kernels,
-    places: Vec<Place>,
+    places: Vec<PairIndex>,
     /// Transforms of the displacement's and of the Airy functions' orders.
     bends: Circle,
     airys: Circle,
@@ -152,7 +152,7 @@ impl VonKarman {
             let Bent { radial, around, twist, .. } = plate.bent(tables, shell(pair), &rule.nodes);
             let (sin, cos) = (f64::from(m) * pair.axis).sin_cos();
             let cos_at = row * 2 * SLOTS + curvatures[row].len();
-            places.push(Place { mode: pair.mode, m, cos_at, cos: cos as f32, sin: sin as f32 });
+            places.push(PairIndex { mode: pair.mode, m, cos_at, cos: cos as f32, sin: sin as f32 });
             curvatures[row].push([radial, around, twist].concat());
             let mut overlap =
                 airy.get(m as usize).map_or(vec![], |order| order.curvature(plate, shell(pair)));

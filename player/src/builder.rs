@@ -279,8 +279,8 @@ impl Shared {
     fn build(&self, job: &Job, make: Make) -> Result<(), String> {
         if job.former.as_ref().map_or(WorkerPlan::NOBODY, BuildPlan::worker_plan) != job.plan.worker_plan() {
             // A kit without workers plays as well: no reason to fail.
-            let crew = job.plan.worker_plan().hire_until(self.deadline.clone()).unwrap_or_default();
-            self.deliver(&self.queues.hired, Hired { order: job.order, crew }, job.order);
+            let workers = job.plan.worker_plan().hire_until(self.deadline.clone()).unwrap_or_default();
+            self.deliver(&self.queues.hired, Hired { order: job.order, workers }, job.order);
         }
         let kit = &job.plan.kit().kit;
         for slot in Slot::ALL.into_iter().filter(|&slot| kit.piece(slot).is_none()) {

@@ -143,8 +143,8 @@ impl Performer {
     ///
     /// # Real-time
     /// No allocation; nothing is dropped here.
-    pub fn attach(&mut self, crew: Option<Box<dyn RenderWorkers>>) -> Option<Box<dyn RenderWorkers>> {
-        self.kit.attach(crew)
+    pub fn attach(&mut self, workers: Option<Box<dyn RenderWorkers>>) -> Option<Box<dyn RenderWorkers>> {
+        self.kit.attach(workers)
     }
 
     /// Whether no worker holds a piece: all have come back from the latest run.

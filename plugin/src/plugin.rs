@@ -272,9 +272,9 @@ impl Stage {
         while let Some(piece) = self.performer.retire() {
             self.delivery.give_back(piece);
         }
-        // What a crew has not brought back yet would go with it.
+        // What a workers has not brought back yet would go with it.
         if self.performer.is_whole() {
-            self.delivery.take_workers(|crew| self.performer.attach(crew));
+            self.delivery.take_workers(|workers| self.performer.attach(workers));
         }
     }
 

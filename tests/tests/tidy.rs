@@ -7,6 +7,8 @@ mod direction;
 mod pieces;
 #[path = "tidy/units.rs"]
 mod units;
+#[path = "tidy/vocabulary.rs"]
+mod vocabulary;
 
 use std::ffi::OsString;
 use std::fs;

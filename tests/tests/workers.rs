@@ -47,8 +47,8 @@ fn score(seconds: f64, rate: f64) -> Vec<(usize, Event)> {
 fn play(rate: f64, seconds: f64, workers: usize, mut buffer: impl FnMut() -> usize) -> Vec<[u32; 2]> {
     let mut kit = kit(rate);
     if workers > 0 {
-        let crew = Workers::new(workers, Patience::Offline, RenderJob::render).expect("threads");
-        assert!(kit.attach(Some(Box::new(crew))).is_none());
+        let workers = Workers::new(workers, Patience::Offline, RenderJob::render).expect("threads");
+        assert!(kit.attach(Some(Box::new(workers))).is_none());
     }
     let frames = (seconds * rate) as usize;
     let (mut left, mut right) = (vec![f32::NAN; frames], vec![f32::NAN; frames]);
@@ -114,10 +114,10 @@ fn hits_are_the_same_on_0_1_and_3_workers_in_any_buffers(spec: &KitSpec, struck:
     let whole = hit(&mut kit, struck, frames, frames);
     assert!(whole[0].iter().any(|&x| f32::from_bits(x).abs() > 0.05));
     for workers in [0, 1, 3] {
-        let crew = (workers > 0).then(|| -> Box<dyn RenderWorkers> {
+        let workers = (workers > 0).then(|| -> Box<dyn RenderWorkers> {
             Box::new(Workers::new(workers, Patience::Offline, RenderJob::render).expect("threads"))
         });
-        drop(kit.attach(crew));
+        drop(kit.attach(workers));
         for buffer in [1, 17, 64, 512, 8192, 0] {
             let again = hit(&mut kit, struck, frames, buffer);
             assert!(whole == again, "{workers} workers, buffers of {buffer}");
@@ -152,7 +152,7 @@ fn workers_and_buffers_change_no_sample_of_ten_seconds() {
 /// Longest that a test waits for the system to let workers work, were this machine doing nothing else.
 const LONG: Duration = Duration::from_secs(60);
 
-/// Strikes everything with such a crew and plays until `done`, then until nobody is away.
+/// Strikes everything with such a workers and plays until `done`, then until nobody is away.
 fn play_with(patience: Patience, render: fn(&mut RenderJob), done: impl Fn() -> bool) -> (KitSnapshot, f32) {
     const RATE: f64 = RATES[0];
     let mut kit = kit(RATE);

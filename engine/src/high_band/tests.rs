@@ -9,9 +9,9 @@ use crate::reference;
 
 const RATE: f64 = 44_100.0;
 
-fn band(blueprint: &DrumModes, build: &PieceBuild) -> HighBand {
+fn band(built: &DrumModes, build: &PieceBuild) -> HighBand {
     let context = build.context(BuildOptions::new(RATE));
-    HighBand::new(&blueprint.high_band(build.spec.drum().unwrap(), &context))
+    HighBand::new(&built.high_band(build.spec.drum().unwrap(), &context))
 }
 
 fn rack_tom() -> (DrumModes, PieceBuild) {
@@ -21,12 +21,12 @@ fn rack_tom() -> (DrumModes, PieceBuild) {
 
 #[test]
 fn slices_follow_on_the_complete_set_in_frequency_mass_count_and_loudness() {
-    let (blueprint, build) = rack_tom();
-    let band = band(&blueprint, &build);
+    let (built, build) = rack_tom();
+    let band = band(&built, &build);
     let spec = *build.spec.drum().unwrap();
     let middle = (spec.lowest_pitch_hz * spec.highest_pitch_hz).sqrt();
-    let place = blueprint.heads.scale.place(middle);
-    let top: Vec<_> = blueprint.modes.iter().rev().filter(|mode| mode.at(&place).batter > 0.5).collect();
+    let place = built.heads.scale.place(middle);
+    let top: Vec<_> = built.modes.iter().rev().filter(|mode| mode.at(&place).batter > 0.5).collect();
     let highest = top[0].at(&place);
     let first = band.slices().next().unwrap();
     println!("complete to {:.0} Hz, slices from {:.0} Hz", highest.omega / TAU, first.omega / TAU);
@@ -37,10 +37,10 @@ fn slices_follow_on_the_complete_set_in_frequency_mass_count_and_loudness() {
     let low = highest.omega / 2.0_f64.sqrt();
     let (mut heard, mut count) = (0.0, 0.0);
     let spec = DrumSpec { pitch_hz: middle, ..spec };
-    let hearing = ModeTransfer::new(&blueprint, &spec, build.receivers.near);
-    let transfer: Vec<_> = hearing.transfers(&blueprint.modes, &place, middle).collect();
+    let hearing = ModeTransfer::new(&built, &spec, build.receivers.near);
+    let transfer: Vec<_> = hearing.transfers(&built.modes, &place, middle).collect();
     let mut k = 0;
-    for mode in &blueprint.modes {
+    for mode in &built.modes {
         let both = members(mode.m) as usize;
         if mode.at(&place).omega > low && mode.at(&place).batter > 0.5 {
             heard += transfer[k..k + both].iter().map(|[re, im]| re * re + im * im).sum::<f64>();
@@ -57,10 +57,10 @@ fn slices_follow_on_the_complete_set_in_frequency_mass_count_and_loudness() {
 
 #[test]
 fn it_reaches_16_khz_and_no_farther() {
-    let (blueprint, build) = rack_tom();
+    let (built, build) = rack_tom();
     for pitch in build.spec.instrument.tunings() {
-        let mut band = band(&blueprint, &build);
-        band.retune(blueprint.heads.batter.tension(&blueprint.heads.scale.place(pitch)), &HighMuffling::NONE);
+        let mut band = band(&built, &build);
+        band.retune(built.heads.batter.tension(&built.heads.scale.place(pitch)), &HighMuffling::NONE);
         let last = band.slices().last().unwrap().omega / TAU;
         assert!((15_500.0..=16_000.0).contains(&last), "{pitch}: {last}");
     }
@@ -68,8 +68,8 @@ fn it_reaches_16_khz_and_no_farther() {
 
 #[test]
 fn a_waves_shape_is_zero_at_the_rim_and_one_in_the_mean() {
-    let (blueprint, build) = rack_tom();
-    let band = band(&blueprint, &build);
+    let (built, build) = rack_tom();
+    let band = band(&built, &build);
     let mut sum = 0.0;
     for (k, slice) in band.slices.iter().enumerate() {
         assert!(slice.at(1.0, k as f64).abs() < 1e-9);
@@ -82,9 +82,9 @@ fn a_waves_shape_is_zero_at_the_rim_and_one_in_the_mean() {
 
 #[test]
 fn how_a_run_is_cut_changes_no_sample() {
-    let (blueprint, build) = rack_tom();
+    let (built, build) = rack_tom();
     let play = |cuts: &[usize]| {
-        let mut band = band(&blueprint, &build);
+        let mut band = band(&built, &build);
         band.put(0, 0.3, 0.5, 0.003);
         band.put(2, 0.7, 1.5, 0.003);
         let mut sound = vec![0.0_f32; 96];
@@ -116,8 +116,8 @@ fn how_a_run_is_cut_changes_no_sample() {
 
 #[test]
 fn tuned_back_and_forth_it_is_what_it_was() {
-    let (blueprint, build) = rack_tom();
-    let mut band = band(&blueprint, &build);
+    let (built, build) = rack_tom();
+    let mut band = band(&built, &build);
     let before: Vec<SliceInfo> = band.slices().collect();
     let tension = band.spec.tensions[1];
     band.retune(3.0 * tension, &HighMuffling { even: 5.0, pad: (30.0, 0.8) });

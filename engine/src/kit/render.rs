@@ -116,8 +116,8 @@ impl Kit {
                 self.air.arrive(slot, self.clock, &amount, post);
             }
         }
-        match &mut self.crew {
-            Some(crew) => crew.render(&mut self.posts),
+        match &mut self.workers {
+            Some(workers) => workers.render(&mut self.posts),
             None => self.posts.iter_mut().flatten().for_each(|post| post.render()),
         }
     }

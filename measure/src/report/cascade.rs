@@ -16,7 +16,7 @@ use overhear_engine::strike::Strike;
 use super::page::bodies::{CAP, PLAYED};
 use super::page::sources::{EARLIER, MEASURED};
 use super::page::{Claim, Page, Sheet};
-use super::plot::{Axis, Line, Plot};
+use super::plot::{Axis, Curve, Plot};
 use crate::analysis::envelope;
 use crate::analysis::one_shot::OneShot;
 use crate::hear;
@@ -136,7 +136,7 @@ fn bloom_ms(sound: &[f32]) -> f64 {
     OneShot::new(sound, RATE).and_then(|shot| envelope::bloom_ms(&shot)).unwrap_or(f64::NAN)
 }
 
-fn lines(courses: &[Course], speed: f64) -> Vec<Line> {
+fn lines(courses: &[Course], speed: f64) -> Vec<Curve> {
     let of_speed = courses.iter().filter(|course| course.on == PLAYED && course.speed == speed);
     of_speed.map(|course| (course.tier.to_owned(), course.line.clone())).collect()
 }

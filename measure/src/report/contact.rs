@@ -14,7 +14,7 @@ use overhear_engine::strike::{Strike, Striker};
 use super::page::bodies;
 use super::page::sources::{EARLIER, EXACT};
 use super::page::{Claim, Page, Sheet};
-use super::plot::{Axis, Line, Plot};
+use super::plot::{Axis, Curve, Plot};
 
 /// A step so short that shorter ones change nothing, s.
 const FINE: f64 = 1e-8;
@@ -37,7 +37,7 @@ pub fn page() -> Result<Page> {
     let times = hertz(&mut sheet);
     wall(&mut sheet);
     energy(&mut sheet);
-    let mut pulses: Vec<(String, Vec<Line>)> = Vec::new();
+    let mut pulses: Vec<(String, Vec<Curve>)> = Vec::new();
     for (name, [played, cap], strike) in fine_strokes() {
         fine_step(&mut sheet, name, (&cap, bodies::CAP), &strike);
         fine_step(&mut sheet, name, (&played, bodies::PLAYED), &strike);

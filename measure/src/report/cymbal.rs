@@ -11,7 +11,7 @@ use overhear_engine::strike::{Strike, Striker};
 use super::page::bodies::{CAP, PLAYED};
 use super::page::sources::{EARLIER, EXACT, GOAL};
 use super::page::{Claim, Page, Sheet};
-use super::plot::{Axis, Line, Plot};
+use super::plot::{Axis, Curve, Plot};
 
 use crate::spectra::third_octaves::{centre, mean_difference, third_octaves, worst_difference};
 
@@ -91,7 +91,7 @@ fn plot(sheet: &mut Sheet, Body(crash, _): &Body) -> Result<()> {
         let levels = shoulder_bands(crash, speed, quality);
         let top = levels.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let points = levels.iter().zip(0..).map(|(db, band)| (centre(band), (db - top).max(-60.0)));
-        let line: Line = (name.to_owned(), points.collect());
+        let line: Curve = (name.to_owned(), points.collect());
         line
     };
     let (standard, offline) = (Quality::Standard, Quality::Offline);

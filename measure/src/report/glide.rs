@@ -11,7 +11,7 @@ use overhear_engine::strike::Striker;
 use super::page::bodies::{FIXED_DISC, PLAYED};
 use super::page::sources::EARLIER;
 use super::page::{Claim, Page, Sheet};
-use super::plot::{Axis, Line, Plot};
+use super::plot::{Axis, Curve, Plot};
 use crate::analysis::glide::{frequency, strongest_mode};
 use crate::hear::{self, ALONE, Measurement, Request, Sound};
 use crate::settings::PieceSetting;
@@ -94,7 +94,7 @@ struct Glides {
     /// At 4 m/s, without stretch, cents.
     linear: f64,
     /// The strongest partial over time after strokes of [`DRAWN`] speeds.
-    courses: Vec<Line>,
+    courses: Vec<Curve>,
 }
 
 impl Glides {

@@ -13,7 +13,7 @@ use overhear_engine::strike::Striker;
 use super::page::bodies;
 use super::page::sources::{EARLIER, EXACT, MEASURED};
 use super::page::{Claim, Page, Sheet};
-use super::plot::{Axis, Line, Plot, comb};
+use super::plot::{Axis, Curve, Plot, comb};
 use crate::bad_input;
 use crate::spectra::OnsetSpectrum;
 
@@ -146,7 +146,7 @@ fn spectrum() -> Result<Plot<'static>> {
     let top = levels.iter().map(|level| level.1).fold(f64::NEG_INFINITY, f64::max);
     let below =
         |modes: &[f64]| modes.iter().copied().filter(|hz| (50.0..500.0).contains(hz)).collect::<Vec<_>>();
-    let lines: Vec<Line> = vec![
+    let lines: Vec<Curve> = vec![
         comb("vacuum", &below(&in_vacuum), [-80.0, -68.0]),
         comb("air and kettle", &below(&loaded), [-66.0, -54.0]),
         ("heard".to_owned(), levels.iter().map(|&(hz, db)| (hz, (db - top).max(-80.0))).collect()),

@@ -14,7 +14,7 @@ use overhear_engine::strike::{Strike, Striker};
 use super::page::bodies::PLAYED;
 use super::page::sources::{EARLIER, EXACT, GOAL};
 use super::page::{Claim, Page, Sheet};
-use super::plot::{Axis, Line, Plot};
+use super::plot::{Axis, Curve, Plot};
 use crate::hear;
 
 const RATE: f64 = 44_100.0;
@@ -242,13 +242,13 @@ fn name(spec: &KitSpec, slot: Slot) -> &str {
 }
 
 /// Ways of sound, seen from above, from every drum or every cymbal to each drum that hears it.
-fn ways_from(spec: &KitSpec, title: &str, from_drums: bool) -> (String, Vec<Line>) {
+fn ways_from(spec: &KitSpec, title: &str, from_drums: bool) -> (String, Vec<Curve>) {
     let plan = |piece: &PieceSpec| {
         let [x, _, z] = piece.place.centre;
         (x, z)
     };
     let drums = || spec.pieces.iter().filter(|piece| piece.drum().is_some());
-    let line = |from: &PieceSpec| -> Line {
+    let line = |from: &PieceSpec| -> Curve {
         let others = drums().filter(|to| to.name != from.name);
         (from.name.clone(), others.flat_map(|to| [plan(from), plan(to), PEN_UP]).collect())
     };

@@ -1,4 +1,4 @@
-//! Line plots of the report, as PNG.
+//! Curve plots of the report, as PNG.
 
 use std::ops::Range;
 
@@ -27,7 +27,7 @@ const LINES: [RGBColor; 9] = [
 ];
 
 /// A line: its name and its points; one that is not a number lifts the pen.
-pub type Line = (String, Vec<(f64, f64)>);
+pub type Curve = (String, Vec<(f64, f64)>);
 
 /// Scale of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -67,7 +67,7 @@ pub struct Plot<'a> {
     /// The vertical axis.
     pub up: Axis<'a>,
     /// Title and lines of each panel.
-    pub panels: Vec<(String, Vec<Line>)>,
+    pub panels: Vec<(String, Vec<Curve>)>,
 }
 
 /// Error of drawing.
@@ -117,7 +117,7 @@ impl Plot<'_> {
     fn fill<'a, 'b, X, Y>(
         &self,
         mut chart: ChartContext<'a, BitMapBackend<'b>, Cartesian2d<X, Y>>,
-        lines: &[Line],
+        lines: &[Curve],
     ) -> Drawn
     where
         'b: 'a,
@@ -164,7 +164,7 @@ fn short(value: f64) -> String {
 }
 
 /// Upright lines at some places.
-pub fn comb(name: &str, places: &[f64], [foot, top]: [f64; 2]) -> Line {
+pub fn comb(name: &str, places: &[f64], [foot, top]: [f64; 2]) -> Curve {
     let upright = |&x: &f64| [(x, foot), (x, top), (f64::NAN, f64::NAN)];
     (name.to_owned(), places.iter().flat_map(upright).collect())
 }

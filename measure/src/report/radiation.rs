@@ -13,7 +13,7 @@ use super::heads::mode_of;
 use super::page::bodies::{EQUATION, ROUND};
 use super::page::sources::{EXACT, GOAL, MEASURED};
 use super::page::{Claim, Page, Sheet};
-use super::plot::{Axis, Line, Plot};
+use super::plot::{Axis, Curve, Plot};
 
 pub mod microphones;
 
@@ -162,7 +162,7 @@ fn near_fields(sheet: &mut Sheet) {
 }
 
 /// Radiated area of the modes of a drum's struck head against frequency, by nodal diameters.
-fn areas(name: &str) -> Vec<Line> {
+fn areas(name: &str) -> Vec<Curve> {
     let modes = round_piece(name, RATE).modes();
     let of = |m: u32| {
         let of_order = modes.iter().filter(move |mode| mode.body == "batter" && mode.m == m);

@@ -11,7 +11,7 @@ use overhear::kit_document::KitDocument;
 use super::page::bodies::PLAYED;
 use super::page::sources::GOAL;
 use super::page::{Claim, Page, Sheet};
-use super::plot::{Axis, Line, Plot};
+use super::plot::{Axis, Curve, Plot};
 use crate::picture;
 use crate::realism::reference::SLOPE_WITHIN;
 use crate::realism::{self, Count, PieceReport, RATE, RecordingChain, Report, SPEEDS, SUBJECTS, Subject};
@@ -200,7 +200,7 @@ fn short(value: f64) -> String {
 }
 
 /// Decay times at the first and the last speed and of recordings, by octave.
-fn decays(report: &Report, name: &str) -> Vec<Line> {
+fn decays(report: &Report, name: &str) -> Vec<Curve> {
     let in_mix = |piece: &&PieceReport| piece.piece == name && piece.heard == RecordingChain::Mix;
     let Some(piece) = report.pieces.iter().find(in_mix) else { return Vec::new() };
     let octaves = [125.0, 500.0, 1000.0, 2000.0, 4000.0, 8000.0];

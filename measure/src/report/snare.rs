@@ -216,13 +216,13 @@ fn air(sheet: &mut Sheet, snares: [(&PieceSpec, &'static str); 2]) -> Result<()>
 /// If the piece is no drum, or cannot be built.
 pub fn transverse_share(snare: &PieceSpec) -> Result<f64> {
     let drum = snare.drum().with_context(|| format!("the {} is no drum", snare.name))?;
-    let blueprint = DrumModes::new(drum).map_err(|error| bad_input!("{error}"))?;
+    let built = DrumModes::new(drum).map_err(|error| bad_input!("{error}"))?;
     let mut snare = build(snare, &BuildOptions::new(RATE));
     snare.strike(&stroke(Striker::Stick, 4.0, 0.3, 0.3));
     render(&mut snare, 0.05, RATE);
     let body = snare.surface_mut().body();
     let (mut transverse, mut all, mut k) = (0.0, 0.0, 0);
-    for mode in &blueprint.modes {
+    for mode in &built.modes {
         for _ in 0..if mode.m == 0 { 1 } else { 2 } {
             let own = body.modes()[k];
             let motion = body.velocity(k).powi(2) + (own.omega * f64::from(body.displacement(k))).powi(2);

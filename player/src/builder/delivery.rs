@@ -43,7 +43,7 @@ pub(super) struct Sent {
 /// Who is to render beside the audio thread, if anybody.
 pub(super) struct Hired {
     pub(super) order: u32,
-    pub(super) crew: Option<Box<dyn RenderWorkers>>,
+    pub(super) workers: Option<Box<dyn RenderWorkers>>,
 }
 
 /// The queues of one builder.
@@ -140,9 +140,9 @@ impl Delivery {
         &self,
         attach: impl FnOnce(Option<Box<dyn RenderWorkers>>) -> Option<Box<dyn RenderWorkers>>,
     ) {
-        let Some(Hired { order, crew }) = self.queues.hired.pop() else { return };
-        let free = if order == self.order { attach(crew) } else { crew };
-        if let Some(Err(homeless)) = free.map(|crew| self.queues.dismissed.push(crew)) {
+        let Some(Hired { order, workers }) = self.queues.hired.pop() else { return };
+        let free = if order == self.order { attach(workers) } else { workers };
+        if let Some(Err(homeless)) = free.map(|workers| self.queues.dismissed.push(workers)) {
             // As for pieces.
             std::mem::forget(homeless);
         }

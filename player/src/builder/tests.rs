@@ -336,15 +336,15 @@ fn workers_come_when_they_are_wanted_and_go_when_not() {
         WANTED.store(wanted, Ordering::Relaxed);
         assert_eq!(builder.wait(LONG), Outcome::Finished);
         let mut present = None;
-        delivery.take_workers(|crew| {
-            present = crew;
+        delivery.take_workers(|workers| {
+            present = workers;
             former
         });
         present
     };
-    let crew = hired(true, None);
-    assert!(crew.is_some());
-    assert!(hired(false, crew).is_none());
+    let workers = hired(true, None);
+    assert!(workers.is_some());
+    assert!(hired(false, workers).is_none());
     // No piece was built anew for that.
     assert_eq!(taken(&mut delivery).len(), ALL.len());
 }

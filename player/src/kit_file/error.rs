@@ -7,10 +7,10 @@ use super::format::LARGEST;
 pub enum KitFileError {
     /// A line says something that is not accepted.
     #[error("{file}, line {line}: {reason}")]
-    Line {
+    AtLine {
         /// The file.
         file: String,
-        /// Line, from 1.
+        /// AtLine, from 1.
         line: usize,
         /// The field, what it is, and what is accepted.
         reason: String,
@@ -31,7 +31,7 @@ impl KitFileError {
         let Some(at) = at else { return KitFileError::whole(file, reason) };
         let before = &text[..at.min(text.len())];
         let line = 1 + before.iter().filter(|byte| **byte == b'\n').count();
-        KitFileError::Line { file: one_line(file), line, reason: one_line(reason) }
+        KitFileError::AtLine { file: one_line(file), line, reason: one_line(reason) }
     }
 
     /// A file that is too large to be one.

@@ -9,10 +9,10 @@ use crate::kit_file::KitFileError;
 pub enum PresetError {
     /// A line of a file says something that is not understood.
     #[error("{file}, line {line}: {reason}")]
-    Line {
+    AtLine {
         /// The file, or the name of a built-in preset.
         file: String,
-        /// Line, from 1.
+        /// AtLine, from 1.
         line: usize,
         /// What is wrong, and what is accepted.
         reason: String,

@@ -25,12 +25,12 @@ impl Preset {
     /// Reads the text of a file called `file` in errors.
     ///
     /// # Errors
-    /// [`PresetError::Line`] or [`PresetError::Kit`] naming the first line that is wrong.
+    /// [`PresetError::AtLine`] or [`PresetError::Kit`] naming the first line that is wrong.
     pub fn parse(file: &str, text: &str) -> Result<Preset, PresetError> {
         let fail = |(at, reason): Fault| {
             let before = &text.as_bytes()[..at.start.min(text.len())];
             let line = 1 + before.iter().filter(|byte| **byte == b'\n').count();
-            PresetError::Line { file: file.to_owned(), line, reason }
+            PresetError::AtLine { file: file.to_owned(), line, reason }
         };
         let table = DeTable::parse(text).map_err(|error| {
             let reason = error.message().lines().collect::<Vec<_>>().join(" ");

@@ -166,14 +166,14 @@ pub fn load_file(path: &Path) -> Result<Preset, PresetError> {
     let size = fs::metadata(path).map_err(file_error("read", path))?.len();
     if size > LARGEST_FILE {
         let reason = format!("{size} bytes are no preset, accepted: up to {LARGEST_FILE}");
-        return Err(PresetError::Line { file: shown, line: 1, reason });
+        return Err(PresetError::AtLine { file: shown, line: 1, reason });
     }
     let bytes = fs::read(path).map_err(file_error("read", path))?;
     match std::str::from_utf8(&bytes) {
         Ok(text) => Preset::parse(&shown, text),
         Err(error) => {
             let line = 1 + bytes[..error.valid_up_to()].iter().filter(|byte| **byte == b'\n').count();
-            Err(PresetError::Line { file: shown, line, reason: "this is not text (UTF-8)".to_owned() })
+            Err(PresetError::AtLine { file: shown, line, reason: "this is not text (UTF-8)".to_owned() })
         }
     }
 }

@@ -41,7 +41,7 @@ pub fn play<S>(
         match event.what {
             What::NoteOn(_) if bypassed => {}
             What::NoteOn(velocity) => notes.add(performer, event.number, event.channel, velocity),
-            What::Place(place) => notes.place(event.number, event.channel, place),
+            What::EventKey(place) => notes.place(event.number, event.channel, place),
             What::Bend(semitones) => notes.bend(performer, event.number, event.channel, semitones),
             _ => {
                 notes.strike(performer);
@@ -127,7 +127,7 @@ enum What {
     Choke,
     Pressure(f32),
     /// 0 the centre to 1 the rim.
-    Place(f32),
+    EventKey(f32),
     /// Semitones.
     Bend(f32),
     Controller(f32),
@@ -150,7 +150,7 @@ impl Message {
                 note(timing, channel, key, What::Pressure(pressure))
             }
             NoteEvent::PolyBrightness { timing, channel, key, brightness, .. } => {
-                note(timing, channel, key, What::Place(brightness))
+                note(timing, channel, key, What::EventKey(brightness))
             }
             NoteEvent::PolyTuning { timing, channel, key, tuning, .. } => {
                 note(timing, channel, key, What::Bend(tuning))
@@ -182,7 +182,7 @@ impl Message {
                     }
                 });
             }
-            What::NoteOn(_) | What::Place(_) | What::Bend(_) => {}
+            What::NoteOn(_) | What::EventKey(_) | What::Bend(_) => {}
         }
     }
 }

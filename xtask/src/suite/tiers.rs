@@ -27,7 +27,7 @@ pub const TARGETS: [(&str, Tier, &str); 29] = [
     ("hi_hat", Tier::Quick, "the only tests of the pair and its pedal, and short"),
     ("hosts", Tier::Whole, "needs the release bundles, hosts and a display"),
     ("instruction_sets", Tier::Whole, "every piece on each instruction set"),
-    ("kept", Tier::Whole, "builds kits anew with harmed caches"),
+    ("cache", Tier::Whole, "builds kits anew with harmed caches"),
     ("kit", Tier::Quick, "a kit as a document, played for moments"),
     ("microphones", Tier::Quick, "one stroke at every microphone"),
     ("passivity", Tier::Whole, "sweeps over descriptions and rates"),

@@ -14,14 +14,14 @@ use overhear_player::strokes::strokes;
 const RATE: f64 = 48_000.0;
 
 /// What became of a stroke.
-struct Heard {
+struct Recorded {
     strikes: [u32; SLOTS],
     snapshot: KitSnapshot,
     loudest: f32,
 }
 
 /// Plays a stroke as the audio thread does, for a tenth of a second.
-fn hear(performer: &mut Performer, stroke: Stroke) -> Heard {
+fn hear(performer: &mut Performer, stroke: Stroke) -> Recorded {
     let counts = |performer: &mut Performer| {
         let mut snapshot = KitSnapshot::default();
         performer.snapshot(&mut snapshot);
@@ -35,7 +35,7 @@ fn hear(performer: &mut Performer, stroke: Stroke) -> Heard {
     performer.render(&mut left, &mut right);
     let (after, snapshot) = counts(performer);
     let loudest = left.iter().chain(&right).fold(0.0_f32, |most, sample| most.max(sample.abs()));
-    Heard { strikes: std::array::from_fn(|slot| after[slot] - before[slot]), snapshot, loudest }
+    Recorded { strikes: std::array::from_fn(|slot| after[slot] - before[slot]), snapshot, loudest }
 }
 
 #[test]

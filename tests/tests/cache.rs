@@ -17,7 +17,7 @@ use overhear_engine::split::Splitting;
 use overhear_engine::strike::Striker;
 use overhear_tests::{RATES, altered, build, render_into, spec, stroke};
 
-/// A shelf in memory that counts and can do harm.
+/// A disk in memory that counts and can do harm.
 #[derive(Clone, Default)]
 struct Counting {
     files: Arc<Mutex<HashMap<String, Vec<u8>>>>,
@@ -43,7 +43,7 @@ impl DiskCache for Counting {
     }
 }
 
-/// The shelf is the whole process's.
+/// The disk is the whole process's.
 fn alone() -> MutexGuard<'static, ()> {
     static TURN: Mutex<()> = Mutex::new(());
     TURN.lock().unwrap_or_else(PoisonError::into_inner)
@@ -54,12 +54,12 @@ impl Counting {
     fn provided() -> Counting {
         static SHELF: Mutex<Option<Counting>> = Mutex::new(None);
         let mut provided = SHELF.lock().unwrap();
-        let shelf = provided.get_or_insert_with(|| {
-            let shelf = Counting::default();
-            assert!(provide(Box::new(shelf.clone())) && !provide(Box::new(Counting::default())));
-            shelf
+        let disk = provided.get_or_insert_with(|| {
+            let disk = Counting::default();
+            assert!(provide(Box::new(disk.clone())) && !provide(Box::new(Counting::default())));
+            disk
         });
-        shelf.clone()
+        disk.clone()
     }
 
     /// Results that were found and put since the last look.
@@ -79,26 +79,26 @@ fn sound(spec: &PieceSpec, options: &BuildOptions) -> Vec<f32> {
 #[test]
 fn fresh_held_shelved_and_harmed_pieces_sound_alike_to_the_last_bit() {
     let _turn = alone();
-    let shelf = Counting::provided();
+    let disk = Counting::provided();
     let options = BuildOptions::new(RATES[0]);
     for name in ["snare", "rack-tom", "splash", "hi-hat"] {
         let spec = spec(name);
-        shelf.files.lock().unwrap().clear();
+        disk.files.lock().unwrap().clear();
         forget();
-        shelf.counts();
+        disk.counts();
         let fresh = sound(&spec, &options);
-        let (found, put) = shelf.counts();
+        let (found, put) = disk.counts();
         assert!(found == 0 && put > 0, "{name}: {found} found, {put} put");
         assert!(sound(&spec, &options) == fresh, "{name}: held");
-        assert_eq!(shelf.counts(), (0, 0), "{name}: the shelf was asked for what is held");
+        assert_eq!(disk.counts(), (0, 0), "{name}: the disk was asked for what is held");
         forget();
-        assert!(sound(&spec, &options) == fresh, "{name}: from the shelf");
-        assert_eq!(shelf.counts(), (put, 0), "{name}: from the shelf");
+        assert!(sound(&spec, &options) == fresh, "{name}: from the disk");
+        assert_eq!(disk.counts(), (put, 0), "{name}: from the disk");
         forget();
-        shelf.harmful.store(true, Ordering::Relaxed);
+        disk.harmful.store(true, Ordering::Relaxed);
         assert!(sound(&spec, &options) == fresh, "{name}: harmed");
-        assert_eq!(shelf.counts(), (put, put), "{name}: harmed, and so put anew");
-        shelf.harmful.store(false, Ordering::Relaxed);
+        assert_eq!(disk.counts(), (put, put), "{name}: harmed, and so put anew");
+        disk.harmful.store(false, Ordering::Relaxed);
     }
 }
 
@@ -109,13 +109,13 @@ fn drum(change: impl FnOnce(DrumSpec) -> DrumSpec) -> PieceSpec {
 
 /// How many results are worked out for a piece when those of its like in the standard kit are there.
 fn worked_out(piece: &PieceSpec, options: &BuildOptions) -> u32 {
-    let shelf = Counting::provided();
+    let disk = Counting::provided();
     for name in ["rack-tom", "splash"] {
         build(&spec(name), &BuildOptions::new(RATES[0]));
     }
-    shelf.counts();
+    disk.counts();
     build(piece, options);
-    shelf.counts().1
+    disk.counts().1
 }
 
 #[test]
