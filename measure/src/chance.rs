@@ -6,6 +6,9 @@ use std::time::{SystemTime, UNIX_EPOCH};
 use fastrand::Rng;
 use overhear_engine::strike::{Strike, Striker};
 
+/// The environment variable that chooses a seed.
+const SEED_VARIABLE: &str = "OVERHEAR_SEED";
+
 /// Numbers that look drawn by chance and are the same in every run.
 pub struct Chance(Rng);
 
@@ -21,13 +24,22 @@ impl Chance {
     /// # Panics
     /// If the variable is not a number.
     pub fn seeds(fixed: &[u64]) -> Vec<u64> {
-        if let Ok(text) = std::env::var("OVERHEAR_SEED") {
-            return vec![text.parse().expect("OVERHEAR_SEED is a number")];
+        let mut seeds = Chance::chosen(fixed);
+        if std::env::var(SEED_VARIABLE).is_err() {
+            let now = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_nanos() as u64);
+            seeds.push(now % 1_000_000);
+            println!("the fresh seed: {SEED_VARIABLE}={} repeats this run", now % 1_000_000);
         }
-        let now = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_nanos() as u64);
-        let fresh = now % 1_000_000;
-        println!("the fresh seed: OVERHEAR_SEED={fresh} repeats this run");
-        fixed.iter().copied().chain([fresh]).collect()
+        seeds
+    }
+
+    /// The fixed seeds alone, or that of the environment variable `OVERHEAR_SEED`.
+    ///
+    /// # Panics
+    /// If the variable is not a number.
+    pub fn chosen(fixed: &[u64]) -> Vec<u64> {
+        let asked = std::env::var(SEED_VARIABLE).ok();
+        asked.map_or_else(|| fixed.to_vec(), |text| vec![text.parse().expect("OVERHEAR_SEED is a number")])
     }
 
     /// In 0..1, dimensionless.
