@@ -24,7 +24,7 @@
 //! 8 pi a^4 j / (j^2 - u^2)^2
 //! ```
 //!
-//! which follows from their Hankel transforms (see [`air`](crate::air)), the density of Bessel zeros and
+//! which follows from their Hankel transforms (see [`air_load`](crate::air_load)), the density of Bessel zeros and
 //! `J_0^2 + 2 sum J_m^2 = 1`. It is what the strip along the rim sends out; the point hears it from the rim's
 //! distances, by chance in any phase.
 //!

@@ -1,7 +1,7 @@
 //! Where the close microphones stand, and how far they are turned up.
 //!
 //! A drum's hangs over its rim, on the side away from the player, where clips hold them. So near a head every mode is
-//! heard, also those that radiate next to nothing; [`listening`](crate::listening) has the near field. *Fitted*:
+//! heard, also those that radiate next to nothing; [`radiation`](crate::radiation) has the near field. *Fitted*:
 //! of nine places from 5 to 50 cm this one brings 49 of 60 features of kick, snare and toms into the range of
 //! recordings (`cargo xtask realism` measures them), one fewer than 15 cm over .8 of the radius and as close to their
 //! middles as any; over the middle of a head its lowest modes drown all else.

@@ -2,7 +2,7 @@
 //!
 //! Model: a thin circular plate (Kirchhoff), free at its rim, domed to a shallow shell (Marguerre).
 //! [`spec`] describes the plate, [`edges`] finds the flat plate's modes, [`dome`] turns those of each order into shell
-//! modes of a cap as thick everywhere, [`uneven`] into those of a plate with a bell or a taper; [`radial`] and [`bent`] know
+//! modes of a cap as thick everywhere, [`thickness_taper`] into those of a plate with a bell or a taper; [`radial`] and [`bent`] know
 //! their shapes, [`free_disc`] what they do to the air. Nothing is said here of losses in the metal, of a hole or a stand.
 //!
 //! Coordinates: `r` is a share of the radius; shapes are `R(r) cos(m theta)` and

@@ -21,7 +21,7 @@
 //! and dies. `l` is the shell's length and what the air around a disc of no length adds, `8 a / (3 pi)`. Where the
 //! body is large against the wave, `B` = 4/3: waves on a head are slower than sound and cancel but for a strip along
 //! the rim, and there the body fills a quarter of space, not half of it as a baffle would. Between, `B` rises as
-//! [`shadow`] has it for a source that faces all of the body.
+//! [`diffraction`] has it for a source that faces all of the body.
 //!
 //! A shell without its other head sends out at its open end what the enclosed air pushes there, as a piston.
 //!

@@ -1,7 +1,7 @@
 //! How a drum's modes are heard at a point, over its range of pitches.
 //!
 //! Model: the struck head is heard as in a baffle from near, as from a body in free air from far; the other head from
-//! behind the body, in free air (see [`listening`](crate::listening) and [`shadow`]).
+//! behind the body, in free air (see [`radiation`](crate::radiation) and [`diffraction`]).
 //!
 //! What a mode shows of itself follows the pitch: its frequency does, and where it passes a mode of the air the
 //! two heads' shares in it change places, which decides between much and nothing. Modes that are heard one by one are

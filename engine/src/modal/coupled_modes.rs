@@ -72,7 +72,7 @@ impl ModalBody {
     }
 
     /// Displacements the modes in front would have, left alone, so many samples on as
-    /// [`face`](Self::face) was told.
+    /// [`update`](Self::update) was told.
     pub fn predict(&self, front: &CoupledModes, out: &mut [f32]) {
         let n = front.length.min(self.state.im.len());
         let (im, re) = (&self.state.im[..n], &self.state.re[..n]);
@@ -85,7 +85,7 @@ impl ModalBody {
         front.kept[..n].copy_from_slice(&self.state.im[..n]);
     }
 
-    /// How far, m, the modes in front have moved since they were [kept](Self::keep), in the direction of
+    /// How far, m, the modes in front have moved since they were [kept](Self::save), in the direction of
     /// a port: `sum shape * (q - kept)`.
     pub fn moved(&self, front: &CoupledModes, port: &InputVector) -> f64 {
         f64::from(self.kernels.dot_difference(&port.shape, &self.state.im, &front.kept))

@@ -24,7 +24,7 @@
 //! Source: Thomas, Touze, Chaigne, Non-linear vibrations of free-edge thin spherical shells,
 //! Int. J. Solids Struct. 42, 2005. The closed sum is ours; a test holds it against the sum.
 //!
-//! Limits: shallow (rise up to about a quarter of the radius), thin, uniform, no bell; for those see [`uneven`](super::uneven).
+//! Limits: shallow (rise up to about a quarter of the radius), thin, uniform, no bell; for those see [`thickness_taper`](super::thickness_taper).
 
 use nalgebra::DMatrix;
 

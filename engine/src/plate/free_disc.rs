@@ -20,7 +20,7 @@
 //! whose matrix at zero frequency is diagonal, `-i pi / (2 (2 n + 1))`. A rigid disc then has its
 //! known `8/3 rho a^3` of air. The delay from the centre is taken out of what is heard.
 //!
-//! Coordinates and signs: as [`listening`](crate::listening); displacement is into the struck face.
+//! Coordinates and signs: as [`radiation`](crate::radiation); displacement is into the struck face.
 //!
 //! Sources: Bouwkamp, Diffraction Theory, Rep. Prog. Phys. 17, 1954; Abramowitz & Stegun 11.4.6; the
 //! transforms are Sonine's integral for Jacobi polynomials.
