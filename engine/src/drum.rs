@@ -54,6 +54,16 @@ fn modes_key(spec: &DrumSpec) -> impl Serialize {
 static MODES: Cache<DrumModes> = Cache::new("drum", SCHEMA, 24);
 static TRANSFERS: Cache<[ModeTransfer; 2]> = Cache::new("hearing", SCHEMA, 24);
 
+/// What is asked for while it rings.
+struct Controls {
+    /// Pitch of the named mode, Hz.
+    pitch: Glide,
+    /// 0 to 1.
+    muffling: Glide,
+    /// Force of the strainer, N.
+    preload: Glide,
+}
+
 /// A drum that can be struck.
 pub struct Drum {
     surface: Surface,
@@ -68,10 +78,7 @@ pub struct Drum {
     lossless: bool,
     /// Whether the heads wrap themselves around tips.
     patch_grows: bool,
-    pitch: Glide,
-    muffling: Glide,
-    /// Force of the strainer, N.
-    preload: Glide,
+    controls: Controls,
     /// Whether a control has moved since the modes last followed.
     stale: bool,
     /// Whether the shapes have yet to follow the pitch.
@@ -125,9 +132,11 @@ impl Drum {
             muffler,
             lossless: ideal.lossless,
             patch_grows: spec.contact == HeadContact::Wraps,
-            pitch: Glide::new(pitch, low, high),
-            muffling: Glide::new(0.0, 0.0, 1.0),
-            preload: Glide::new(*PRELOAD.start(), *PRELOAD.start(), *PRELOAD.end()),
+            controls: Controls {
+                pitch: Glide::new(pitch, low, high),
+                muffling: Glide::new(0.0, 0.0, 1.0),
+                preload: Glide::new(*PRELOAD.start(), *PRELOAD.start(), *PRELOAD.end()),
+            },
             stale: true,
             shapes_stale: true,
             at_pitch,
@@ -157,7 +166,7 @@ impl Drum {
 
     /// Brings the strainer's force to where its control is.
     fn follow_preload(&mut self) {
-        let preload = self.preload.value();
+        let preload = self.controls.preload.value();
         self.surface.with(|wires: &mut SnareWires, site| wires.set_preload(preload, site));
     }
 }
@@ -177,7 +186,7 @@ impl Instrument for Drum {
         if !std::mem::take(&mut self.shapes_stale) {
             return;
         }
-        let place = self.built.heads.scale.place(self.pitch.value());
+        let place = self.built.heads.scale.place(self.controls.pitch.value());
         for (k, mode) in self.modes.iter().enumerate() {
             let tuned = &self.built.modes[mode.pair];
             for (i, weight) in self.surface.shapes_mut().weights_mut(k).iter_mut().enumerate() {
@@ -190,9 +199,9 @@ impl Instrument for Drum {
                 }
             }
         }
-        let Drum { surface, hearing, built, modes, pitch, far_distance, .. } = self;
+        let Drum { surface, hearing, built, modes, controls, far_distance, .. } = self;
         let [near, far] =
-            hearing.each_ref().map(|hearing| hearing.transfers(&built.modes, &place, pitch.value()));
+            hearing.each_ref().map(|hearing| hearing.transfers(&built.modes, &place, controls.pitch.value()));
         surface.set_volumes(modes.iter().map(|mode| {
             let tuned = &built.modes[mode.pair];
             let share = all_around(built, tuned, &place);
@@ -209,11 +218,11 @@ impl Instrument for Drum {
     }
 
     fn set_tuning(&mut self, hz: f64) {
-        self.pitch.set(hz);
+        self.controls.pitch.set(hz);
     }
 
     fn set_muffling(&mut self, amount: f64) {
-        self.muffling.set(amount);
+        self.controls.muffling.set(amount);
     }
 
     fn throw_wires(&mut self, on: bool) {
@@ -221,13 +230,14 @@ impl Instrument for Drum {
     }
 
     fn set_preload(&mut self, newtons: f64) {
-        self.preload.set(newtons);
+        self.controls.preload.set(newtons);
     }
 
     fn advance_controls(&mut self, seconds: f64) {
-        let moved = [&mut self.pitch, &mut self.muffling].map(|glide| glide.advance(seconds));
+        let moved =
+            [&mut self.controls.pitch, &mut self.controls.muffling].map(|glide| glide.advance(seconds));
         self.stale |= moved.contains(&true);
-        if self.preload.advance(seconds) {
+        if self.controls.preload.advance(seconds) {
             self.follow_preload();
         }
     }
@@ -237,11 +247,11 @@ impl Instrument for Drum {
             return;
         }
         self.shapes_stale = true;
-        let place = self.built.heads.scale.place(self.pitch.value());
+        let place = self.built.heads.scale.place(self.controls.pitch.value());
         for (rung, mode) in self.at_pitch.iter_mut().zip(&self.built.modes) {
             *rung = mode.at(&place);
         }
-        let amount = self.muffling.value();
+        let amount = self.controls.muffling.value();
         let (modes, at_pitch, muffler, built) = (&self.modes, &self.at_pitch, &self.muffler, &self.built);
         let lossless = self.lossless;
         self.surface.retune(|k, _| {
@@ -261,9 +271,9 @@ impl Instrument for Drum {
     }
 
     fn finish_controls(&mut self) {
-        let moved = [&mut self.pitch, &mut self.muffling].map(Glide::jump);
+        let moved = [&mut self.controls.pitch, &mut self.controls.muffling].map(Glide::jump);
         self.stale |= moved.contains(&true);
-        if self.preload.jump() {
+        if self.controls.preload.jump() {
             self.follow_preload();
         }
         self.follow_controls();
@@ -304,7 +314,7 @@ impl Instrument for Drum {
     }
 
     fn tensions(&self) -> Vec<(&'static str, f64)> {
-        let place = self.built.heads.scale.place(self.pitch.value());
+        let place = self.built.heads.scale.place(self.controls.pitch.value());
         let heads =
             [("batter", Some(&self.built.heads.batter)), ("resonant", self.built.heads.resonant.as_ref())];
         heads.into_iter().filter_map(|(name, head)| Some((name, head?.tension(&place)))).collect()

@@ -5,6 +5,8 @@
 mod direction;
 #[path = "tidy/pieces.rs"]
 mod pieces;
+#[path = "tidy/structs.rs"]
+mod structs;
 #[path = "tidy/units.rs"]
 mod units;
 #[path = "tidy/vocabulary.rs"]
