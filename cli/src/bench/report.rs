@@ -35,6 +35,7 @@ pub struct Report {
     #[serde(skip_serializing_if = "Option::is_none")]
     groove: Option<Figure>,
     all_at_once: Figure,
+    gliding: Figure,
     pieces: BTreeMap<String, PieceCost>,
     idle: Idle,
     /// The longest block over the groove and all at once, of its deadline.
@@ -133,6 +134,7 @@ impl Report {
             kit: request.kit.as_ref().map_or("standard".to_owned(), |kit| kit.display().to_string()),
             groove: find(|scene| matches!(scene, Scene::Groove(_))),
             all_at_once: of(|scene| matches!(scene, Scene::AllAtOnce(_))),
+            gliding: of(|scene| matches!(scene, Scene::Gliding(_))),
             idle: of(|scene| *scene == Scene::Idle),
             pieces,
             worst_block_share: Buffers::of(&blocks, 1, request.rate).within(1.0),
@@ -173,6 +175,7 @@ impl fmt::Display for Report {
             self.row(f, "groove", groove)?;
         }
         self.row(f, "all-at-once", &self.all_at_once)?;
+        self.row(f, "gliding", &self.gliding)?;
         self.row(f, "idle", &self.idle)?;
         for (name, PieceCost { standard, tiers }) in &self.pieces {
             if tiers.is_empty() {
@@ -233,7 +236,7 @@ mod tests {
     fn a_report_names_every_scene_and_can_be_compared_with() {
         let cost = Cost { share: 0.05, calibrations: 0.6, spread: [0.5, 0.7], calibration_s: 0.08 };
         let quality = Quality::Standard;
-        let kit = [Scene::Groove(quality), Scene::AllAtOnce(quality), Scene::Idle];
+        let kit = [Scene::Groove(quality), Scene::AllAtOnce(quality), Scene::Gliding(quality), Scene::Idle];
         let standard = KitSpec::standard();
         let slot = |name| standard.find(name).unwrap().0;
         let crash = Quality::ALL.map(|quality| Scene::Piece(slot("crash"), quality));
@@ -262,6 +265,7 @@ mod tests {
             "kit",
             "groove",
             "all_at_once",
+            "gliding",
             "pieces",
             "idle",
             "worst_block_share",

@@ -1,10 +1,12 @@
 //! What is rendered while the clock runs.
 
+use std::f64::consts::TAU;
+
 use anyhow::{Context, Result};
 use overhear::kit_document::KitDocument;
-use overhear_engine::kit::{BLOCK, Kit};
+use overhear_engine::kit::{BLOCK, Control, Kit};
 use overhear_engine::kit_spec::{Kind, KitSpec};
-use overhear_engine::piece::{BuildOptions, Quality};
+use overhear_engine::piece::{BuildOptions, Piece, Quality};
 use overhear_engine::slot::Slot;
 use overhear_engine::strike::Strike;
 use overhear_measure::hear::{self, ALONE};
@@ -24,6 +26,8 @@ pub enum Scene {
     Groove(Quality),
     /// Every piece struck at once, of the standard kit all but the timpani, and four seconds of what follows.
     AllAtOnce(Quality),
+    /// The same while every tuning and muffling is automated: a new value for each in every block.
+    Gliding(Quality),
     /// A kit that nobody has struck, for a second.
     Idle,
     /// One piece, and the second after a hard stroke.
@@ -41,13 +45,13 @@ impl Scene {
     /// The scenes of a kit as a whole: the groove only of the standard kit, which it was written for.
     pub fn of_kit(document: &KitDocument, quality: Quality) -> Vec<Scene> {
         let groove = (*document == KitDocument::standard()).then_some(Scene::Groove(quality));
-        groove.into_iter().chain([Scene::AllAtOnce(quality), Scene::Idle]).collect()
+        groove.into_iter().chain([Scene::AllAtOnce(quality), Scene::Gliding(quality), Scene::Idle]).collect()
     }
 
     /// How long it lasts, s.
     pub fn seconds(self) -> f64 {
         match self {
-            Scene::Groove(_) | Scene::AllAtOnce(_) => 4.0,
+            Scene::Groove(_) | Scene::AllAtOnce(_) | Scene::Gliding(_) => 4.0,
             Scene::Idle | Scene::Piece(..) => 1.0,
         }
     }
@@ -62,6 +66,7 @@ impl Scene {
         match self {
             Scene::Groove(_) => "groove".to_owned(),
             Scene::AllAtOnce(_) => "all-at-once".to_owned(),
+            Scene::Gliding(_) => "gliding".to_owned(),
             Scene::Idle => "idle".to_owned(),
             Scene::Piece(slot, _) => kit.piece(slot).map(|piece| piece.name.clone()).unwrap_or_default(),
         }
@@ -73,7 +78,7 @@ impl Scene {
         let beat = |slot, strike| Beat { at: 0, slot, strike };
         Ok(match self {
             Scene::Groove(_) => return groove(document, rate),
-            Scene::AllAtOnce(_) => {
+            Scene::AllAtOnce(_) | Scene::Gliding(_) => {
                 // A groove has no use for a timpani; in a kit of one's own every piece is there to be played.
                 let spared = kit.find("timpani").filter(|_| *document == KitDocument::standard());
                 let struck = kit.slots().map(|(slot, _)| slot);
@@ -133,7 +138,9 @@ impl Workload {
     /// [`BadInput`](crate::error::BadInput) if a piece cannot be built.
     pub fn new(scene: Scene, document: &KitDocument, rate: f64) -> Result<Workload> {
         let (spec, quality) = match scene {
-            Scene::Groove(quality) | Scene::AllAtOnce(quality) => (document.kit.clone(), quality),
+            Scene::Groove(quality) | Scene::AllAtOnce(quality) | Scene::Gliding(quality) => {
+                (document.kit.clone(), quality)
+            }
             Scene::Idle => (document.kit.clone(), Quality::Standard),
             Scene::Piece(slot, quality) => (document.kit.alone(slot).context("an empty slot")?, quality),
         };
@@ -160,10 +167,23 @@ impl Workload {
         self.now = 0;
     }
 
+    /// Moves every tuning, by a semitone to and fro, and every muffling, as curves of a host would.
+    fn automate(&mut self) {
+        let turn = (TAU * self.now as f64 / self.rate).sin();
+        for slot in Slot::ALL {
+            let Some([_, own, _]) = self.kit.piece(slot).map(Piece::tunings) else { continue };
+            self.kit.set(Control::Tuning(slot), own * (turn / 12.0).exp2());
+            self.kit.set(Control::Muffling(slot), 0.5 + 0.5 * turn);
+        }
+    }
+
     /// Renders one block of [`BLOCK`] samples, cut where strokes fall.
     #[inline(never)] // Instructions are counted by its name.
     pub fn block(&mut self) {
         let (start, end) = (self.now, self.now + BLOCK);
+        if let Scene::Gliding(_) = self.scene {
+            self.automate();
+        }
         while self.now < end {
             while let Some(beat) = self.beats.get(self.played).filter(|beat| beat.at <= self.now) {
                 self.kit.strike(beat.slot, &beat.strike);
@@ -185,14 +205,17 @@ mod tests {
     fn the_groove_is_of_the_standard_kit_and_every_other_is_struck_as_a_whole() {
         let standard = KitDocument::standard();
         let quality = Quality::Standard;
-        assert_eq!(Scene::of_kit(&standard, quality).len(), 3);
+        assert_eq!(Scene::of_kit(&standard, quality).len(), 4);
         let struck =
             |document: &KitDocument| Scene::AllAtOnce(quality).beats(document, 44_100.0).unwrap().len();
         assert_eq!(struck(&standard), standard.kit.pieces.len() - 1);
         assert_eq!(Scene::Groove(quality).beats(&standard, 44_100.0).unwrap().len(), 16 + 4 + 4 + 1);
         let mut other = standard;
         other.kit.pieces.retain(|piece| piece.name != "ride");
-        assert_eq!(Scene::of_kit(&other, quality), [Scene::AllAtOnce(quality), Scene::Idle]);
+        assert_eq!(
+            Scene::of_kit(&other, quality),
+            [Scene::AllAtOnce(quality), Scene::Gliding(quality), Scene::Idle]
+        );
         assert_eq!(struck(&other), other.kit.pieces.len());
     }
 }
