@@ -384,9 +384,11 @@ impl NonlinearForce {
         let ahead = f64::from(kernels.dot_difference(self.port.shape(), &self.predicted, self.front.kept()));
         let kinetic = body.kinetic_energy(&self.front);
         let found_anew = lost && self.safety.is_found(energy);
-        if self.schedule.begins() || found_anew {
+        if self.schedule.begins() {
             self.scalar.psi = psi - ahead;
             self.safety.forget();
+        } else if found_anew {
+            self.find_anew(body, psi - ahead, kinetic);
         } else {
             let held = self.scalar.psi * self.scalar.psi;
             let error = 0.5 * (held - (psi - ahead).powi(2)).abs() / kinetic.max(f64::MIN_POSITIVE);
@@ -400,6 +402,18 @@ impl NonlinearForce {
                 self.port.shape_mut().fill(0.0);
             }
         }
+    }
+
+    /// Puts a `psi` that was lost where it ought to be. What it holds more then is taken from the velocities: lost, it may
+    /// hold as little as `-C`, and the body moves all the faster.
+    fn find_anew(&mut self, body: &mut ModalBody, target: f64, kinetic: f64) {
+        let missing = 0.5 * (target * target - self.scalar.psi * self.scalar.psi);
+        if missing > 0.0 && kinetic > 0.0 {
+            let factor = (1.0 - missing / kinetic).max(0.0).sqrt() as f32;
+            self.sound.rescale_velocity(body.rescale_velocity(&self.front, factor));
+        }
+        self.scalar.psi = target;
+        self.safety.forget();
     }
 
     /// Moves `psi` toward where it ought to be, at the expense or to the gain of the velocities.
