@@ -117,7 +117,7 @@ mod tests {
             sheet.claim(Claim { what, on, figure, reference, source, met });
         }
         let page = sheet.finish();
-        assert!(page.markdown.contains("**no**") && page.markdown.contains("told"));
+        assert!(page.markdown.contains("**no**") && page.markdown.contains("info"));
         assert!(page.markdown.contains("Measured on: standard kit."));
         assert_eq!(page::tally(&page.claims), [1, 2]);
         let index = index(&[(page.name, page.markdown)]);
