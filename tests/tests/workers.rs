@@ -113,14 +113,14 @@ fn hits_are_the_same_on_0_1_and_3_workers_in_any_buffers(spec: &KitSpec, struck:
     let mut kit = kit_of(spec, RATES[0]);
     let whole = hit(&mut kit, struck, frames, frames);
     assert!(whole[0].iter().any(|&x| f32::from_bits(x).abs() > 0.05));
-    for workers in [0, 1, 3] {
-        let workers = (workers > 0).then(|| -> Box<dyn RenderWorkers> {
-            Box::new(Workers::new(workers, Patience::Offline, RenderJob::render).expect("threads"))
+    for count in [0, 1, 3] {
+        let workers = (count > 0).then(|| -> Box<dyn RenderWorkers> {
+            Box::new(Workers::new(count, Patience::Offline, RenderJob::render).expect("threads"))
         });
         drop(kit.attach(workers));
         for buffer in [1, 17, 64, 512, 8192, 0] {
             let again = hit(&mut kit, struck, frames, buffer);
-            assert!(whole == again, "{workers} workers, buffers of {buffer}");
+            assert!(whole == again, "{count} workers, buffers of {buffer}");
         }
     }
 }
