@@ -121,7 +121,7 @@ impl Kit {
         std::mem::replace(&mut self.workers, workers)
     }
 
-    /// Whether nobody has a post away: the workers has brought back all it took.
+    /// Whether the workers have brought back every job that they took.
     pub fn is_whole(&self) -> bool {
         self.posts.iter().all(Option::is_some)
     }

@@ -34,7 +34,7 @@
 //! known, hence where `psi` ought to be; a share of the difference is made up, and the energy that
 //! takes is exchanged with the kinetic energy of the same modes by scaling their velocities. The
 //! sum of both stays what it was to rounding: nothing is added, and it is the *true* energy that is kept.
-//! The rescale_velocity is part of the true acceleration and is heard; left out, its mean would be an offset.
+//! That change of velocity is part of the true acceleration and is heard; left out, its mean would be an offset.
 //!
 //! `C` follows the motion: raising it by `D` turns `psi` into `sqrt(psi^2 + 2 D)` and changes no
 //! energy.

@@ -61,7 +61,7 @@ const SHORT_OF: f64 = 1.0 - 1e-9;
 pub struct CoupledPair {
     /// Which of the plate's shell modes.
     pub shell: usize,
-    /// PairIndex of the cosine member among the body's modes; the sine one follows if there is one.
+    /// Index of the cosine member among the body's modes; the sine one follows if there is one.
     pub mode: usize,
     /// Direction of the pair's axes, rad.
     pub axis: f64,

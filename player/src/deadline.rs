@@ -13,8 +13,8 @@ use std::time::{Duration, Instant};
 
 use crate::workers::Deadline;
 
-/// The share of a buffer's time during which the audio thread waits for workers. *Derived*: what a host leaves to one of
-/// several instruments; the rest is for the runs still to be rendered and for the mix.
+/// The share of a buffer's time during which the audio thread waits for workers. *A judgement*, not derived: the
+/// rest is for the runs still to be rendered and for the mix.
 const WAITING_SHARE: f64 = 0.75;
 
 /// What one instance's buffers took. Times are those of the audio thread; any thread may ask.

@@ -272,7 +272,7 @@ impl Stage {
         while let Some(piece) = self.performer.retire() {
             self.delivery.give_back(piece);
         }
-        // What a workers has not brought back yet would go with it.
+        // Jobs that the workers have not brought back would be dropped with them.
         if self.performer.is_whole() {
             self.delivery.take_workers(|workers| self.performer.attach(workers));
         }

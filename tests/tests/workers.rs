@@ -152,7 +152,7 @@ fn workers_and_buffers_change_no_sample_of_ten_seconds() {
 /// Longest that a test waits for the system to let workers work, were this machine doing nothing else.
 const LONG: Duration = Duration::from_secs(60);
 
-/// Strikes everything with such a workers and plays until `done`, then until nobody is away.
+/// Strikes everything with workers of that kind and plays until `done`, then until every job is back.
 fn play_with(patience: Patience, render: fn(&mut RenderJob), done: impl Fn() -> bool) -> (KitSnapshot, f32) {
     const RATE: f64 = RATES[0];
     let mut kit = kit(RATE);

@@ -51,8 +51,7 @@ impl CoupledModes {
 
 impl ModalBody {
     /// Works out what [`predict`](Self::predict), so many samples on, and [`rescale_velocity`](Self::rescale_velocity) need, after a
-    /// change of
-    /// modes and of the pickup.
+    /// change of modes and of the pickup.
     ///
     /// # Real-time
     /// Linear in the modes in front, about 50 ns each.
@@ -155,7 +154,7 @@ impl ModalBody {
         f64::from(self.kernels.dot_square(&front.kinetic, &self.state.re))
     }
 
-    /// Scales the velocities of the modes in front; returns the pressure of the rescale_velocity it is, heard over
+    /// Scales the velocities of the modes in front; returns the pressure of that change of velocity, heard over
     /// the sample that follows.
     pub fn rescale_velocity(&mut self, front: &CoupledModes, factor: f32) -> Pressure {
         let heard = front

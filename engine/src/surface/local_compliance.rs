@@ -63,7 +63,7 @@ pub struct LocalHeadCompliance {
     pub radius: f64,
     /// Tension, N/m.
     pub tension: f64,
-    /// LocalHeadCompliance and the air it carries, kg/m2.
+    /// Area density of the film with the air it carries, kg/m2.
     pub density: f64,
     /// Flexural rigidity under a tip, N m.
     pub rigidity: f64,

@@ -10,7 +10,7 @@ pub enum KitFileError {
     AtLine {
         /// The file.
         file: String,
-        /// AtLine, from 1.
+        /// Line, from 1.
         line: usize,
         /// The field, what it is, and what is accepted.
         reason: String,

@@ -12,7 +12,7 @@ pub enum PresetError {
     AtLine {
         /// The file, or the name of a built-in preset.
         file: String,
-        /// AtLine, from 1.
+        /// Line, from 1.
         line: usize,
         /// What is wrong, and what is accepted.
         reason: String,
