@@ -52,6 +52,45 @@ impl LossLaw {
     }
 }
 
+/// What carries a head at its rim: collar, bearing edge, hoop and shell, which yield to the head's pull.
+///
+/// Model: per length of the rim a spring `k` beside a dashpot `R`, both between the head and a drum that stands
+/// still. A mode pulls with `T dw/dn`, the edge yields at the velocity `Y T dw/dn`,
+///
+/// ```text
+/// Re Y = f^2 / (f^2 + f_c^2) / R,   f_c = k / (2 pi R)
+/// ```
+///
+/// and the power lost is `T^2 Re Y int (dw/dn)^2 ds`. For every mode of a round clamped head the integral is
+/// `2 k^2 A / a` (Rellich's identity), so all modes lose at the rate `sigma = T Re Y / a` where tension rules and the air
+/// weighs what it does: nothing at low frequency, the same for all high ones.
+///
+/// Limits: the edge is alike all around; it does not detune the modes (by `T / (k a)`, a quarter of a percent).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct EdgeSpec {
+    /// `R`, N s/m2, 10 to 1e6.
+    #[serde(rename = "resistance_n_s_m2")]
+    pub resistance: f64,
+    /// `f_c`, where the dashpot takes over from the spring, Hz, 10 to 20,000.
+    pub corner_hz: f64,
+}
+
+impl Numbers for EdgeSpec {
+    fn visit(&mut self, visitor: &mut dyn Visitor) {
+        visitor.number("resistance_n_s_m2", &mut self.resistance, 10.0..=1e6);
+        visitor.number("corner_hz", &mut self.corner_hz, 10.0..=20_000.0);
+    }
+}
+
+impl EdgeSpec {
+    /// `Re Y` at `omega` rad/s, m2/(N s).
+    pub fn mobility(&self, omega: f64) -> f64 {
+        let ratio = (TAU * self.corner_hz / omega).powi(2);
+        1.0 / (self.resistance * (1.0 + ratio))
+    }
+}
+
 /// Loss by heat flowing through a bent plate, `sigma = delta / 2 * omega^2 tau / (1 + omega^2 tau^2)`.
 ///
 /// Above some 30 Hz, where cymbals begin to sound, it is the same for every mode.

@@ -206,10 +206,12 @@ fn two_headed(
         batter,
         resonant: Some(resonant),
         shell: Some(ShellSpec::Cylinder { depth: inches(depth_in), air_q: fitted::AIR_Q }),
+        edge: None,
         hoop: None,
         wires: None,
         muffler: Muffler::GEL,
         evenness: Splitting::DRUM,
+        tension_field: None,
         contact: HeadContact::Wraps,
         high_band: true,
     }

@@ -271,6 +271,7 @@ fn ideal_head() -> Surface {
         plies: 1,
         material: Material::FILM,
         loss: LossLaw::NONE,
+        edge: None,
     };
     let tension = vacuum_tension(&spec, ZEROS[0], 100.0);
     let range = ModeRange { reference_tension: tension, limit_hz: 1500.0 };
