@@ -75,7 +75,7 @@ impl WorkerPlan {
             Pace::Offline => Patience::Offline,
         };
         // In the floating point mode of the audio thread, or the bits would differ.
-        let render = |post: &mut RenderJob| flushed(|| post.render());
+        let render = |job: &mut RenderJob| flushed(|| job.render());
         Ok(Some(Workers::new(self.workers, patience, render)?))
     }
 }

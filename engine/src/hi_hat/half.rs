@@ -102,7 +102,7 @@ fn order(plate: &CymbalPlate<'_>) -> Vec<Ordered> {
     };
     let mut ranked: Vec<Ranked> = plate.shells().iter().enumerate().map(rank).collect();
     ranked.sort_by_key(|mode| mode.rank);
-    ranked.iter().map(|mode| Ordered { shell: mode.shell, in_front: mode.rank.0 < 2 }).collect()
+    ranked.iter().map(|mode| Ordered { shell: mode.shell, is_coupled: mode.rank.0 < 2 }).collect()
 }
 
 /// The class of an order at [`POINTS`] places, and the sign of its sine there.

@@ -74,10 +74,10 @@ pub fn amplitudes(forces: &[f64; POINTS]) -> Amplitudes {
 /// Compliance between each two places, m/N.
 pub fn between_points(classes: &ClassCompliances) -> [[f64; POINTS]; POINTS] {
     let mut out = [[0.0; POINTS]; POINTS];
-    for (yields, waves) in classes.iter().zip(&WAVES) {
+    for (compliance, waves) in classes.iter().zip(&WAVES) {
         for (i, row) in out.iter_mut().enumerate() {
             for (j, out) in row.iter_mut().enumerate() {
-                let to = |k: usize| yields[k][0] * waves[0][j] + yields[k][1] * waves[1][j];
+                let to = |k: usize| compliance[k][0] * waves[0][j] + compliance[k][1] * waves[1][j];
                 *out += waves[0][i] * to(0) + waves[1][i] * to(1);
             }
         }

@@ -28,9 +28,9 @@ impl ModalBody {
         self.kernels.gather_folded(folded, &from.gain_im)
     }
 
-    /// Pressure at each ear at once per unit of force on each amplitude, Pa/N.
-    pub fn folded_direct(&self, folded: &RimHarmonics, pickup: &ReceiverWeights) -> [Amplitudes; RECEIVERS] {
-        pickup.ears.each_ref().map(|ear| self.kernels.gather_folded(folded, &ear.direct))
+    /// Pressure at each receiver proportional to the force, per unit force on each amplitude, Pa/N.
+    pub fn folded_direct(&self, folded: &RimHarmonics, weights: &ReceiverWeights) -> [Amplitudes; RECEIVERS] {
+        weights.receivers.each_ref().map(|receiver| self.kernels.gather_folded(folded, &receiver.direct))
     }
 
     /// One-sample compliances of the rim, m/N.
@@ -52,10 +52,10 @@ impl ModalBody {
     fn sum_classes(&self, folded: &RimHarmonics, of_mode: impl Fn(usize) -> f64) -> ClassCompliances {
         let mut out = ClassCompliances::default();
         for (k, class, share) in folded.shares() {
-            let yields = of_mode(k);
+            let compliance = of_mode(k);
             for i in 0..2 {
                 for j in 0..2 {
-                    out[class][i][j] += yields * share[i] * share[j];
+                    out[class][i][j] += compliance * share[i] * share[j];
                 }
             }
         }

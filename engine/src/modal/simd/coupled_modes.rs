@@ -34,7 +34,7 @@ pub struct PushAndHear<'a> {
     pub im: &'a mut [f32],
     /// What acts, as long as the state or longer.
     pub forces: [HeldForce<'a>; FORCES],
-    /// What of the state each ear hears, real and imaginary part; what is missing is not heard.
+    /// Weights of the state at each receiver, real and imaginary part. Missing weights are zero.
     pub weights: [[&'a [f32]; 2]; RECEIVERS],
 }
 
@@ -81,8 +81,8 @@ impl Kernel for PushAndHear<'_> {
         let [(first, first_gains), (second, second_gains)] = self.forces;
         let held = [simd.splat_f32s(first), simd.splat_f32s(second)];
         let gains = [first_gains, second_gains].map(|gains| gains.map(|row| S::as_simd_f32s(row).0));
-        let weights = self.weights.map(|ear| ear.map(|row| S::as_simd_f32s(row).0));
-        // The last ear hears the first modes alone.
+        let weights = self.weights.map(|receiver| receiver.map(|row| S::as_simd_f32s(row).0));
+        // The last receiver takes the first modes only.
         let reached = weights[RECEIVERS - 1][0].len().min(groups);
         let mut sums = [[simd.splat_f32s(0.0); 2]; RECEIVERS];
         for i in 0..groups {
@@ -94,9 +94,10 @@ impl Kernel for PushAndHear<'_> {
                 z_im = fma(gains[1][1][i], held[1], z_im);
             }
             (re[i], im[i]) = (z_re, z_im);
-            for ear in 0..RECEIVERS - 1 {
-                let [w_re, w_im] = weights[ear];
-                sums[ear] = [fma(w_re[i], z_re, sums[ear][0]), fma(w_im[i], z_im, sums[ear][1])];
+            for receiver in 0..RECEIVERS - 1 {
+                let [w_re, w_im] = weights[receiver];
+                sums[receiver] =
+                    [fma(w_re[i], z_re, sums[receiver][0]), fma(w_im[i], z_im, sums[receiver][1])];
             }
             if i < reached {
                 let [w_re, w_im] = weights[RECEIVERS - 1];

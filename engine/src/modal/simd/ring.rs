@@ -139,7 +139,7 @@ fn ring_all<S: Simd>(
     write_sums(simd, sums, &mut ring.heard);
 }
 
-/// Advances `G` groups, unless they are still and nothing drives them; as many ears as reach them listen.
+/// Advances `G` groups, unless they are still and nothing drives them; and listens at the receivers that reach them.
 #[inline(always)]
 fn ring_some<S: Simd, const G: usize>(
     simd: S,
@@ -209,7 +209,7 @@ impl<'a, S: Simd> RingRows<'a, S> {
         self.drives[..self.driven].iter()
     }
 
-    /// Whether every ear hears groups up to there.
+    /// Whether every receiver takes groups up to there.
     #[inline(always)]
     fn reach_all(&self, groups: usize) -> bool {
         groups <= self.heard[RECEIVERS - 1][0].len()
@@ -219,14 +219,14 @@ impl<'a, S: Simd> RingRows<'a, S> {
 /// Adds up the lanes of every sample's sums.
 #[inline(always)]
 fn write_sums<S: Simd>(simd: S, sums: &[[S::f32s; RECEIVERS]], heard: &mut [PressureSum<'_>; RECEIVERS]) {
-    for (ear, heard) in heard.iter_mut().enumerate() {
+    for (receiver, heard) in heard.iter_mut().enumerate() {
         for (out, sum) in heard.out.iter_mut().zip(sums) {
-            *out = simd.reduce_sum_f32s(sum[ear]);
+            *out = simd.reduce_sum_f32s(sum[receiver]);
         }
     }
 }
 
-/// Advances `G` groups of modes through every sample, their state in registers throughout; the first `E` ears hear
+/// Advances `G` groups of modes through every sample, their state in registers throughout; the first `E` receivers hear
 /// them, and drives act on them if they are `DRIVEN`.
 #[inline(always)]
 fn ring_groups<S: Simd, const G: usize, const E: usize, const DRIVEN: bool>(
@@ -243,7 +243,7 @@ fn ring_groups<S: Simd, const G: usize, const E: usize, const DRIVEN: bool>(
     };
     let (mut z_re, mut z_im) = (load(re), load(im));
     let [t_re, t_im] = rows.turn.map(load);
-    let weights: [_; E] = std::array::from_fn(|ear| rows.heard[ear].map(load));
+    let weights: [_; E] = std::array::from_fn(|receiver| rows.heard[receiver].map(load));
     for (sample, sum) in sums.iter_mut().enumerate() {
         for i in 0..G {
             (z_re[i], z_im[i]) = turn(simd, fma, (z_re[i], z_im[i]), (t_re[i], t_im[i]));
