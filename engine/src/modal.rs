@@ -18,7 +18,7 @@
 //! Precision: the loop is `f32`. It adds `(e^(lambda dt) - 1) z` to `z` instead of multiplying by
 //! a number next to one, whose rounding would change decays of a second by a percent.
 //!
-//! Modes at or above half the sample rate are silent: they neither move nor yield.
+//! Modes at or above half the sample rate are silent: they do not move and have no compliance.
 
 mod direct;
 mod energy;
@@ -40,7 +40,7 @@ pub use simd::{MAX_DRIVES, RECEIVERS};
 
 use receiver_weights::Receiver;
 
-/// One mode: what the equation of motion needs.
+/// Constants of a mode in its equation of motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mode {
     /// Undamped angular frequency, rad/s, above 0.
@@ -59,12 +59,12 @@ impl Mode {
     }
 }
 
-/// Numbers of the loop, `[mode]` in every row.
+/// Coefficients of the loop, `[mode]` in every row.
 struct ModalCoefs {
     /// `e^(lambda dt) - 1`.
     turn_re: Row,
     turn_im: Row,
-    /// `b`, the displacement and velocity a unit modal force held for one sample leaves.
+    /// `b`, the effect of a unit modal force held for one sample.
     hold_re: Row,
     hold_im: Row,
 }
@@ -82,15 +82,15 @@ struct ModalState {
 ///
 /// let mode = Mode { omega: std::f64::consts::TAU * 200.0, sigma: 5.0, mass: 0.1 };
 /// let mut body = ModalBody::new(vec![mode], 48_000.0);
-/// // A place where the mode moves as much as its displacement says.
-/// let mut place = InputVector::new(body.len());
-/// place.shape_mut()[0] = 1.0;
-/// body.connect(&mut place);
+/// // A point where the mode shape is one.
+/// let mut input = InputVector::new(body.len());
+/// input.shape_mut()[0] = 1.0;
+/// body.connect(&mut input);
 ///
 /// // A blow: 10 N for a millisecond.
 /// for _ in 0..48 {
 ///     body.step();
-///     body.push(&place, 10.0);
+///     body.push(&input, 10.0);
 /// }
 /// let struck = body.energy();
 /// // Half a second later e^(-2 sigma t) of its energy is left.

@@ -1,4 +1,4 @@
-//! One sample of the first modes of a body in two passes: what they do freely, and what forces do to them.
+//! One sample of the coupled modes in two passes: the free step, and the effect of forces.
 
 use pulp::Simd;
 
@@ -6,13 +6,13 @@ use super::dispatch::{Kernel, Kernels};
 use super::primitives::turn;
 use super::ring::RECEIVERS;
 
-/// Forces that act in one sample, at most.
+/// Most forces in a sample.
 pub const FORCES: usize = 2;
 
-/// A force and what it leaves when held for a sample, `[mode]`, real and imaginary part.
+/// A force, and the effect of a unit force held for a sample, `[mode]`, real and imaginary part.
 pub type HeldForce<'a> = (f32, [&'a [f32]; 2]);
 
-/// What [`Kernels::rotate_along`] works on; all rows `[mode]`, of one length.
+/// Operands of [`Kernels::rotate_along`]; all rows `[mode]`, of one length.
 pub struct Along<'a> {
     /// State.
     pub re: &'a mut [f32],
@@ -26,25 +26,25 @@ pub struct Along<'a> {
     pub shape: &'a [f32],
 }
 
-/// What [`Kernels::push_and_hear`] works on; all rows `[mode]`.
+/// Operands of [`Kernels::push_and_hear`]; all rows `[mode]`.
 pub struct PushAndHear<'a> {
     /// State.
     pub re: &'a mut [f32],
     /// State.
     pub im: &'a mut [f32],
-    /// What acts, as long as the state or longer.
+    /// Forces; their rows are as long as the state or longer.
     pub forces: [HeldForce<'a>; FORCES],
     /// Weights of the state at each receiver, real and imaginary part. Missing weights are zero.
     pub weights: [[&'a [f32]; 2]; RECEIVERS],
 }
 
 impl Kernels {
-    /// [`rotate`](Self::rotate), and how far the imaginary parts have moved along a direction.
+    /// [`rotate`](Self::rotate) that returns the movement of the imaginary parts along a direction.
     pub fn rotate_along(&self, along: Along<'_>) -> f32 {
         self.run(along)
     }
 
-    /// Adds what forces leave to the state, and listens to it.
+    /// Adds the effect of forces to the state, and returns the pressure at each receiver.
     pub fn push_and_hear(&self, work: PushAndHear<'_>) -> [f32; RECEIVERS] {
         self.run(work)
     }
