@@ -1,7 +1,7 @@
 //! Worker threads that render the pieces of a kit beside the audio thread.
 //!
 //! Hand-off: two bounded queues without locks. For every run the audio thread puts the jobs ([`RenderJob`]) that have something to
-//! do on one queue; whoever takes a job owns it, renders it, and puts it on the other. The audio thread takes jobs from the
+//! do on one queue. The thread that takes a job owns it, renders it, and puts it on the other. The audio thread takes jobs from the
 //! first queue until it is empty, as a worker does. So a job that no worker has claimed is done in any case. Then it waits for
 //! the claimed ones. Nothing is shared but the queues: the compiler proves that no job is ever in two hands, and there is no
 //! unsafe code here or in the engine. What the queues do inside (crossbeam's `ArrayQueue`) is taken on trust; docs/kit.md has
@@ -44,7 +44,7 @@ const IDLE: Duration = Duration::from_secs(1);
 /// How long the audio thread waits for a job that a worker has claimed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Patience {
-    /// Until the [`Deadline`], or some milliseconds where nobody knows one; then the piece is silent for the run.
+    /// Until the [`Deadline`], or some milliseconds where there is none; then the piece is silent for the run.
     RealTime,
     /// Until it is done, or half a minute has passed: while a file is rendered.
     Offline,
