@@ -51,7 +51,7 @@ impl CoupledModes {
 }
 
 impl ModalBody {
-    /// Updates the coefficients of [`predict`](Self::predict), for a prediction `samples_ahead`, and of
+    /// Updates the coefficients of [`predict`](Self::predict), for a prediction `samples_ahead` (samples), and of
     /// [`rescale_velocity`](Self::rescale_velocity), after a change of modes or receiver weights.
     ///
     /// # Real-time

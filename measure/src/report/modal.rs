@@ -140,7 +140,7 @@ pub struct ModeMotion {
     pub off: f64,
     /// Error of the decay rate, 1/s.
     pub sigma: f64,
-    /// Periods over which it was followed.
+    /// Periods over which it was followed, dimensionless.
     pub turns: f64,
 }
 
