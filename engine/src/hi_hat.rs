@@ -12,7 +12,7 @@
 //! cymbal's modes are coupled by its stretching, as those of any other cymbal. The lower one's are not.
 //!
 //! The pedal is one control: from 0, with the rims [`GAP`] apart, over [`TOUCHING`], where rims without tilt would meet, to 1,
-//! where they are pressed together by [`CLAMPING`]. Open, loose, half and tight are positions of it. The [foot](foot) moves it at
+//! where they are pressed together by [`CLAMPING`]. Open, loose, half and tight are positions of it. The [foot] moves it at
 //! a finite speed, and the sound follows from the contact of the rims.
 //!
 //! No real-time model of a hi-hat is published; the parts are as elsewhere in this crate. Energy: all contacts are discrete
