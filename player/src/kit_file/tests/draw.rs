@@ -15,19 +15,16 @@ use overhear_engine::strike::Striker;
 use crate::kit_document::KitDocument;
 use crate::midi_map::{Foot, Meaning, NoteTable, Row, Stroke};
 
-/// Draws by chance (xorshift); the same seed draws the same.
-pub struct Draw(u64);
+/// A random generator; the same seed draws the same.
+pub struct Draw(fastrand::Rng);
 
 impl Draw {
     pub fn new(seed: u64) -> Draw {
-        Draw(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1)
+        Draw(fastrand::Rng::with_seed(seed))
     }
 
     pub fn below(&mut self, end: usize) -> usize {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as usize % end.max(1)
+        self.0.usize(..end.max(1))
     }
 
     /// From 0 to 1.
