@@ -159,10 +159,15 @@ impl Tail {
 
     /// Makes silence exact; meant for now and then, on the kit's clock.
     pub(in crate::kit) fn settle(&mut self) {
-        let quiet = self.entry.is_quiet()
+        if self.silent {
+            return;
+        }
+        // All passes fade faster than the rest: they end before their numbers become too small to be fast.
+        self.scatter.iter_mut().filter(|scatter| scatter.is_quiet()).for_each(Scatter::reset);
+        if self.entry.is_quiet()
             && self.short.are_quiet(SILENCE)
-            && self.long.are_quiet(SCALE as f32 * SILENCE);
-        if !self.silent && quiet {
+            && self.long.are_quiet(SCALE as f32 * SILENCE)
+        {
             self.reset();
         }
     }
@@ -200,12 +205,15 @@ impl Scatter {
                 *held = inside;
             }
         }
-        self.at = if wrapped > 0 { wrapped } else { (self.at + first) % self.samples.len() };
+        self.at = if self.at + first < self.samples.len() { self.at + first } else { wrapped };
+    }
+
+    fn is_quiet(&self) -> bool {
+        self.samples.iter().all(|x| x.abs() < SILENCE)
     }
 
     fn reset(&mut self) {
         self.samples.fill(0.0);
-        self.at = 0;
     }
 }
 
@@ -265,16 +273,23 @@ impl Lines {
     /// What comes out next.
     fn read(&self, runs: &mut Runs, samples: usize) {
         for ((run, line), &at) in runs.iter_mut().zip(&self.lines).zip(&self.at) {
-            let first = samples.min(line.len() - at);
-            run[..first].copy_from_slice(&line[at..at + first]);
-            run[first..samples].copy_from_slice(&line[..samples - first]);
+            let next = &line[at..];
+            // Nearly always: a whole run in one piece.
+            match next.first_chunk() {
+                Some(whole) if samples == BLOCK => *run = *whole,
+                _ => {
+                    let first = samples.min(next.len());
+                    run[..first].copy_from_slice(&next[..first]);
+                    run[first..samples].copy_from_slice(&line[..samples - first]);
+                }
+            }
         }
     }
 
     /// Adds what a line was given so many samples ago, not fewer than are asked for.
     fn listen(&self, i: usize, delay: usize, gain: f32, heard: &mut [f32]) {
         let line = &self.lines[i];
-        let at = (self.at[i] + line.len() - delay) % line.len();
+        let at = if self.at[i] < delay { self.at[i] + line.len() - delay } else { self.at[i] - delay };
         let (before, after) = heard.split_at_mut(heard.len().min(line.len() - at));
         for (heard, line) in [(before, &line[at..]), (after, &line[..])] {
             heard.iter_mut().zip(line).for_each(|(heard, x)| *heard += gain * x);
@@ -284,10 +299,16 @@ impl Lines {
     /// Puts in as much as was read in its place.
     fn write(&mut self, runs: &Runs, samples: usize) {
         for ((run, line), at) in runs.iter().zip(&mut self.lines).zip(&mut self.at) {
-            let first = samples.min(line.len() - *at);
-            line[*at..*at + first].copy_from_slice(&run[..first]);
-            line[..samples - first].copy_from_slice(&run[first..samples]);
-            *at = if first < samples { samples - first } else { (*at + first) % line.len() };
+            let left = line.len() - *at;
+            match line[*at..].first_chunk_mut() {
+                Some(whole) if samples == BLOCK => *whole = *run,
+                _ => {
+                    let first = samples.min(left);
+                    line[*at..*at + first].copy_from_slice(&run[..first]);
+                    line[..samples - first].copy_from_slice(&run[first..samples]);
+                }
+            }
+            *at = if samples < left { *at + samples } else { samples - left };
         }
     }
 
