@@ -9,7 +9,6 @@
 mod losses;
 mod tail;
 
-use crate::block::BLOCK;
 use crate::kit_spec::room::RoomSpec;
 use crate::layout::Point;
 
@@ -24,9 +23,6 @@ pub(super) fn images(room: &RoomSpec, source: &Point) -> [(Point, f64); 6] {
         (image, room.reflected[axis][side])
     })
 }
-
-/// A run of silence.
-pub(super) const SILENT_RUN: [f32; BLOCK] = [0.0; BLOCK];
 
 #[cfg(test)]
 mod tests {

@@ -101,12 +101,11 @@ impl Losses {
             let square = re * re + im * im;
             (a * re / square, -a * im / square)
         };
-        let shelf = |(share, step): (&f64, f64)| {
+        let lift = |(share, step): (&f64, f64)| {
             let (re, im) = low(step);
             (1.0 + share * (1.0 - re)).hypot(share * im)
         };
-        let shelves: f64 =
-            self.shelves.iter().zip(Losses::shelf_steps(self.sample_rate)).map(shelf).product();
+        let shelves: f64 = self.shelves.iter().zip(Losses::shelf_steps(self.sample_rate)).map(lift).product();
         let (re, im) = low(self.low_pass);
         self.gain * shelves * re.hypot(im)
     }

@@ -26,10 +26,9 @@
 
 use std::f64::consts::PI;
 
-use super::SILENT_RUN;
 use super::losses::{Losses, SHELVES};
 use crate::air_load::SPEED_OF_SOUND;
-use crate::block::BLOCK;
+use crate::block::{BLOCK, SILENT_RUN};
 use crate::kit_spec::room::RoomSpec;
 
 /// Lines of each kind.
@@ -354,11 +353,11 @@ impl Weakening {
         for t in 0..samples {
             let mut frame: Row = std::array::from_fn(|i| runs[i][t]);
             frame.iter_mut().zip(&self.gain).for_each(|(x, gain)| *x *= gain);
-            for ((held, shelf), step) in self.held.iter_mut().zip(&self.shelves).zip(self.steps) {
+            for ((held, share), step) in self.held.iter_mut().zip(&self.shelves).zip(self.steps) {
                 for i in 0..LINES {
                     let high = frame[i] - held[i];
                     held[i] += step * high;
-                    frame[i] += shelf[i] * high;
+                    frame[i] += share[i] * high;
                 }
             }
             for i in 0..LINES {
