@@ -349,6 +349,7 @@ impl Weakening {
         }
     }
 
+    #[expect(clippy::needless_range_loop, reason = "a time is one sample of every line")]
     fn render(&mut self, runs: &mut Runs, samples: usize) {
         for t in 0..samples {
             let mut frame: Row = std::array::from_fn(|i| runs[i][t]);
@@ -377,6 +378,7 @@ impl Weakening {
 const SCALE: f64 = 4.0;
 
 /// Mixes the lines; the sum of their squares is [`SCALE`] squared times what it was.
+#[expect(clippy::needless_range_loop, reason = "a time is one sample of every line")]
 fn hadamard(runs: &mut Runs) {
     for quarter in [1, LINES / 4] {
         for first in (0..LINES).filter(|i| i / quarter % 4 == 0) {
