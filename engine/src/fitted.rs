@@ -162,8 +162,6 @@ fitted! {
         to "a stroke at 6 m/s as loud as from half a metre"; tried "not recorded"; moves "the mix";
     CYMBAL_CLOSE_INCLINATION = 1.1, "rad", "pieces.crash.close.inclination_rad";
         to "balance of recorded rides, within 2 dB"; tried "not recorded"; moves "every cymbal close by";
-    ROOM_SOFT_HZ = 18_000.0, "Hz", "room.soft_hz";
-        to "decay at 8 kHz of recorded drums"; tried "5,000 and 18,000"; moves "the room's highs";
     ROOM_FLOOR = 0.6, "1", "room.reflected";
         to "by ear: carpet; ceiling 0.65, walls 0.7 to 0.75: treated"; tried "not recorded"; moves "early reflections";
     CLIP_KNEE = 0.85, "1", "clip_knee";

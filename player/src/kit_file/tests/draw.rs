@@ -82,6 +82,7 @@ pub fn document(seed: u64) -> KitDocument {
         *x += draw.unit();
     }
     kit.room.time = draw.number(&(0.05..=5.0));
+    kit.room.octaves[draw.below(9)] = draw.number(&(0.1..=4.0));
     kit.room.corners[1][draw.below(3)] += draw.unit();
     kit.room.reflected[draw.below(3)][draw.below(2)] = draw.number(&(0.0..=0.99));
     let notes = notes(draw, &kit);
