@@ -137,11 +137,15 @@ impl Thermoelastic {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Muffler {
-    /// A pillow against both heads.
+    /// A pillow against both heads: filling so deep that a wave that enters it does not come back, above the frequency at
+    /// which it is a quarter wave deep. Below, it only follows the head as a spring:
+    /// `sigma(f) = sigma f^2 / (f^2 + f_c^2)`.
     Pillow {
-        /// Decay rate added to every mode at full amount, 1/s, 0 to 1000.
+        /// Decay rate added to modes far above the corner at full amount, 1/s, 0 to 1000.
         #[serde(rename = "sigma_1_s")]
         sigma: f64,
+        /// Corner `f_c`, Hz, 0 to 2000.
+        corner_hz: f64,
         /// Decay rate added at full amount to a motion of nothing but the air along the drum, 1/s, 0 to 10,000.
         #[serde(rename = "flow_1_s")]
         flow: f64,
@@ -171,8 +175,9 @@ pub enum Muffler {
 impl Numbers for Muffler {
     fn visit(&mut self, visitor: &mut dyn Visitor) {
         match self {
-            Muffler::Pillow { sigma, flow } => {
+            Muffler::Pillow { sigma, corner_hz, flow } => {
                 visitor.number("sigma_1_s", sigma, 0.0..=1000.0);
+                visitor.number("corner_hz", corner_hz, 0.0..=2000.0);
                 visitor.number("flow_1_s", flow, 0.0..=10_000.0);
             }
             Muffler::Gel { sigma, radius, angle } => {

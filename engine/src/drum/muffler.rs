@@ -17,8 +17,15 @@ const RING_PLACES: usize = 6;
 /// What muffling takes from the modes.
 #[derive(Debug, Clone, PartialEq)]
 pub enum MufflerCoefs {
-    /// Decay rates of the heads' own motion and of the air's along the drum at full amount, 1/s.
-    Pillow(f64, f64),
+    /// A pillow.
+    Pillow {
+        /// Decay rate of the heads' own motion far above the corner at full amount, 1/s.
+        sigma: f64,
+        /// Corner, rad/s.
+        corner: f64,
+        /// Decay rate of the air's motion along the drum at full amount, 1/s.
+        flow: f64,
+    },
     /// A pad.
     Gel {
         /// Decay rate of a mode of unit square there at full amount, 1/s.
@@ -58,7 +65,9 @@ impl MufflerCoefs {
             (0..count).map(|i| drum.modes[pair].share(i, &middle) * of(first + i)).sum()
         };
         match spec.muffler {
-            Muffler::Pillow { sigma, flow } => MufflerCoefs::Pillow(sigma, flow),
+            Muffler::Pillow { sigma, corner_hz, flow } => {
+                MufflerCoefs::Pillow { sigma, corner: std::f64::consts::TAU * corner_hz, flow }
+            }
             Muffler::Gel { sigma, radius, angle } => {
                 let film = membrane.area_density() * membrane.area();
                 let radial = drum.heads.batter.membrane.radial_shapes(&[radius]);
@@ -100,7 +109,7 @@ impl MufflerCoefs {
     /// What so much of it, 0 to 1, takes from the high band.
     pub fn above(&self, amount: f64) -> HighMuffling {
         match *self {
-            MufflerCoefs::Pillow(sigma, _) => HighMuffling { even: amount * sigma, ..HighMuffling::NONE },
+            MufflerCoefs::Pillow { sigma, .. } => HighMuffling { even: amount * sigma, ..HighMuffling::NONE },
             MufflerCoefs::Gel { sigma, radius, .. } | MufflerCoefs::Ring { sigma, radius, .. } => {
                 HighMuffling { pad: (amount * sigma, radius), ..HighMuffling::NONE }
             }
@@ -114,8 +123,10 @@ impl MufflerCoefs {
                 MufflerCoefs::Gel { dashpot, mixed, .. } | MufflerCoefs::Ring { dashpot, mixed, .. },
                 Some(k),
             ) => dashpot * mixed[k] / (2.0 * rung.mass),
-            (MufflerCoefs::Pillow(sigma, flow), _) => {
-                sigma * (rung.batter + rung.resonant) + flow * rung.flow
+            (MufflerCoefs::Pillow { sigma, corner, flow }, _) => {
+                let square = rung.omega * rung.omega;
+                let absorbed = sigma * square / (square + corner * corner);
+                absorbed * (rung.batter + rung.resonant) + flow * rung.flow
             }
             (MufflerCoefs::Gel { dashpot, radial, .. }, None) => {
                 let tuned = &drum.modes[mode.pair];

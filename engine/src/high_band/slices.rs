@@ -13,7 +13,7 @@ use crate::receiver::ReceiverPosition;
 use crate::split::hash;
 
 /// Slices in an octave.
-const SLICES: f64 = 400.0;
+const SLICES: f64 = 300.0;
 
 /// Highest frequency, Hz, and its largest share of the sample rate.
 const TOP_HZ: f64 = 16_000.0;

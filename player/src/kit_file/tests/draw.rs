@@ -124,7 +124,7 @@ fn parts(draw: &mut Draw, piece: &mut PieceSpec) {
     piece.ideal = Idealization { lossless: yes(), linear: yes(), round: yes() };
     match &mut piece.instrument {
         InstrumentSpec::Drum(drum) => {
-            let pillow = Muffler::Pillow { sigma: 20.0, flow: 100.0 };
+            let pillow = Muffler::Pillow { sigma: 20.0, corner_hz: 120.0, flow: 100.0 };
             drum.muffler = draw.of(&[Muffler::GEL, Muffler::RING, pillow]);
             drum.evenness.seed = draw.of(&[0, 7, u32::MAX]);
             drum.contact = draw.of(&[HeadContact::Wraps, HeadContact::FixedDisc]);
