@@ -406,3 +406,6 @@ fn named(rows: &[(usize, Vec<f64>)]) -> Vec<usize> {
     let mut free = (0..rows.len()).filter(|&part| !taken[part]).collect::<Vec<_>>().into_iter();
     names.into_iter().map(|name| name.or_else(|| free.next()).unwrap_or(0)).collect()
 }
+
+#[cfg(test)]
+mod tests;
