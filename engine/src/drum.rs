@@ -74,7 +74,8 @@ fn at_pitch<'a>(
     mixed: Option<&'a MixedModes>,
     place: &'a PitchPosition,
 ) -> impl Iterator<Item = ModeAtPitch> + 'a {
-    let kept = built.modes[..built.kept].iter().map(|mode| mode.at(place));
+    let kept = mixed.map_or(built.modes.len(), |_| built.kept);
+    let kept = built.modes[..kept].iter().map(|mode| mode.at(place));
     kept.chain(mixed.into_iter().flat_map(|mixed| (0..mixed.len()).map(|k| mixed.at(k, place))))
 }
 
@@ -115,7 +116,6 @@ impl Drum {
         spec.check()?;
         let BuildContext { options, receivers, ideal } = context;
         let field = spec.tension_field.filter(|field| !ideal.round && field.rms > 0.0);
-        let spec = &DrumSpec { tension_field: field, ..*spec };
         let [low, pitch, high] = spec.pitches();
         let built = MODES.get(&modes_key(spec), || DrumModes::new(spec))?;
         let place = built.heads.scale.place(pitch);
@@ -123,7 +123,7 @@ impl Drum {
             .map(|field| {
                 let axis = |m| spec.evenness.axis(m, 0);
                 let make = || Ok::<_, SpecError>(MixedModes::new(&built, &field, axis));
-                MIXED.get(&(modes_key(spec), field, spec.evenness), make)
+                MIXED.get(&(modes_key(spec), field, spec.evenness.seed), make)
             })
             .transpose()?;
         let modes = body::assemble(spec, &built, mixed.as_deref(), ideal.round);
