@@ -57,7 +57,7 @@ pub fn cap_hi_hat() -> PieceSpec {
 }
 
 /// A drum as published contacts, landings and glides have it: every stroke presses on its striker's own disc; it is
-/// heard from half a metre, without muffling.
+/// heard from half a metre, without muffling. Its rim does not yield, and its heads are evenly stretched.
 fn fixed_disc(of: &str, change: impl FnOnce(DrumSpec) -> DrumSpec) -> PieceSpec {
     let plain = |drum: DrumSpec| DrumSpec {
         contact: HeadContact::FixedDisc,
