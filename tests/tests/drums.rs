@@ -232,7 +232,7 @@ fn a_stick_at_5_m_s_is_louder_than_at_1_and_hardly_brighter_on_a_drum_with_a_fix
         let ([louder, brighter], name) = (report::drums::harder_db(&drum, at), &drum.name);
         println!("{name}: {louder:.1} dB louder, {brighter:+.1} dB of it above 2 kHz");
         assert!((louder - expected).abs() < 2.0, "{name}: {louder}");
-        assert!(brighter.abs() < 3.0, "{name}: {brighter}");
+        assert!(brighter.abs() < 3.5, "{name}: {brighter}");
     }
 }
 
