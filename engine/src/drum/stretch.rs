@@ -189,6 +189,10 @@ impl Potential for Stretch {
         rest.zip(&*self.mixed_product).for_each(|(gradient, product)| *gradient = factor * product);
         Evaluation { energy, depth: 0.0 }
     }
+
+    fn is_convex(&self) -> bool {
+        true
+    }
 }
 
 #[cfg(test)]
