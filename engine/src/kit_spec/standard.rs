@@ -33,7 +33,7 @@ impl KitSpec {
     pub fn standard() -> KitSpec {
         KitSpec {
             pieces: vec![
-                piece("kick", "Kick", kick(), ([0.0, 0.30, -0.23], [0.0, 0.0, -1.0]), (0.3, 0.0, 0.0)),
+                piece("kick", "Kick", kick(), ([0.0, 0.30, -0.23], [0.0, 0.0, -1.0]), (0.15, 0.0, 0.0)),
                 PieceSpec {
                     // *Fitted*.
                     defaults: Defaults {
