@@ -27,7 +27,7 @@ mod room;
 pub use arrangement::Arrangement;
 pub use control::{Control, Microphone};
 pub use gain::{LOUDEST_DB, SILENT_DB};
-pub use mixer::Stereo;
+pub use mixer::{Routing, Stereo};
 pub use render_job::{RenderJob, RenderWorkers};
 
 pub use crate::block::BLOCK;
@@ -230,6 +230,7 @@ impl Kit {
         into.dropped_strikes = self.dropped_strikes;
         into.missed_runs = self.missed_runs;
         into.clipped_samples = self.desk.clipped();
+        into.limited_samples = self.desk.limited();
         into.peak = self.desk.take_peak();
         for (slot, (post, into)) in self.posts.iter().zip(&mut into.pieces).enumerate() {
             into.peak = self.desk.take_strip_peak(slot);

@@ -21,7 +21,7 @@ mod table;
 pub use document::{about, document};
 pub use error::ParameterError;
 pub use in_kit::{default_value, find, from_text, is_live, name, parse_assignment, parse_value, range, text};
-pub use list::{COUNT, SLOT_COUNT, parameters, slot_index, slot_parameter};
+pub use list::{COUNT, SLOT_COUNT, parameters, slot_index, slot_parameter, stepped};
 pub use parameter::{Construction, Drives, Manner, Parameter, SlotParameter, Stand};
 pub use slot::number;
 

@@ -1,10 +1,12 @@
 //! All parameters, in the order that hosts see.
 
+use std::collections::HashMap;
 use std::sync::LazyLock;
 
 use overhear_engine::kit_spec::KitSpec;
 use overhear_engine::slot::{SLOTS, Slot};
 
+use super::host_id;
 use super::parameter::{Parameter, SlotParameter};
 use super::table::{GLOBALS, TABLE};
 
@@ -38,4 +40,16 @@ pub const fn slot_index(slot: Slot, what: SlotParameter) -> usize {
 pub fn slot_parameter(index: usize) -> Option<(Slot, SlotParameter)> {
     let slot = Slot::new(index / SlotParameter::ALL.len())?;
     Some((slot, SlotParameter::ALL[index % SlotParameter::ALL.len()]))
+}
+
+/// [Steps](Parameter::steps) of the parameter that hosts know by a number.
+///
+/// # Real-time
+/// A look-up, once it has been called anywhere before.
+pub fn stepped(id: u32) -> Option<u32> {
+    static STEPS: LazyLock<HashMap<u32, u32>> = LazyLock::new(|| {
+        let steps = |parameter: &Parameter| Some((host_id(parameter.id), parameter.steps()?));
+        parameters().iter().filter_map(steps).collect()
+    });
+    STEPS.get(&id).copied()
 }
