@@ -28,9 +28,9 @@ fn render(piece: &mut Piece, seconds: f64) {
     let mut left = (seconds * RATE) as usize;
     while left > 0 {
         let run = piece.run_left().min(left);
-        let mut ears = [[0.0; BLOCK]; RECEIVERS];
-        piece.render_in_air(ears.each_mut().map(|ear| &mut ear[..run]), None);
-        black_box(ears);
+        let mut receivers = [[0.0; BLOCK]; RECEIVERS];
+        piece.render_in_air(receivers.each_mut().map(|receiver| &mut receiver[..run]), None);
+        black_box(receivers);
         left -= run;
     }
 }

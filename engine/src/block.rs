@@ -2,3 +2,6 @@
 
 /// Longest stretch a piece renders at once, samples.
 pub const BLOCK: usize = 32;
+
+/// A run of silence, Pa.
+pub const SILENT_RUN: [f32; BLOCK] = [0.0; BLOCK];

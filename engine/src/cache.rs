@@ -1,4 +1,4 @@
-//! Results of long calculations, cached for whoever builds the same piece next.
+//! Cache of the results of long calculations, for the next build of the same piece.
 //!
 //! A drum's or a plate's modes and their transfer to the receivers follow from its description alone. They are calculated
 //! once in a process and shared: every instance and every rebuild that asks for the same description gets the same result, to

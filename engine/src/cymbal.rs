@@ -61,7 +61,7 @@ impl Cymbal {
         // By frequency: those that are coupled come first.
         let shells = plate.shells().iter().enumerate();
         let order: Vec<Ordered> =
-            shells.map(|(shell, mode)| Ordered { shell, in_front: plate.is_coupled(mode) }).collect();
+            shells.map(|(shell, mode)| Ordered { shell, is_coupled: plate.is_coupled(mode) }).collect();
         let (modes, shapes) = plate.assemble(&rigid(&stand), &order, |_, _| 0.0);
         let (low, tuning, high) = CymbalSpec::TUNING;
         let mut cymbal = Cymbal {

@@ -52,6 +52,45 @@ impl LossLaw {
     }
 }
 
+/// What carries a head at its rim: collar, bearing edge, hoop and shell, which yield to the head's pull.
+///
+/// Model: per length of the rim a spring `k` beside a dashpot `R`, both between the head and a drum that stands
+/// still. A mode pulls with `T dw/dn`, the edge yields at the velocity `Y T dw/dn`,
+///
+/// ```text
+/// Re Y = f^2 / (f^2 + f_c^2) / R,   f_c = k / (2 pi R)
+/// ```
+///
+/// and the power lost is `T^2 Re Y int (dw/dn)^2 ds`. For every mode of a round clamped head the integral is
+/// `2 k^2 A / a` (Rellich's identity), so all modes lose at the rate `sigma = T Re Y / a` where tension rules and the air
+/// weighs what it does: nothing at low frequency, the same for all high ones.
+///
+/// Limits: the edge is alike all around; it does not detune the modes (by `T / (k a)`, a quarter of a percent).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct EdgeSpec {
+    /// `R`, N s/m2, 10 to 1e6.
+    #[serde(rename = "resistance_n_s_m2")]
+    pub resistance: f64,
+    /// `f_c`, where the dashpot takes over from the spring, Hz, 10 to 20,000.
+    pub corner_hz: f64,
+}
+
+impl Numbers for EdgeSpec {
+    fn visit(&mut self, visitor: &mut dyn Visitor) {
+        visitor.number("resistance_n_s_m2", &mut self.resistance, 10.0..=1e6);
+        visitor.number("corner_hz", &mut self.corner_hz, 10.0..=20_000.0);
+    }
+}
+
+impl EdgeSpec {
+    /// `Re Y` at `omega` rad/s, m2/(N s).
+    pub fn mobility(&self, omega: f64) -> f64 {
+        let ratio = (TAU * self.corner_hz / omega).powi(2);
+        1.0 / (self.resistance * (1.0 + ratio))
+    }
+}
+
 /// Loss by heat flowing through a bent plate, `sigma = delta / 2 * omega^2 tau / (1 + omega^2 tau^2)`.
 ///
 /// Above some 30 Hz, where cymbals begin to sound, it is the same for every mode.
@@ -98,11 +137,15 @@ impl Thermoelastic {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Muffler {
-    /// A pillow against both heads.
+    /// A pillow against both heads: filling so deep that a wave that enters it does not come back, above the frequency at
+    /// which it is a quarter wave deep. Below, it only follows the head as a spring:
+    /// `sigma(f) = sigma f^2 / (f^2 + f_c^2)`.
     Pillow {
-        /// Decay rate added to every mode at full amount, 1/s, 0 to 1000.
+        /// Decay rate added to modes far above the corner at full amount, 1/s, 0 to 1000.
         #[serde(rename = "sigma_1_s")]
         sigma: f64,
+        /// Corner `f_c`, Hz, 0 to 2000.
+        corner_hz: f64,
         /// Decay rate added at full amount to a motion of nothing but the air along the drum, 1/s, 0 to 10,000.
         #[serde(rename = "flow_1_s")]
         flow: f64,
@@ -132,8 +175,9 @@ pub enum Muffler {
 impl Numbers for Muffler {
     fn visit(&mut self, visitor: &mut dyn Visitor) {
         match self {
-            Muffler::Pillow { sigma, flow } => {
+            Muffler::Pillow { sigma, corner_hz, flow } => {
                 visitor.number("sigma_1_s", sigma, 0.0..=1000.0);
+                visitor.number("corner_hz", corner_hz, 0.0..=2000.0);
                 visitor.number("flow_1_s", flow, 0.0..=10_000.0);
             }
             Muffler::Gel { sigma, radius, angle } => {

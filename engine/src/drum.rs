@@ -9,11 +9,13 @@ use std::f64::consts::TAU;
 pub mod body;
 pub mod coupled;
 pub mod heads;
+pub mod mixing;
 pub mod mode_transfer;
 pub mod modes;
 pub mod muffler;
 pub mod spec;
 pub mod stretch;
+pub mod tension_field;
 pub mod tuned;
 
 use serde::Serialize;
@@ -36,22 +38,24 @@ use crate::surface::rim::AttachedRim;
 use crate::surface::wires::{PRELOAD, SnareWires};
 use crate::surface::{Surface, SurfaceParts};
 
-use body::{BodyMode, all_around, describe, sampled};
+use body::{BodyMode, all_around, describe, long_wave, sampled};
+use mixing::MixedModes;
 use mode_transfer::ModeTransfer;
 use modes::DrumModes;
 use muffler::MufflerCoefs;
 pub use spec::{DrumSpec, HeadContact, HeadSpec, PitchOf, ResonantSpec, ShellSpec};
 use stretch::Stretch;
-use tuned::ModeAtPitch;
+use tuned::{ModeAtPitch, PitchPosition};
 
 /// What a drum's modes and their shapes follow from: the key of the cache.
 fn modes_key(spec: &DrumSpec) -> impl Serialize {
-    let DrumSpec { diameter, pitch_of, batter, resonant, shell, .. } = *spec;
-    (diameter, spec.pitches(), pitch_of, batter, resonant, shell)
+    let DrumSpec { diameter, pitch_of, batter, resonant, shell, edge, .. } = *spec;
+    (diameter, spec.pitches(), pitch_of, batter, resonant, shell, edge, spec.tension_field.is_some())
 }
 
 /// What has been worked out of late.
 static MODES: Cache<DrumModes> = Cache::new("drum", SCHEMA, 24);
+static MIXED: Cache<MixedModes> = Cache::new("mixing", SCHEMA, 24);
 static TRANSFERS: Cache<[ModeTransfer; 2]> = Cache::new("hearing", SCHEMA, 24);
 
 /// What is asked for while it rings.
@@ -64,10 +68,21 @@ struct Controls {
     preload: Glide,
 }
 
+/// Where the kept pairs and then the mixed modes ring at a pitch.
+fn at_pitch<'a>(
+    built: &'a DrumModes,
+    mixed: Option<&'a MixedModes>,
+    place: &'a PitchPosition,
+) -> impl Iterator<Item = ModeAtPitch> + 'a {
+    let kept = built.modes[..built.kept].iter().map(|mode| mode.at(place));
+    kept.chain(mixed.into_iter().flat_map(|mixed| (0..mixed.len()).map(|k| mixed.at(k, place))))
+}
+
 /// A drum that can be struck.
 pub struct Drum {
     surface: Surface,
     built: Shared<DrumModes>,
+    mixed: Option<Shared<MixedModes>>,
     /// From near and from far.
     hearing: Shared<[ModeTransfer; 2]>,
     far_distance: f64,
@@ -83,8 +98,12 @@ pub struct Drum {
     stale: bool,
     /// Whether the shapes have yet to follow the pitch.
     shapes_stale: bool,
-    /// `[pair]`: where each rings now.
+    /// `[kept pair, then mixed mode]`: where each rings now.
     at_pitch: Vec<ModeAtPitch>,
+    /// What is heard of the even modes and of the body's: pressure near and far (real, imaginary), volume, and the share of
+    /// the sound that goes all around.
+    even: Vec<[f32; 6]>,
+    heard: Vec<[f32; 6]>,
 }
 
 impl Drum {
@@ -95,12 +114,21 @@ impl Drum {
     pub fn new(spec: &DrumSpec, context: &BuildContext) -> Result<Drum, SpecError> {
         spec.check()?;
         let BuildContext { options, receivers, ideal } = context;
+        let field = spec.tension_field.filter(|field| !ideal.round && field.rms > 0.0);
+        let spec = &DrumSpec { tension_field: field, ..*spec };
         let [low, pitch, high] = spec.pitches();
         let built = MODES.get(&modes_key(spec), || DrumModes::new(spec))?;
         let place = built.heads.scale.place(pitch);
-        let at_pitch: Vec<ModeAtPitch> = built.modes.iter().map(|mode| mode.at(&place)).collect();
-        let modes = body::assemble(spec, &built, ideal.round);
-        let muffler = MufflerCoefs::new(spec, &built);
+        let mixed = field
+            .map(|field| {
+                let axis = |m| spec.evenness.axis(m, 0);
+                let make = || Ok::<_, SpecError>(MixedModes::new(&built, &field, axis));
+                MIXED.get(&(modes_key(spec), field, spec.evenness), make)
+            })
+            .transpose()?;
+        let modes = body::assemble(spec, &built, mixed.as_deref(), ideal.round);
+        let muffler = MufflerCoefs::new(spec, &built, mixed.as_deref());
+        let at_pitch = at_pitch(&built, mixed.as_deref(), &place).collect::<Vec<_>>();
         let points = [receivers.near, receivers.far];
         let heard = (modes_key(spec), points, spec.evenness);
         let hearing = TRANSFERS.get(&heard, || {
@@ -109,13 +137,14 @@ impl Drum {
             Ok::<_, SpecError>([near, far])
         })?;
         let bare = |mode: &BodyMode| Mode {
-            omega: at_pitch[mode.pair].omega,
+            omega: at_pitch[mode.row].omega,
             sigma: 0.0,
-            mass: at_pitch[mode.pair].mass,
+            mass: at_pitch[mode.row].mass,
         };
+        let mixture = || mixed.as_ref().map(|mixed| mixed.mixture.clone());
         let mut surface = Surface::new(SurfaceParts {
             modes: modes.iter().map(bare).collect(),
-            shapes: built.batter_shapes(spec.evenness),
+            shapes: built.batter_shapes(spec.evenness).with_mixture(mixture()),
             transfer: vec![[0.0; 2]; modes.len()],
             material: spec.batter.material,
             lossless: ideal.lossless,
@@ -124,8 +153,14 @@ impl Drum {
         surface.set_listener();
         let mut drum = Drum {
             surface,
-            far_shapes: spec.wires.and_then(|_| built.resonant_shapes(spec.evenness)),
+            far_shapes: spec
+                .wires
+                .and_then(|_| built.resonant_shapes(spec.evenness))
+                .map(|shapes| shapes.with_mixture(mixture())),
+            even: vec![[0.0; 6]; modes.len()],
+            heard: vec![[0.0; 6]; modes.len()],
             built,
+            mixed,
             hearing,
             far_distance: receivers.far.distance,
             modes,
@@ -158,10 +193,44 @@ impl Drum {
         }
         drum.follow_shapes();
         if !ideal.linear {
-            let (stretch, modes) = Stretch::new(&spec.membrane(&spec.batter), &drum.built, pitch);
+            let (stretch, modes) =
+                Stretch::new(&spec.membrane(&spec.batter), &drum.built, drum.mixed.as_deref(), pitch);
             drum.surface.set_potential(Box::new(stretch), modes, stretch::stride(options.sample_rate));
         }
         Ok(drum)
+    }
+
+    /// Brings what is heard of the modes to where the pitch is.
+    fn follow_pressures(&mut self, place: &PitchPosition) {
+        let Drum { surface, hearing, built, mixed, controls, far_distance, even, heard, at_pitch, .. } = self;
+        let volumes = built.modes.iter().flat_map(|tuned| {
+            let share = all_around(built, tuned, place);
+            let volume = share * if share > 0.0 { built.volume(tuned, place) } else { 0.0 };
+            std::iter::repeat_n((volume, share), if tuned.m == 0 { 1 } else { 2 })
+        });
+        let pitch = controls.pitch.value();
+        let [near, far] = hearing.each_ref().map(|hearing| hearing.transfers(&built.modes, place, pitch));
+        let far = far.map(|transfer| transfer.map(|h| h * *far_distance));
+        let Some(mixed) = mixed else {
+            surface.set_volumes(volumes);
+            surface.set_transfers(near, far);
+            return;
+        };
+        let rows = even.iter_mut().zip(near.zip(far)).zip(volumes);
+        for ((even, (near, far)), (volume, share)) in rows {
+            *even = [near[0], near[1], far[0], far[1], volume, share].map(|value| value as f32);
+        }
+        mixed.mixture.apply_rows(even, heard);
+        let kept = mixed.mixture.kept();
+        for ((heard, now), part) in
+            heard[kept..].iter_mut().zip(&at_pitch[built.kept..]).zip(&mixed.without_diameters)
+        {
+            heard[5] = part * long_wave(built, now.omega) as f32;
+        }
+        let pick = |i: usize| heard.iter().map(move |row| f64::from(row[i]));
+        let pair = |i: usize| pick(i).zip(pick(i + 1)).map(|(a, b)| [a, b]);
+        surface.set_volumes(pick(4).zip(pick(5)));
+        surface.set_transfers(pair(0), pair(2));
     }
 
     /// Brings the strainer's force to where its control is.
@@ -187,27 +256,21 @@ impl Instrument for Drum {
             return;
         }
         let place = self.built.heads.scale.place(self.controls.pitch.value());
-        for (k, mode) in self.modes.iter().enumerate() {
-            let tuned = &self.built.modes[mode.pair];
-            for (i, weight) in self.surface.shapes_mut().weights_mut(k).iter_mut().enumerate() {
-                *weight = tuned.share(i, &place) as f32;
-            }
+        let mut simple = 0;
+        for tuned in &self.built.modes {
+            let (_, near) = self.built.heads.batter.order(tuned.m);
+            // Members of a pair share their weights.
+            let row = self.surface.shapes_mut().weights_mut(simple);
+            row.iter_mut().enumerate().for_each(|(i, weight)| *weight = tuned.share(i, &place) as f32);
             if let Some(far) = &mut self.far_shapes {
-                let (_, near) = self.built.heads.batter.order(tuned.m);
-                for (i, weight) in far.weights_mut(k).iter_mut().enumerate() {
-                    *weight = tuned.share(near + i, &place) as f32;
-                }
+                let row = far.weights_mut(simple);
+                row.iter_mut()
+                    .enumerate()
+                    .for_each(|(i, weight)| *weight = tuned.share(near + i, &place) as f32);
             }
+            simple += if tuned.m == 0 { 1 } else { 2 };
         }
-        let Drum { surface, hearing, built, modes, controls, far_distance, .. } = self;
-        let [near, far] =
-            hearing.each_ref().map(|hearing| hearing.transfers(&built.modes, &place, controls.pitch.value()));
-        surface.set_volumes(modes.iter().map(|mode| {
-            let tuned = &built.modes[mode.pair];
-            let share = all_around(built, tuned, &place);
-            (share * if share > 0.0 { built.volume(tuned, &place) } else { 0.0 }, share)
-        }));
-        surface.set_transfers(near, far.map(|transfer| transfer.map(|h| h * *far_distance)));
+        self.follow_pressures(&place);
         let far = self.built.heads.resonant.as_ref().map(|head| head.film(&place));
         let near =
             LocalHeadCompliance { patch_grows: self.patch_grows, ..self.built.heads.batter.film(&place) };
@@ -248,15 +311,14 @@ impl Instrument for Drum {
         }
         self.shapes_stale = true;
         let place = self.built.heads.scale.place(self.controls.pitch.value());
-        for (rung, mode) in self.at_pitch.iter_mut().zip(&self.built.modes) {
-            *rung = mode.at(&place);
-        }
+        let now = at_pitch(&self.built, self.mixed.as_deref(), &place);
+        self.at_pitch.iter_mut().zip(now).for_each(|(row, now)| *row = now);
         let amount = self.controls.muffling.value();
         let (modes, at_pitch, muffler, built) = (&self.modes, &self.at_pitch, &self.muffler, &self.built);
         let lossless = self.lossless;
         self.surface.retune(|k, _| {
             let mode = &modes[k];
-            let rung = &at_pitch[mode.pair];
+            let rung = &at_pitch[mode.row];
             let muffled = if amount > 0.0 { amount * muffler.sigma(mode, rung, built, &place) } else { 0.0 };
             let sigma = if lossless { 0.0 } else { rung.sigma + muffled };
             Mode { omega: rung.omega * mode.detuning, sigma, mass: rung.mass }

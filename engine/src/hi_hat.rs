@@ -6,18 +6,17 @@
 //!                 floor --> seat --> lower cymbal (shell, heave, tilt)
 //! ```
 //!
-//! Model: two shallow [cymbals](crate::cymbal), the lower one upside down and a little tilted, as stands hold it, so
-//! that closed by a foot they do not trap the air. The upper one hangs in a clutch on the rod, the lower one
-//! lies on a seat, both on felts: springs and dampers on which they move as a whole ([`rigid`]). Where the rims meet
-//! they press on each other by the law of every contact ([`pair`]). The upper cymbal's modes are coupled by its
-//! stretching as those of any other; the lower one's are not.
+//! Model: two shallow [cymbals](crate::cymbal). The lower one is upside down and a little tilted, as stands hold it, so that
+//! closed cymbals do not trap the air. The upper one hangs in a clutch on the rod, the lower one lies on a seat. Felts hold both:
+//! springs and dampers for their rigid motion ([`rigid`]). The rims touch by the law of every contact ([`pair`]). The upper
+//! cymbal's modes are coupled by its stretching, as those of any other cymbal. The lower one's are not.
 //!
-//! The pedal is one control: from 0, the rims [`GAP`] apart, to [`TOUCHING`], where they would meet were they not
-//! tilted, to 1, pressed together by [`CLAMPING`]. Open, loose, half, tight are places of it. What it does is the
-//! [foot's](foot) to decide: it moves with a speed, and how the rims meet is how that sounds.
+//! The pedal is one control: from 0, with the rims [`GAP`] apart, over [`TOUCHING`], where rims without tilt would meet, to 1,
+//! where they are pressed together by [`CLAMPING`]. Open, loose, half and tight are positions of it. The [foot] moves it at
+//! a finite speed, and the sound follows from the contact of the rims.
 //!
-//! Nobody has published one in real time; the parts are as elsewhere in this crate. Energy: all contacts are
-//! discrete gradients of one potential, solved together with the strikers through both bodies.
+//! No real-time model of a hi-hat is published; the parts are as elsewhere in this crate. Energy: all contacts are discrete
+//! gradients of one potential, solved together with the strikers through both bodies.
 
 mod attached;
 pub mod foot;
@@ -56,8 +55,7 @@ use rigid::Rigid;
 /// Mean distance of the rims while the pedal is up, m. *Literature*: players set 2 to 4 cm.
 pub const GAP: f64 = 0.030;
 
-/// Where on the pedal's way (a share of it) rims that are not tilted would touch. *By ear*: most of what a foot does happens
-/// about there.
+/// Position of the pedal, as a share of its way, at which rims without tilt would touch. *By ear*: feet play mostly around it.
 pub const TOUCHING: f64 = fitted::HAT_TOUCHING;
 
 /// Force at the pedal's end, N. *Derived*: a seventh of a drummer's weight.
@@ -71,11 +69,11 @@ pub struct HiHat {
     tuning: Glide,
     muffling: Glide,
     hand: Glide,
-    /// How much the rims rub, 0 to 1, and the clamping force at which they do half as much, N.
+    /// Amount of rubbing of the rims, 0 to 1, and the clamping force at which it is half, N.
     rubbing: f64,
     half_rubbing: f64,
     stale: bool,
-    /// Place of the rod at the pedal's end, m.
+    /// Position of the rod at the pedal's end, m.
     closed: f64,
     pedal: f64,
 }
@@ -110,18 +108,18 @@ impl HiHat {
         Ok(hat)
     }
 
-    /// Where the rod is when the rims press on each other with [`CLAMPING`], m.
+    /// Position of the rod at which the rims press on each other with [`CLAMPING`], m.
     fn find_closed(&self) -> f64 {
         let clamping = |y: f64| self.pair().map_or(CLAMPING, |pair| pair.clamping(y));
-        // Far below what moves: an atom's width.
+        // Far below any motion: the width of an atom.
         const TOLERANCE: f64 = 1e-11;
         let most = GAP + 0.05;
         roots::find(|y| clamping(y) - CLAMPING, GAP, most, TOLERANCE).unwrap_or(most)
     }
 
-    /// Where the rod is with the pedal at a place, 0 to 1; m.
+    /// Position of the rod for a position of the pedal, 0 to 1; m.
     ///
-    /// Finer where the rims are about to touch: there a millimetre is what a centimetre is when they are far apart.
+    /// The scale is finer where the rims are about to touch, as a millimetre there sounds like a centimetre farther apart.
     fn rod(&self, pedal: f64) -> f64 {
         if pedal < TOUCHING {
             GAP * (1.0 - (1.0 - pedal / TOUCHING).powi(2))
@@ -130,12 +128,12 @@ impl HiHat {
         }
     }
 
-    /// Where the pedal has been asked to be, from 0 (up) to 1 (down): a share of its way.
+    /// Goal of the pedal, from 0 (up) to 1 (down): a share of its way.
     pub fn pedal(&self) -> f64 {
         self.pedal
     }
 
-    /// Sends the foot on the pedal somewhere.
+    /// Moves the foot on the pedal.
     fn move_pedal(&mut self, send: impl FnOnce(&mut Foot)) {
         self.surface.with(|pair: &mut Pair, site| {
             send(pair.foot_mut());
@@ -145,12 +143,12 @@ impl HiHat {
         });
     }
 
-    /// The lower cymbal and what is between the two.
+    /// The lower cymbal and its contacts.
     fn pair(&self) -> Option<&Pair> {
         self.surface.attachment()
     }
 
-    /// How much the rims rub where they are, 0 to 1.
+    /// Amount of rubbing at the present clamping, 0 to 1.
     fn rubbing_now(&self) -> f64 {
         let clamped = self.pair().map_or(0.0, Pair::clamped);
         clamped / (clamped + self.half_rubbing)
@@ -285,13 +283,14 @@ impl Pedal for HiHat {
 /// A splash leaves the pedal no farther down than this share of its way: the rims well apart.
 pub const SPLASHING: f64 = 0.2;
 
-/// Change of the rubbing that the modes follow: to follow every one would cost a block's time while the pedal moves.
+/// Smallest change of the rubbing that the modes follow. Following every change would cost a block's time while the pedal
+/// moves.
 const RUBBING_STEP: f64 = 0.01;
 
-/// How far apart a foot that is down lifts the rims before it stamps, m. *By ear*: enough to be heard to close.
+/// Gap to which a lowered foot lifts the rims before it stamps, m. *By ear*: enough that the closing is audible.
 const LIFT: f64 = fitted::HAT_LIFT;
 
-/// The upper cymbal as what is struck, with all else hung on it.
+/// The upper cymbal as the struck surface, with the pair attached.
 fn assemble(
     spec: &HiHatSpec,
     context: &BuildContext,

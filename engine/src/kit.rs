@@ -1,15 +1,15 @@
-//! The kit: pieces that hear each other, rendered in short blocks on the kit's own clock, and the microphones about them.
+//! The kit: pieces with sympathetic resonance, rendered in short blocks on the kit's own clock, and its microphones.
 //!
 //! ```text
-//!                 +------------- air: after the way's time, weaker ---------+
-//!                 v                                                         |
-//! strike, set --> pieces (posts, on one thread or several) --> sound far away --> overheads, room --+
-//!                                                  \--> sound close by --> close microphones -------+--> desk --> left, right
+//!                 +------------- air: delayed and attenuated -------------+
+//!                 v                                                       |
+//! strike, set --> pieces (jobs, on one thread or several) --> far field --> overheads, room ------+
+//!                                                  \--> near field --> close microphones --------+--> mixer --> left, right
 //! ```
 //!
-//! Time is cut at multiples of [`BLOCK`] samples of the kit's clock, whatever lengths are asked
-//! for; control-rate work happens there only. Nothing depends on how a caller cuts time. No sound
-//! reaches another piece within a run ([`Kit::min_delay`]), so that pieces are rendered apart from each other.
+//! Time is divided at multiples of [`BLOCK`] samples of the kit's clock, for any length of the calls. Control-rate work happens
+//! there only, so the output does not depend on the host's buffers. No sound reaches another piece within a run
+//! ([`Kit::min_delay`]), so pieces are rendered independently.
 
 mod propagation;
 mod arrangement;
@@ -48,7 +48,7 @@ use retained::RetainedControls;
 /// Outputs beside the main one: the close microphone of each slot, the overheads, the room.
 pub const OUTPUTS: usize = SLOTS + PAIRS;
 
-/// The drum kit. Owns its pieces; renders them; the only way sound leaves the engine.
+/// The drum kit. It owns and renders its pieces, and is the only output of the engine.
 ///
 /// ```
 /// use overhear_engine::build_context::BuildOptions;
@@ -73,18 +73,18 @@ pub const OUTPUTS: usize = SLOTS + PAIRS;
 /// # Ok::<(), overhear_engine::error::SpecError>(())
 /// ```
 pub struct Kit {
-    /// `[slot]`: pieces with their runs; one is missing only while a [`RenderWorkers`] has not brought it back.
-    posts: [Option<Box<RenderJob>>; SLOTS],
+    /// `[slot]`: pieces with their runs. A job is missing only while [`RenderWorkers`] have it.
+    jobs: [Option<Box<RenderJob>>; SLOTS],
     retained: [RetainedControls; SLOTS],
-    /// Slots that are to hold a piece.
+    /// Slots that should hold a piece.
     wanted: [bool; SLOTS],
     workers: Option<Box<dyn RenderWorkers>>,
     air: Propagation,
-    desk: Mixer,
-    /// How much the drums hear of each other: the switch, the amount.
-    hearing: bool,
+    mixer: Mixer,
+    /// Sympathetic coupling of the drums: the switch and the amount.
+    coupled: bool,
     sympathy: f32,
-    ears: Gain,
+    coupling: Gain,
     clock: u64,
     dropped_strikes: u32,
     missed_runs: u32,
@@ -93,18 +93,18 @@ pub struct Kit {
 
 impl Kit {
     /// A kit of that description at a sample rate (Hz), without its pieces: they arrive through
-    /// [`install`](Self::install). Its controls are where the description has them. Allocates.
+    /// [`install`](Self::install). Its controls have the values of the description. Allocates.
     pub fn new(sample_rate: f64, spec: &KitSpec) -> Kit {
         Kit {
-            posts: std::array::from_fn(|_| Some(Box::new(RenderJob::new(sample_rate)))),
+            jobs: std::array::from_fn(|_| Some(Box::new(RenderJob::new(sample_rate)))),
             retained: Slot::ALL.map(|slot| RetainedControls::of(spec.piece(slot))),
             wanted: Slot::ALL.map(|slot| spec.piece(slot).is_some()),
             workers: None,
             air: Propagation::new(sample_rate, &spec.layout(), &spec.room),
-            desk: Mixer::new(sample_rate, spec),
-            hearing: true,
+            mixer: Mixer::new(sample_rate, spec),
+            coupled: true,
             sympathy: 1.0,
-            ears: Gain::new(sample_rate),
+            coupling: Gain::new(sample_rate),
             clock: 0,
             dropped_strikes: 0,
             missed_runs: 0,
@@ -112,8 +112,8 @@ impl Kit {
         }
     }
 
-    /// Lets somebody else render the posts, and returns who did so far, to be dropped elsewhere. Output does
-    /// not depend on who does. Meant for a kit that [is whole](Self::is_whole): what a dismissed workers still has is lost.
+    /// Replaces the workers that render the jobs, and returns the former ones, to be dropped elsewhere. The output does not
+    /// depend on them. Meant for a kit that [is whole](Self::is_whole): a job that the former workers still have is lost.
     ///
     /// # Real-time
     /// No allocation; nothing is dropped here.
@@ -123,10 +123,10 @@ impl Kit {
 
     /// Whether the workers have brought back every job that they took.
     pub fn is_whole(&self) -> bool {
-        self.posts.iter().all(Option::is_some)
+        self.jobs.iter().all(Option::is_some)
     }
 
-    /// Samples in which no piece hears what another does: the longest run that is rendered at once.
+    /// Shortest delay between two pieces, samples: the longest run that is rendered at once.
     pub fn min_delay(&self) -> usize {
         self.air.min_delay()
     }
@@ -136,17 +136,17 @@ impl Kit {
         self.air.layout()
     }
 
-    /// Puts a piece in its slot and returns what stood there, to be dropped elsewhere.
+    /// Puts a piece in its slot and returns the former one, to be dropped elsewhere.
     ///
-    /// The piece takes over the slot's present tuning and muffling. What stood there and still sounds fades out
-    /// first; it is handed back by [`retire`](Self::retire) once it has. A piece of a slot that is away with the workers is
-    /// handed back.
+    /// The piece takes over the slot's present tuning and muffling. A former piece that still sounds fades out
+    /// first; [`retire`](Self::retire) returns it afterwards. If the workers still have the slot's job, the new piece is
+    /// returned.
     ///
     /// # Real-time
     /// No allocation; nothing is dropped here.
     pub fn install(&mut self, mut piece: Box<Piece>) -> Option<Box<Piece>> {
         let slot = piece.slot();
-        let Some(post) = self.posts[slot.index()].as_mut() else { return Some(piece) };
+        let Some(job) = self.jobs[slot.index()].as_mut() else { return Some(piece) };
         let retained = &self.retained[slot.index()];
         piece.set_tuning(retained.tuning);
         piece.set_muffling(retained.muffling);
@@ -157,34 +157,33 @@ impl Kit {
         piece.align((self.clock % BLOCK as u64) as usize);
         self.wanted[slot.index()] = true;
         self.air.place_slot(slot, &piece);
-        let former = post.piece.replace(piece)?;
-        post.leaving.start(former)
+        let former = job.piece.replace(piece)?;
+        job.fade_out.start(former)
     }
 
-    /// Takes over who is to be in which slot, where the microphones usually stand, and the room. Pieces of slots that are to
-    /// be empty fade out; all others play on until others are [installed](Self::install) in their place. What is not
-    /// needed any more is in the arrangement that comes back, to be dropped elsewhere.
+    /// Takes over the slots in use, the positions of pieces and microphones, and the room. Pieces of slots that become empty
+    /// fade out. All others play on until they are [replaced](Self::install). The returned arrangement holds everything that is
+    /// no longer needed, to be dropped elsewhere.
     ///
     /// # Real-time
     /// No allocation; nothing is dropped here.
     pub fn arrange(&mut self, mut arrangement: Box<Arrangement>) -> Box<Arrangement> {
         self.wanted = arrangement.layout.pieces.map(|place| place.is_some());
         self.air.arrange(&mut arrangement);
-        for ((post, wanted), removed) in self.posts.iter_mut().zip(self.wanted).zip(&mut arrangement.removed)
-        {
-            if let Some(post) = post.as_mut().filter(|_| !wanted) {
-                *removed = post.piece.take().and_then(|piece| post.leaving.start(piece));
+        for ((job, wanted), removed) in self.jobs.iter_mut().zip(self.wanted).zip(&mut arrangement.removed) {
+            if let Some(job) = job.as_mut().filter(|_| !wanted) {
+                *removed = job.piece.take().and_then(|piece| job.fade_out.start(piece));
             }
         }
         arrangement
     }
 
-    /// Hands back a replaced piece that has faded out, to be dropped elsewhere; one a call.
+    /// Returns a replaced piece that has faded out, to be dropped elsewhere; one a call.
     ///
     /// # Real-time
     /// No allocation; nothing is dropped here.
     pub fn retire(&mut self) -> Option<Box<Piece>> {
-        self.posts.iter_mut().flatten().find_map(|post| post.leaving.gone())
+        self.jobs.iter_mut().flatten().find_map(|job| job.fade_out.gone())
     }
 
     /// Whether every piece of the description has been installed.
@@ -194,17 +193,17 @@ impl Kit {
 
     /// The piece of a slot, once installed.
     pub fn piece(&self, slot: Slot) -> Option<&Piece> {
-        self.posts[slot.index()].as_ref()?.piece.as_deref()
+        self.jobs[slot.index()].as_ref()?.piece.as_deref()
     }
 
-    /// The piece of a slot, to be looked at closely by tests and tools.
+    /// The piece of a slot, for tests and tools.
     pub fn piece_mut(&mut self, slot: Slot) -> Option<&mut Piece> {
-        self.posts[slot.index()].as_mut()?.piece.as_deref_mut()
+        self.jobs[slot.index()].as_mut()?.piece.as_deref_mut()
     }
 
-    /// Whether nothing sounds and nothing is under way.
+    /// Whether nothing sounds and no sound is in the delay lines.
     pub fn is_asleep(&self) -> bool {
-        self.air.is_silent() && self.posts.iter().flatten().all(|post| post.is_asleep())
+        self.air.is_silent() && self.jobs.iter().flatten().all(|job| job.is_asleep())
     }
 
     /// Puts every piece to rest and the clock to zero; controls keep their values and arrive.
@@ -214,14 +213,14 @@ impl Kit {
     pub fn reset(&mut self) {
         self.finish_controls();
         self.resets = self.resets.wrapping_add(1);
-        // One that is away follows when it is back.
-        self.posts.iter_mut().flatten().for_each(|post| post.reset(self.resets));
+        // A job that the workers have follows when it is back.
+        self.jobs.iter_mut().flatten().for_each(|job| job.reset(self.resets));
         self.air.reset();
-        self.desk.reset();
+        self.mixer.reset();
         self.clock = 0;
     }
 
-    /// Describes the kit to whoever draws it, and starts the peaks anew.
+    /// Writes a snapshot of the kit, and restarts the peaks.
     ///
     /// # Real-time
     /// No allocation; linear in the number of modes.
@@ -229,12 +228,12 @@ impl Kit {
         into.clock = self.clock;
         into.dropped_strikes = self.dropped_strikes;
         into.missed_runs = self.missed_runs;
-        into.clipped_samples = self.desk.clipped();
-        into.limited_samples = self.desk.limited();
-        into.peak = self.desk.take_peak();
-        for (slot, (post, into)) in self.posts.iter().zip(&mut into.pieces).enumerate() {
-            into.peak = self.desk.take_strip_peak(slot);
-            match post.as_ref().and_then(|post| post.piece.as_ref()) {
+        into.clipped_samples = self.mixer.clipped();
+        into.limited_samples = self.mixer.limited();
+        into.peak = self.mixer.take_peak();
+        for (slot, (job, into)) in self.jobs.iter().zip(&mut into.pieces).enumerate() {
+            into.peak = self.mixer.take_strip_peak(slot);
+            match job.as_ref().and_then(|job| job.piece.as_ref()) {
                 Some(piece) => piece.snapshot(into),
                 None => into.ready = false,
             }

@@ -40,6 +40,7 @@ pub mod damping;
 pub mod plate;
 pub mod cavity;
 pub mod split;
+pub mod mode_mixture;
 pub mod patch_factors;
 
 // What they are made of: a body of modes, forces, contacts, strikers, the air about.

@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::air_load::{self, MassCurve, MassCurves, MembraneAir};
 use crate::contact::Material;
-use crate::damping::LossLaw;
+use crate::damping::{EdgeSpec, LossLaw};
 use crate::error::SpecError;
 use crate::fitted;
 use crate::math::bessel::{self, JTable};
@@ -35,6 +35,8 @@ pub struct MembraneSpec {
     pub material: Material,
     /// Losses in the film.
     pub loss: LossLaw,
+    /// What carries it at the rim; `None` for a rim that does not yield.
+    pub edge: Option<EdgeSpec>,
 }
 
 /// What stands on the two faces of a head.
@@ -75,7 +77,7 @@ pub struct MembraneMode {
 pub struct Ringing {
     /// Undamped angular frequency, rad/s.
     pub omega: f64,
-    /// Decay rate by the film's own losses, 1/s.
+    /// Decay rate by the losses of the film and the edge, 1/s.
     pub sigma: f64,
     /// Modal mass with the air it carries, kg.
     pub mass: f64,
@@ -95,6 +97,7 @@ pub struct Ringing {
 ///     plies: 1,
 ///     material: Material::FILM,
 ///     loss: LossLaw::NONE,
+///     edge: None,
 /// };
 /// let range = ModeRange { reference_tension: 2729.0, limit_hz: 600.0 };
 /// let head = Membrane::new(spec, Surroundings::Air, &range)?;
@@ -138,6 +141,13 @@ impl MembraneSpec {
     /// Mass per area, kg/m2.
     pub fn area_density(&self) -> f64 {
         self.material.density * self.thickness
+    }
+
+    /// Decay rate by what the edge takes from a wave of wavenumber `k` (1/m) on a head of tension `T` (N/m) that
+    /// weighs `mass` (kg/m2) with its air, 1/s: `T^2 k^2 Re Y / (a mass omega^2)`.
+    pub fn edge_sigma(&self, tension: f64, k: f64, mass: f64, omega: f64) -> f64 {
+        let Some(edge) = &self.edge else { return 0.0 };
+        (tension * k / omega).powi(2) * edge.mobility(omega) / (self.radius * mass)
     }
 
     /// Flexural rigidity `D = E h^3 / (12 (1 - nu^2))`, N m.
@@ -255,6 +265,15 @@ impl Membrane {
         air_load::DENSITY * self.spec.radius.powi(3) * mode.load.at(u)
     }
 
+    /// Slope of a mode's shape across the rim, 1/m, at its largest around the rim.
+    ///
+    /// Of every mode of unit mean square, `int slope^2 ds = 2 k^2 A / a` around the rim (Rellich's identity).
+    pub fn rim_slope(&self, mode: &MembraneMode) -> f64 {
+        let sign = if mode.n.is_multiple_of(2) { 1.0 } else { -1.0 };
+        let largest = if mode.m == 0 { 1.0 } else { std::f64::consts::SQRT_2 };
+        sign * largest * mode.zero / self.spec.radius
+    }
+
     /// `T k^2 + D k^4`, N/m3.
     fn stiffness(&self, mode: &MembraneMode, tension: f64) -> f64 {
         let k2 = (mode.zero / self.spec.radius).powi(2);
@@ -282,7 +301,9 @@ impl Membrane {
                 break;
             }
         }
-        Ringing { omega, sigma: self.spec.loss.sigma(omega), mass }
+        let k = mode.zero / self.spec.radius;
+        let edge = self.spec.edge_sigma(tension, k, mass / self.spec.area(), omega);
+        Ringing { omega, sigma: self.spec.loss.sigma(omega) + edge, mass }
     }
 
     /// The tension (N/m) that puts mode `(m, n)` at a frequency (Hz); `None` if there is no such mode.
@@ -319,6 +340,7 @@ mod tests {
             plies: 1,
             material: Material::FILM,
             loss: LossLaw::NONE,
+            edge: None,
         }
     }
 

@@ -18,7 +18,7 @@
 //! Precision: the loop is `f32`. It adds `(e^(lambda dt) - 1) z` to `z` instead of multiplying by
 //! a number next to one, whose rounding would change decays of a second by a percent.
 //!
-//! Modes at or above half the sample rate are silent: they neither move nor yield.
+//! Modes at or above half the sample rate are silent: they do not move and have no compliance.
 
 mod direct;
 mod energy;
@@ -40,7 +40,7 @@ pub use simd::{MAX_DRIVES, RECEIVERS};
 
 use receiver_weights::Receiver;
 
-/// One mode: what the equation of motion needs.
+/// Constants of a mode in its equation of motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mode {
     /// Undamped angular frequency, rad/s, above 0.
@@ -59,12 +59,12 @@ impl Mode {
     }
 }
 
-/// Numbers of the loop, `[mode]` in every row.
+/// Coefficients of the loop, `[mode]` in every row.
 struct ModalCoefs {
     /// `e^(lambda dt) - 1`.
     turn_re: Row,
     turn_im: Row,
-    /// `b`, the displacement and velocity a unit modal force held for one sample leaves.
+    /// `b`, the effect of a unit modal force held for one sample.
     hold_re: Row,
     hold_im: Row,
 }
@@ -82,15 +82,15 @@ struct ModalState {
 ///
 /// let mode = Mode { omega: std::f64::consts::TAU * 200.0, sigma: 5.0, mass: 0.1 };
 /// let mut body = ModalBody::new(vec![mode], 48_000.0);
-/// // A place where the mode moves as much as its displacement says.
-/// let mut place = InputVector::new(body.len());
-/// place.shape_mut()[0] = 1.0;
-/// body.connect(&mut place);
+/// // A point where the mode shape is one.
+/// let mut input = InputVector::new(body.len());
+/// input.shape_mut()[0] = 1.0;
+/// body.connect(&mut input);
 ///
 /// // A blow: 10 N for a millisecond.
 /// for _ in 0..48 {
 ///     body.step();
-///     body.push(&place, 10.0);
+///     body.push(&input, 10.0);
 /// }
 /// let struck = body.energy();
 /// // Half a second later e^(-2 sigma t) of its energy is left.
@@ -177,7 +177,7 @@ impl ModalBody {
 
     /// Changes mode `k` while it moves; displacement and velocity stay what they are.
     ///
-    /// Ports and pickups in use must be [connected](Self::connect) and [tuned](Self::tune) anew.
+    /// Input vectors must be [connected](Self::connect) and receiver weights [tuned](Self::tune) again.
     ///
     /// # Real-time
     /// No allocation; about 50 ns.
@@ -210,28 +210,28 @@ impl ModalBody {
         hold_im[k] = ((-sigma * im - omega_d * re) * scale) as f32;
     }
 
-    /// Works out a port's gains from its shapes, after a change of shapes or modes.
+    /// Updates the gains of an input vector from its shapes, after a change of shapes or modes.
     ///
     /// # Real-time
     /// Linear in the number of modes.
-    pub fn connect(&self, port: &mut InputVector) {
-        self.kernels.multiply(&mut port.gain_re, &self.coefs.hold_re, &port.shape);
-        self.kernels.multiply(&mut port.gain_im, &self.coefs.hold_im, &port.shape);
+    pub fn connect(&self, input: &mut InputVector) {
+        self.kernels.multiply(&mut input.gain_re, &self.coefs.hold_re, &input.shape);
+        self.kernels.multiply(&mut input.gain_im, &self.coefs.hold_im, &input.shape);
     }
 
-    /// Works out a pickup's weights, after a change of modes.
+    /// Updates receiver weights, after a change of modes.
     ///
     /// The acceleration of a mode is the imaginary part of `z'' = lambda^2 z + lambda F / (M omega_d)`:
     /// the true one, with the force in it, so that a body bent but still radiates nothing.
     ///
     /// # Real-time
     /// Linear in the number of modes.
-    pub fn tune(&self, pickup: &mut ReceiverWeights) {
-        pickup.ears.iter_mut().for_each(|ear| self.tune_ear(ear));
+    pub fn tune(&self, weights: &mut ReceiverWeights) {
+        weights.receivers.iter_mut().for_each(|receiver| self.tune_receiver(receiver));
     }
 
-    fn tune_ear(&self, ear: &mut Receiver) {
-        let Receiver { transfer, weight_re, weight_im, direct, slow } = ear;
+    fn tune_receiver(&self, receiver: &mut Receiver) {
+        let Receiver { transfer, weight_re, weight_im, direct, slow } = receiver;
         for (k, (mode, &[h_re, h_im])) in self.modes.iter().zip(&*transfer).enumerate() {
             let (omega_d, sigma) = (mode.omega_d(), mode.sigma);
             if omega_d * self.dt >= std::f64::consts::PI {
@@ -246,20 +246,20 @@ impl ModalBody {
         }
     }
 
-    /// One-sample compliance between two ports, m/N: how far a unit force held at one has moved
-    /// the other by the end of the sample.
+    /// One-sample compliance between two input vectors, m/N: the displacement along `at` at the end of a sample over which a
+    /// unit force was held at `from`.
     pub fn compliance(&self, at: &InputVector, from: &InputVector) -> f64 {
         f64::from(self.kernels.dot(&at.shape, &from.gain_im))
     }
 
-    /// Displacement at a port, m.
-    pub fn displacement_at(&self, port: &InputVector) -> f64 {
-        f64::from(self.kernels.dot(&port.shape, &self.state.im))
+    /// Displacement along an input vector, m.
+    pub fn displacement_at(&self, input: &InputVector) -> f64 {
+        f64::from(self.kernels.dot(&input.shape, &self.state.im))
     }
 
-    /// Velocity at a port, m/s.
-    pub fn velocity_at(&self, port: &InputVector) -> f64 {
-        (0..self.modes.len()).map(|k| f64::from(port.shape[k]) * self.velocity(k)).sum()
+    /// Velocity along an input vector, m/s.
+    pub fn velocity_at(&self, input: &InputVector) -> f64 {
+        (0..self.modes.len()).map(|k| f64::from(input.shape[k]) * self.velocity(k)).sum()
     }
 
     /// Advances one sample without force.
@@ -271,19 +271,18 @@ impl ModalBody {
         self.kernels.rotate(&mut self.state.re, &mut self.state.im, turn_re, turn_im);
     }
 
-    /// Adds what a force (N), held over the sample just stepped, did.
-    pub fn push(&mut self, port: &InputVector, force: f32) {
-        self.kernels.axpy(&mut self.state.re, &port.gain_re, force);
-        self.kernels.axpy(&mut self.state.im, &port.gain_im, force);
+    /// Adds the effect of a force (N) that was held over the sample just stepped.
+    pub fn push(&mut self, input: &InputVector, force: f32) {
+        self.kernels.axpy(&mut self.state.re, &input.gain_re, force);
+        self.kernels.axpy(&mut self.state.im, &input.gain_im, force);
     }
 
-    /// Pressure at a pickup now, without what follows the force at once.
-    pub fn listen(&self, pickup: &ReceiverWeights) -> Pressure {
+    /// Present pressure at each receiver, without the part proportional to the force, Pa.
+    pub fn listen(&self, weights: &ReceiverWeights) -> Pressure {
         let dot = |weights, state| self.kernels.dot(weights, state);
-        pickup
-            .ears
-            .each_ref()
-            .map(|ear| dot(&ear.weight_re, &self.state.re) + dot(&ear.weight_im, &self.state.im))
+        weights.receivers.each_ref().map(|receiver| {
+            dot(&receiver.weight_re, &self.state.re) + dot(&receiver.weight_im, &self.state.im)
+        })
     }
 
     /// Advances without force and listens after each sample: [`step`](Self::step) and
@@ -293,12 +292,12 @@ impl ModalBody {
     ///
     /// # Real-time
     /// Linear in modes times samples; the fastest way. At most [`simd::MAX_RUN`] samples.
-    pub fn ring(&mut self, first: usize, pickup: &ReceiverWeights, out: [&mut [f32]; RECEIVERS]) {
-        self.ring_driven(first, std::iter::empty(), pickup, out);
+    pub fn ring(&mut self, first: usize, weights: &ReceiverWeights, out: [&mut [f32]; RECEIVERS]) {
+        self.ring_driven(first, std::iter::empty(), weights, out);
     }
 
-    /// [`ring`](Self::ring) under forces at ports, each held over its sample (N, as many as
-    /// `out` has); what follows a force at once is not in `out`.
+    /// [`ring`](Self::ring) under forces at input vectors, each held over its sample (N, as many as
+    /// `out` has). `out` lacks the part proportional to the force.
     ///
     /// # Real-time
     /// Linear in modes times samples times forces. At most [`simd::MAX_RUN`] samples and [`MAX_DRIVES`] forces.
@@ -306,16 +305,16 @@ impl ModalBody {
         &mut self,
         first: usize,
         drives: impl Iterator<Item = (&'a InputVector, &'a [f32])>,
-        pickup: &ReceiverWeights,
+        weights: &ReceiverWeights,
         out: [&mut [f32]; RECEIVERS],
     ) {
         let mut held = [Drive { gain_re: &[], gain_im: &[], forces: &[] }; MAX_DRIVES];
         let mut count = 0;
-        for (held, (port, forces)) in held.iter_mut().zip(drives) {
-            *held = Drive { gain_re: &port.gain_re[first..], gain_im: &port.gain_im[first..], forces };
+        for (held, (input, forces)) in held.iter_mut().zip(drives) {
+            *held = Drive { gain_re: &input.gain_re[first..], gain_im: &input.gain_im[first..], forces };
             count += 1;
         }
-        let [near, far, few] = &pickup.ears;
+        let [near, far, few] = &weights.receivers;
         let [near_out, far_out, few_out] = out;
         let mut ring = simd::ring::Ring {
             re: &mut self.state.re[first..],

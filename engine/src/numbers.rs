@@ -1,4 +1,4 @@
-//! The numbers of a description with their names and accepted ranges: one list for whoever checks, draws or lists them.
+//! The numbers of a description with their names and accepted ranges: one list for checks, random draws and listings.
 
 use std::ops::RangeInclusive;
 

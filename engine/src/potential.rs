@@ -1,5 +1,5 @@
-//! Forces of a bent body beyond its own modes' stiffness, from a potential: energy exact, no
-//! iteration, solved together with the strikers.
+//! Nonlinear force of a bent body, from a potential of its displacements. The energy is exact, there is no iteration, and the
+//! force is solved together with the contacts.
 //!
 //! Model: a potential `U(q)` of the displacements of the first modes of a body, such as the stretching of
 //! a cymbal or of a head. It acts through one number, the scalar auxiliary variable
@@ -22,29 +22,26 @@
 //! w_j    = w_free_j - p_j psibar0 + sum (C_ji - p_j p_i / (2 + G)) F_i
 //! ```
 //!
-//! The strikers thus meet the same surface, displaced by `-p_j psibar0` and stiffened by a matrix
-//! of rank one; the contact solver needs to know nothing else.
+//! The strikers meet the same surface, displaced by `-p_j psibar0` and stiffened by a matrix of rank one. The contact solver
+//! needs nothing else.
 //!
-//! `g` is evaluated once in `stride` samples, at the displacements that the modes would reach by
-//! themselves in the middle of the stretch: second order, and no phase lag. Where the potential's share of
-//! the energy has become weak, the errors are too, and every other evaluation is left out, where it is faint two of three; where the energy held
-//! strays from the true one, the plate moves faster than was foreseen, and three are made for one.
+//! `g` is evaluated once in `stride` samples, at the displacements that the modes would reach without it in the middle of that
+//! interval. This is second-order accurate and has no phase lag. Where the potential's share of the energy is small, so are the
+//! errors: every other evaluation is left out, and two of three where the share is very small. Where `psi` strays from the
+//! true energy, the plate moves faster than predicted, and there are three evaluations in place of one.
 //!
-//! Drift: `psi` follows the path, not the true energy, and errors add up. At each evaluation `U` is
-//! known, hence where `psi` ought to be; a share of the difference is made up, and the energy that
-//! takes is exchanged with the kinetic energy of the same modes by scaling their velocities. The
-//! sum of both stays what it was to rounding: nothing is added, and it is the *true* energy that is kept.
-//! That change of velocity is part of the true acceleration and is heard; left out, its mean would be an offset.
+//! Drift: `psi` is integrated along the path, and its errors add up. Each evaluation gives `U`, hence the true `psi`. A share
+//! of the difference is corrected. The energy this takes is exchanged with the kinetic energy of the same modes by scaling
+//! their velocities, so that the sum of both stays the same to rounding. The change of velocity is part of the acceleration and
+//! sounds; without it the sound would have an offset.
 //!
-//! `C` follows the motion: raising it by `D` turns `psi` into `sqrt(psi^2 + 2 D)` and changes no
-//! energy.
+//! `C` follows the motion. Raising it by `D` turns `psi` into `sqrt(psi^2 + 2 D)` and changes no energy.
 //!
-//! Rest: where the potential's share of the energy has become negligible it is no longer evaluated,
-//! until the next stroke; judged on the peaks over a window, for `U` crosses zero all the time.
+//! Rest: once the potential's share of the energy is negligible, it is not evaluated until the next stroke. The share is taken
+//! from the peaks over a window, as `U` crosses zero often.
 //!
-//! Inside out: a dome has a second place to rest at, turned inside out, where `U` is about as far below zero as the
-//! bending is above. Beaten there a plate would hold its energy for ever; once it lies there it
-//! [tells](NonlinearForce::is_inside_out).
+//! Inside out: a dome has a second equilibrium, turned inside out, where `U` is about as far below zero as the bending energy
+//! is above. A plate in that state would hold its energy for ever. [`NonlinearForce::is_inside_out`] detects it.
 //!
 //! Source: Bilbao, Ducceschi, Zama, Explicit exactly energy-conserving methods for Hamiltonian
 //! systems, J. Comput. Phys. 472, 2023. The exact hold, the contacts and the exchange are ours.
@@ -61,16 +58,16 @@ use safety::Safety;
 use schedule::Schedule;
 use sound::Sound;
 
-/// A potential's energy at one place.
+/// A potential's energy at one displacement.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Evaluation {
     /// `U`, J; may be negative.
     pub energy: f64,
-    /// How far below zero `U` could be with modes bent as much as now, J: 0 if it never is.
+    /// Lowest value of `U` for deflections of this size, below zero, J; 0 if `U` is never negative.
     pub depth: f64,
 }
 
-/// An energy of the displacements of a body's first modes, beyond their own.
+/// An energy of the displacements of a body's first modes, in addition to their linear stiffness.
 pub trait Potential: Send {
     /// The energy at `displacement` (m, `[mode]`, padded with more modes than the potential may
     /// know); writes its exact gradient (N), zero for modes it does not depend on.
@@ -80,15 +77,15 @@ pub trait Potential: Send {
     fn evaluate(&mut self, displacement: &[f32], gradient: &mut [f32]) -> Evaluation;
 }
 
-/// Share of what `psi` is off that is made up at each evaluation. *Converged*: fast enough that a
-/// roll of hard strokes leaves no drift, slow enough that single errors are not passed on as noise.
+/// Share of the error of `psi` that each evaluation corrects. *Converged*: fast enough that a roll of hard strokes leaves no
+/// drift, slow enough that single errors cause no noise.
 const PULL: f64 = 1.0 / 16.0;
 
-/// Largest share of the kinetic energy exchanged at once: where the modes turn they have none to give.
+/// Largest share of the kinetic energy exchanged at once. At turning points the modes have little.
 const LARGEST_EXCHANGE: f64 = 0.01;
 
-/// `C` over the largest depth met. *Converged*: under 8, a heavy beater on a cymbal's centre at 13 m/s takes
-/// `psi` to zero, and the plate then throws it back faster than it came; ordinary strokes sound alike from 1.5 up.
+/// Ratio of `C` to the largest depth so far. *Converged*: under 8, a heavy beater on a cymbal's centre at 13 m/s takes `psi`
+/// to zero, and the plate then returns it faster than it came. Ordinary strokes do not change from 1.5 up.
 const HEADROOM: f64 = 12.0;
 
 /// Smallest `C`, J: under the energy of anything that can be heard.
@@ -113,7 +110,7 @@ impl Scalar {
         0.5 * self.psi * self.psi - self.shift
     }
 
-    /// Keeps `C` above the depth (J), lets it sink where it need not be so high, after a stretch of time (s).
+    /// Keeps `C` above the depth (J), and lets it fall where it is higher than needed; `stretch` is the time passed, s.
     fn shift_to(&mut self, depth: f64, stretch: f64) {
         let sunk = self.shift * (1.0 - stretch / SHIFT_TIME).max(0.0);
         // Not so far that psi would vanish.
@@ -127,24 +124,24 @@ impl Scalar {
 /// A potential acting on the first modes of a body.
 pub struct NonlinearForce {
     potential: Box<dyn Potential>,
-    front: CoupledModes,
+    coupled: CoupledModes,
     /// When to evaluate, and whether to act at all.
     schedule: Schedule,
-    /// What keeps it from running away.
+    /// Guards against divergence.
     safety: Safety,
     /// Factor on the potential.
     stiffness: f64,
     dt: f64,
     scalar: Scalar,
-    /// `g` as a port, and `1 + G / 2`.
-    port: InputVector,
+    /// `g` as an input vector, and `1 + G / 2`.
+    input: InputVector,
     stiffening: f64,
     /// The present sample's `psibar` without strikers.
     mean: f64,
     sound: Sound,
     predicted: Row,
     gradient: Row,
-    /// All that was exchanged between `psi` and the modes since it was built, J, without sign.
+    /// Sum of the absolute energies exchanged between `psi` and the modes since it was built, J.
     exchanged: f64,
 }
 
@@ -154,18 +151,18 @@ impl NonlinearForce {
         potential: Box<dyn Potential>,
         modes: usize,
         stride: u32,
-        (body, pickup): (&ModalBody, &ReceiverWeights),
+        (body, weights): (&ModalBody, &ReceiverWeights),
         sample_rate: f64,
     ) -> NonlinearForce {
         let mut force = NonlinearForce {
             potential,
-            front: CoupledModes::new(modes),
+            coupled: CoupledModes::new(modes),
             schedule: Schedule::new(stride),
             safety: Safety::new(body.modes().first().map_or(0.0, |mode| mode.mass)),
             stiffness: 1.0,
             dt: 1.0 / sample_rate,
             scalar: Scalar::REST,
-            port: InputVector::new(modes),
+            input: InputVector::new(modes),
             stiffening: 1.0,
             mean: 0.0,
             sound: Sound::default(),
@@ -173,18 +170,18 @@ impl NonlinearForce {
             gradient: zero_row(modes),
             exchanged: 0.0,
         };
-        force.follow(body, pickup);
+        force.follow(body, weights);
         force
     }
 
-    /// Rests under another share of the energy; under 0 never. For comparisons.
+    /// Sets the share of the energy below which it rests; below 0 it never does. For comparisons.
     pub fn set_negligible(&mut self, share: f64) {
         self.schedule.negligible = share;
     }
 
-    /// Scales the potential by a factor, as a stiffer material would; from the next evaluation on.
+    /// Scales the potential by a factor, as a stiffer material would, from the next evaluation on.
     ///
-    /// What that changes of the energy held is the work of whoever changes it.
+    /// The change of the energy held is the work of the caller.
     pub fn set_stiffness(&mut self, stiffness: f64) {
         if stiffness > 0.0 && self.stiffness > 0.0 {
             let ratio = stiffness / self.stiffness;
@@ -199,7 +196,7 @@ impl NonlinearForce {
         self.schedule.set_stride(stride);
     }
 
-    /// Is weak under another share of the energy; under 0 never. For comparisons.
+    /// Sets the share of the energy below which it is weak; below 0 it never is. For comparisons.
     pub fn set_weak(&mut self, share: f64) {
         self.schedule.weak = share;
     }
@@ -210,8 +207,8 @@ impl NonlinearForce {
     }
 
     /// The modes it acts on.
-    pub fn front(&self) -> &CoupledModes {
-        &self.front
+    pub fn coupled_modes(&self) -> &CoupledModes {
+        &self.coupled
     }
 
     /// Energy it holds as the scheme has it, `psi^2 / 2 - C`, J; zero at rest.
@@ -219,16 +216,16 @@ impl NonlinearForce {
         if self.schedule.is_evaluated() { self.scalar.energy() } else { 0.0 }
     }
 
-    /// True energy it holds, J, and how far `psi` is off, relative.
+    /// True energy it holds, J, and the relative error of `psi`.
     pub fn true_energy(&mut self, body: &ModalBody) -> (f64, f64) {
-        let n = self.front.length();
+        let n = self.coupled.length();
         let truth = self.potential.evaluate(&body.displacements()[..n], &mut self.gradient);
         let energy = self.stiffness * truth.energy;
         let psi = (2.0 * (energy + self.scalar.shift).max(0.0)).sqrt();
         (energy, self.scalar.psi / psi - 1.0)
     }
 
-    /// All that was exchanged between `psi` and the modes to hold the drift, J, without sign.
+    /// Sum of the absolute energies exchanged between `psi` and the modes to correct drift, J.
     pub fn exchanged(&self) -> f64 {
         self.exchanged
     }
@@ -237,26 +234,25 @@ impl NonlinearForce {
     ///
     /// # Real-time
     /// Linear in the modes it acts on.
-    pub fn follow(&mut self, body: &ModalBody, pickup: &ReceiverWeights) {
-        body.update(&mut self.front, pickup, self.schedule.ahead());
-        body.connect(&mut self.port);
-        self.stiffening = 1.0 + 0.5 * body.compliance(&self.port, &self.port);
+    pub fn follow(&mut self, body: &ModalBody, weights: &ReceiverWeights) {
+        body.update(&mut self.coupled, weights, self.schedule.ahead());
+        body.connect(&mut self.input);
+        self.stiffening = 1.0 + 0.5 * body.compliance(&self.input, &self.input);
     }
 
-    /// Acts from now on, until it no longer matters.
+    /// Acts from now on, until it becomes negligible.
     pub fn wake(&mut self) {
         if self.schedule.wake() {
             self.safety.forget();
         }
     }
 
-    /// Whether the body has come to lie inside out, where it would hold energy for ever.
+    /// Whether the body rests inside out, where it would hold energy for ever.
     pub fn is_inside_out(&self) -> bool {
         self.safety.is_inside_out()
     }
 
-    /// Lets it rest if it has found itself negligible; on the clock that blocks are cut by, so that
-    /// no sample depends on how time is cut.
+    /// Rests if it has become negligible. Called once a block, so that no sample depends on the size of the host's buffers.
     pub fn settle(&mut self) {
         if self.schedule.takes_rest() {
             self.reset();
@@ -271,72 +267,72 @@ impl NonlinearForce {
         self.sound.reset();
     }
 
-    /// Before the body steps: evaluates if it is time. True if `g` is another one now.
-    pub fn begin(&mut self, body: &mut ModalBody, pickup: &ReceiverWeights) -> bool {
-        body.save(&mut self.front);
-        self.prepare(body, pickup)
+    /// Before the body steps: evaluates if an evaluation is due. True if `g` has changed.
+    pub fn begin(&mut self, body: &mut ModalBody, weights: &ReceiverWeights) -> bool {
+        body.save(&mut self.coupled);
+        self.prepare(body, weights)
     }
 
-    /// Evaluates if it is time.
-    fn prepare(&mut self, body: &mut ModalBody, pickup: &ReceiverWeights) -> bool {
+    /// Evaluates if an evaluation is due.
+    fn prepare(&mut self, body: &mut ModalBody, weights: &ReceiverWeights) -> bool {
         let due = self.schedule.is_due();
         if due {
             if self.schedule.set_out(self.stiffness, self.safety.is_astray()) {
-                body.update(&mut self.front, pickup, self.schedule.ahead());
+                body.update(&mut self.coupled, weights, self.schedule.ahead());
             }
-            body.save(&mut self.front);
+            body.save(&mut self.coupled);
             self.evaluate(body);
-            body.connect(&mut self.port);
-            self.stiffening = 1.0 + 0.5 * body.compliance(&self.port, &self.port);
-            self.sound.follow(body, pickup, &self.port);
-            // The exchange scales velocities only: what was kept still holds.
+            body.connect(&mut self.input);
+            self.stiffening = 1.0 + 0.5 * body.compliance(&self.input, &self.input);
+            self.sound.follow(body, weights, &self.input);
+            // The exchange scales velocities only, so the saved displacements stay valid.
         }
         self.schedule.tick();
         due
     }
 
-    /// Advances the modes in front through a run with no striker about, under what `air` presses (a port and the
-    /// pressures of the run), and adds what is heard of them.
+    /// Advances the coupled modes through a run without strikers, under the pressures of `air` (an input vector and the
+    /// pressures of the run), and adds their sound.
     ///
     /// # Real-time
-    /// As so many samples of [`begin`](Self::begin) to [`finish`](Self::finish), in fewer passes over the modes.
+    /// The same as [`begin`](Self::begin) to [`finish`](Self::finish) for each sample, in fewer passes over the modes.
     pub fn ring(
         &mut self,
         body: &mut ModalBody,
-        pickup: &ReceiverWeights,
+        weights: &ReceiverWeights,
         air: Option<(&InputVector, &[f32])>,
         out: &mut [&mut [f32]; RECEIVERS],
     ) {
-        let mut felt = air.map_or(0.0, |(port, _)| body.compliance(&self.port, port));
+        let mut felt = air.map_or(0.0, |(input, _)| body.compliance(&self.input, input));
         for i in 0..out[0].len() {
-            if self.prepare(body, pickup) {
-                felt = air.map_or(0.0, |(port, _)| body.compliance(&self.port, port));
+            if self.prepare(body, weights) {
+                felt = air.map_or(0.0, |(input, _)| body.compliance(&self.input, input));
             }
             let pressure = air.map_or(0.0, |(_, pressures)| pressures[i]);
-            let moved = body.step_front_along(&self.front, &self.port) + felt * f64::from(pressure);
+            let moved = body.step_coupled_along(&self.coupled, &self.input) + felt * f64::from(pressure);
             self.mean = (self.scalar.psi + 0.5 * moved) / self.stiffening;
             let (force, mut heard) = self.hold(0.0);
-            let forces = [(force, &self.port), (pressure, air.map_or(&self.port, |(port, _)| port))];
-            let rung = body.push_front_and_listen(&self.front, forces, pickup);
-            heard.iter_mut().zip(rung).for_each(|(heard, rung)| *heard += rung);
+            let forces = [(force, &self.input), (pressure, air.map_or(&self.input, |(input, _)| input))];
+            let modes = body.push_coupled_and_listen(&self.coupled, forces, weights);
+            heard.iter_mut().zip(modes).for_each(|(heard, modes)| *heard += modes);
             out.iter_mut().zip(heard).for_each(|(out, heard)| out[i] += heard);
         }
     }
 
     /// After the body's free step: `psibar` if no striker pressed, in the unit of `psi` (the root of J).
     pub fn free(&mut self, body: &ModalBody) -> f64 {
-        self.mean = (self.scalar.psi + 0.5 * body.moved(&self.front, &self.port)) / self.stiffening;
+        self.mean = (self.scalar.psi + 0.5 * body.moved(&self.coupled, &self.input)) / self.stiffening;
         self.mean
     }
 
-    /// `p` of a port: how far `psi` is moved by a unit force there, and a point there by `psi`.
-    pub fn coupling(&self, body: &ModalBody, port: &InputVector) -> f64 {
-        body.compliance(&self.port, port)
+    /// `p` of an input vector: the change of `psi` by a unit force there, and the displacement there by a unit `psi`.
+    pub fn coupling(&self, body: &ModalBody, input: &InputVector) -> f64 {
+        body.compliance(&self.input, input)
     }
 
-    /// [`coupling`](Self::coupling) of all places around the rim.
+    /// [`coupling`](Self::coupling) of all points around the rim.
     pub fn folded_coupling(&self, body: &ModalBody, folded: &RimHarmonics) -> Amplitudes {
-        body.folded_compliance(folded, &self.port)
+        body.folded_compliance(folded, &self.input)
     }
 
     /// `2 + G`, dimensionless.
@@ -344,14 +340,14 @@ impl NonlinearForce {
         2.0 * self.stiffening
     }
 
-    /// Applies the force, given `sum p_i F_i` (N) of the strikers; the pressure that follows at once.
+    /// Applies the force, given `sum p_i F_i` (N) of the strikers. Returns the pressure proportional to it, Pa.
     pub fn finish(&mut self, body: &mut ModalBody, strikers: f64) -> Pressure {
         let (force, heard) = self.hold(strikers);
-        body.push(&self.port, force);
+        body.push(&self.input, force);
         heard
     }
 
-    /// The force held over the sample, and the pressure that follows at once.
+    /// The force held over the sample, N, and the pressure proportional to it, Pa.
     fn hold(&mut self, strikers: f64) -> (f32, Pressure) {
         let mean = self.mean + strikers / self.divisor();
         self.scalar.psi = 2.0 * mean - self.scalar.psi;
@@ -360,29 +356,30 @@ impl NonlinearForce {
     }
 
     fn evaluate(&mut self, body: &mut ModalBody) {
-        body.predict(&self.front, &mut self.predicted);
+        body.predict(&self.coupled, &mut self.predicted);
         let found = self.potential.evaluate(&self.predicted, &mut self.gradient);
         let (energy, depth) = (self.stiffness * found.energy, self.stiffness * found.depth);
         let lost = self.safety.is_lost();
         if let Some(kept) = self.safety.slows(depth) {
-            // Only of the velocities: a dome half turned inside out gains by being bent less.
-            self.sound.rescale_velocity(body.rescale_velocity(&self.front, kept));
+            // Only velocities: a dome that is half inside out gains energy by a smaller deflection.
+            self.sound.rescale_velocity(body.rescale_velocity(&self.coupled, kept));
         }
         let stretch = self.schedule.stretch(self.dt);
         self.scalar.shift_to(depth, stretch);
-        // Beyond the depth foretold only by rounding.
+        // Below the predicted depth by rounding only.
         let psi = (2.0 * (energy + self.scalar.shift)).max(LEAST_SHIFT).sqrt();
         let kernels = body.kernels();
         let scale = (self.stiffness / psi) as f32;
         kernels.vectorized(
             #[inline(always)]
             || {
-                let rows = self.port.shape_mut().iter_mut().zip(self.gradient.iter());
+                let rows = self.input.shape_mut().iter_mut().zip(self.gradient.iter());
                 rows.for_each(|(g, &gradient)| *g = scale * gradient);
             },
         );
-        let ahead = f64::from(kernels.dot_difference(self.port.shape(), &self.predicted, self.front.kept()));
-        let kinetic = body.kinetic_energy(&self.front);
+        let ahead =
+            f64::from(kernels.dot_difference(self.input.shape(), &self.predicted, self.coupled.kept()));
+        let kinetic = body.kinetic_energy(&self.coupled);
         let found_anew = lost && self.safety.is_found(energy);
         if self.schedule.begins() {
             self.scalar.psi = psi - ahead;
@@ -399,24 +396,24 @@ impl NonlinearForce {
             self.safety.look(&window);
             if window.rests {
                 self.scalar.psi = 0.0;
-                self.port.shape_mut().fill(0.0);
+                self.input.shape_mut().fill(0.0);
             }
         }
     }
 
-    /// Puts a `psi` that was lost where it ought to be. What it holds more then is taken from the velocities: lost, it may
-    /// hold as little as `-C`, and the body moves all the faster.
+    /// Sets a `psi` that was lost to its true value. The energy it gains is taken from the velocities: a lost `psi` may hold as
+    /// little as `-C`, and the body then moves too fast.
     fn find_anew(&mut self, body: &mut ModalBody, target: f64, kinetic: f64) {
         let missing = 0.5 * (target * target - self.scalar.psi * self.scalar.psi);
         if missing > 0.0 && kinetic > 0.0 {
             let factor = (1.0 - missing / kinetic).max(0.0).sqrt() as f32;
-            self.sound.rescale_velocity(body.rescale_velocity(&self.front, factor));
+            self.sound.rescale_velocity(body.rescale_velocity(&self.coupled, factor));
         }
         self.scalar.psi = target;
         self.safety.forget();
     }
 
-    /// Moves `psi` toward where it ought to be, at the expense or to the gain of the velocities.
+    /// Moves `psi` toward its true value, and exchanges the energy with the velocities.
     fn exchange(&mut self, body: &mut ModalBody, target: f64, kinetic: f64) {
         if kinetic <= 0.0 || !target.is_finite() {
             return;
@@ -426,11 +423,11 @@ impl NonlinearForce {
         let limit = LARGEST_EXCHANGE * kinetic;
         let cost = (0.5 * (aim * aim - psi * psi)).clamp(-limit, limit);
         let factor = (1.0 - cost / kinetic).sqrt() as f32;
-        // What the rounded factor really gives is what psi gets.
+        // psi gets exactly what the rounded factor takes.
         let given = kinetic * (1.0 - f64::from(factor) * f64::from(factor));
         let square = psi * psi + 2.0 * given;
         if factor != 1.0 && square > 0.0 {
-            self.sound.rescale_velocity(body.rescale_velocity(&self.front, factor));
+            self.sound.rescale_velocity(body.rescale_velocity(&self.coupled, factor));
             self.scalar.psi = square.sqrt();
             self.exchanged += given.abs();
         }

@@ -5,6 +5,7 @@
 
 use crate::math::cubic::Stencil;
 use crate::mode::Member;
+use crate::mode_mixture::{MAX_MIXED, ModeMixture};
 use crate::patch_factors::{PatchFactors, pressed_share};
 
 /// Intervals of the table. *Measured*: the finest shape of a cymbal at 22 kHz (wavelength a tenth
@@ -47,6 +48,8 @@ pub struct ShapeTable {
     waves: Vec<f32>,
     /// The share of every radial function that discs (shares of the radius) feel; none of bodies whose waves are not known.
     felt: PatchFactors,
+    /// What becomes of the shapes: each mode of the body is such a mixture of those of the index.
+    mixture: Option<ModeMixture>,
 }
 
 /// Modes that mix the same rows.
@@ -110,7 +113,19 @@ impl ShapeTable {
         let (groups, grouped) = group(&index, &starts);
         let weights = vec![1.0; total];
         let (waves, felt) = (Vec::new(), PatchFactors::default());
-        ShapeTable { radial, functions, index, starts, weights, orders, groups, grouped, waves, felt }
+        ShapeTable {
+            radial,
+            functions,
+            index,
+            starts,
+            weights,
+            orders,
+            groups,
+            grouped,
+            waves,
+            felt,
+            mixture: None,
+        }
     }
 
     /// Tells the body's radius (m) and, times that, the wavenumber of every radial function, `[radial]`: those of a
@@ -123,7 +138,12 @@ impl ShapeTable {
         self
     }
 
-    /// How each mode goes around, `[mode]`.
+    /// Makes every mode of the body a mixture of those of the index.
+    pub fn with_mixture(self, mixture: Option<ModeMixture>) -> ShapeTable {
+        ShapeTable { mixture, ..self }
+    }
+
+    /// How each mode goes around before they are mixed, `[mode]`.
     pub fn index(&self) -> &[ShapeIndex] {
         &self.index
     }
@@ -148,6 +168,13 @@ impl ShapeTable {
     /// # Real-time
     /// As [`fill`](Self::fill), and for a disc beyond [those known](PatchFactors) a Bessel function for each row mixed.
     pub fn fill_pressed(&self, radius: f64, angle: f64, disc: f64, out: &mut [f32]) {
+        let Some(mixture) = &self.mixture else { return self.fill_simple(radius, angle, disc, out) };
+        let mut simple = [0.0; MAX_MIXED];
+        self.fill_simple(radius, angle, disc, &mut simple);
+        mixture.apply(&simple, out);
+    }
+
+    fn fill_simple(&self, radius: f64, angle: f64, disc: f64, out: &mut [f32]) {
         // cos and sin of every multiple of the angle, by one rotation each.
         let mut around = [[1.0_f64, 0.0]; MAX_ORDERS];
         let (sin, cos) = angle.sin_cos();

@@ -1,4 +1,4 @@
-//! Fixed-size plain data for whoever draws: what the editor may know of the engine.
+//! Snapshots: plain data of fixed size about the engine, for the editor.
 
 use crate::slot::SLOTS;
 
@@ -190,19 +190,19 @@ pub struct KitSnapshot {
     pub peak: [f32; 2],
     /// Strokes that came before their piece was built.
     pub dropped_strikes: u32,
-    /// Runs in which a piece was silent because whoever renders it had not brought it back.
+    /// Runs in which a piece was silent because a worker still had it.
     pub missed_runs: u32,
     /// Samples that the safety clip has bent.
     pub clipped_samples: u64,
     /// Samples that the ceiling has bent since the start.
     pub limited_samples: u64,
-    /// Buffers that were ready too late. Filled in by whoever has a clock; the engine has none.
+    /// Buffers that were ready too late. Filled in by the caller, as the engine has no clock.
     pub late_buffers: u64,
 }
 
 /// Shapes of a piece's lowest modes at the points of its displacement field.
 ///
-/// Computed where the piece is built and handed to whoever draws: the displacement at point `i`
+/// Computed where the piece is built and passed to the editor: the displacement at point `i`
 /// is the dot product of `shapes[i]` and [`PieceSnapshot::displacement`].
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct FieldShapes {

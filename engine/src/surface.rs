@@ -1,4 +1,4 @@
-//! A round surface that is struck and heard: a body, a contact system, attachments.
+//! A struck surface: a body, a contact system, attachments.
 //!
 //! Displacement and force are positive along the stroke, into the surface.
 //!
@@ -9,9 +9,9 @@
 //!                                  +--> observers (high bands) -------------------+
 //! ```
 //!
-//! The [body] knows modes, shapes and receivers; the [contacts] know what touches where and solve for the forces;
-//! [attachments](attachment) are what some bodies have and others have not; [observers](observer) hear the forces
-//! and are not felt. Here is what is done once a block and once a stroke; one sample is in `sample`.
+//! The [body] has modes, mode shapes and receivers. The [contacts] hold all contact points and solve for their forces.
+//! [Attachments](attachment) are parts that only some bodies have. [Observers](observer) receive the forces and do not act back.
+//! This file has the work of a block and of a stroke; `sample` has that of a sample.
 
 pub mod attachment;
 pub mod body;
@@ -47,17 +47,17 @@ use rim::AttachedRim;
 use strike_log::StrikeLog;
 use wires::SnareWires;
 
-/// What a surface is made from.
+/// Parts of a surface.
 pub struct SurfaceParts {
     /// `[mode]`.
     pub modes: Vec<Mode>,
     /// Shapes of the modes.
     pub shapes: ShapeTable,
-    /// How each mode is heard, Pa s2/m of its acceleration, `[mode]`; see [`ReceiverWeights::new`](crate::modal::ReceiverWeights::new).
+    /// Transfer of each mode from its acceleration to the near receiver, Pa s2/m, `[mode]`; see [`ReceiverWeights::new`](crate::modal::ReceiverWeights::new).
     pub transfer: Vec<[f64; 2]>,
-    /// What the tip meets.
+    /// Material under tips.
     pub material: Material,
-    /// Whether contacts give back all they take, whatever the striker.
+    /// Whether contacts of all strikers are lossless.
     pub lossless: bool,
     /// Hz.
     pub sample_rate: f64,
@@ -69,9 +69,9 @@ pub struct Surface {
     contacts: Contacts,
     attachments: Vec<Box<dyn Attachment>>,
     observers: ForceObservers,
-    /// What tips meet.
+    /// Material under tips.
     material: Material,
-    /// The head right under a tip, if the surface is one.
+    /// Local compliance, if the surface is a head.
     local_compliance: Option<LocalHeadCompliance>,
     log: StrikeLog,
 }
@@ -114,7 +114,7 @@ impl Surface {
         self.attachments.iter_mut().find_map(|attachment| (&mut **attachment as &mut dyn Any).downcast_mut())
     }
 
-    /// Changes the attachment of a kind, if there is one, where it is attached.
+    /// Changes the attachment of a kind, if there is one, together with the parts it acts on.
     ///
     /// # Real-time
     /// No allocation; linear in the number of modes if points were moved.
@@ -147,7 +147,7 @@ impl Surface {
         self.observers.bands_mut()
     }
 
-    /// Makes the surface a head that yields under a tip beyond its modes; acts on whatever touches from now on.
+    /// Adds the local compliance of a head; it acts on contacts that begin from now on.
     pub fn set_local_compliance(&mut self, head: LocalHeadCompliance) {
         self.local_compliance = Some(head);
     }
@@ -157,28 +157,28 @@ impl Surface {
         self.attachment().map(AttachedRim::rim)
     }
 
-    /// What the wires have done since the latest stroke.
+    /// State of the wires since the latest stroke.
     pub fn wires(&self) -> WireSnapshot {
         let wires = self.attachment::<SnareWires>();
         wires.map_or_else(WireSnapshot::default, |wires| wires.snapshot(&self.contacts))
     }
 
-    /// What the body does beyond its modes, if it does.
+    /// The nonlinear force, if there is one.
     pub fn nonlinear_force(&self) -> Option<&NonlinearForce> {
         self.body.nonlinear_force()
     }
 
-    /// What the body does beyond its modes, to be set.
+    /// The nonlinear force, to be set.
     pub fn nonlinear_force_mut(&mut self) -> Option<&mut NonlinearForce> {
         self.body.nonlinear_force_mut()
     }
 
-    /// Evaluates what the body does beyond its modes once in `stride` samples; for comparisons.
+    /// Evaluates the nonlinear force once in `stride` samples; for comparisons.
     pub fn set_stride(&mut self, stride: u32) {
         self.body.set_stride(stride);
     }
 
-    /// Energy of the body, J: of its modes, what it holds beyond them, and its attachments.
+    /// Energy of the modes, the nonlinear force and the attachments, J.
     pub fn energy(&self) -> f64 {
         let attached = self.attachments.iter().map(|attachment| attachment.energy(&self.contacts));
         attached.fold(self.body.energy(), |sum, energy| sum + energy)
@@ -190,8 +190,7 @@ impl Surface {
         attached.fold(self.body.motion(), |sum, energy| sum + energy)
     }
 
-    /// True energy of the body beyond its modes, J, and the relative error of the variable that
-    /// stands for it; slow, for tests.
+    /// True energy of the nonlinear force, J, and the relative error of its scalar variable; slow, for tests.
     pub fn true_potential(&mut self) -> (f64, f64) {
         self.body.true_potential()
     }
@@ -201,7 +200,7 @@ impl Surface {
         self.body.modal()
     }
 
-    /// The modes and their motion, to be looked at or set up by tests and tools.
+    /// The modes and their motion, for tests and tools.
     pub fn body_mut(&mut self) -> &mut ModalBody {
         self.body.modal_mut()
     }
@@ -216,12 +215,12 @@ impl Surface {
         self.body.shapes_mut()
     }
 
-    /// What the latest stroke's contact measured.
+    /// Measurements of the latest stroke's contact.
     pub fn last_strike(&self) -> StrikeSnapshot {
         self.log.last
     }
 
-    /// Strikers that were taken away before they had left, for there are places for [`MAX_STRIKERS`] at a time.
+    /// Strikers that were removed before they had left, as there are at most [`MAX_STRIKERS`] at a time.
     pub fn hurried_strikers(&self) -> u32 {
         self.log.hurried
     }
@@ -239,20 +238,20 @@ impl Surface {
         self.follow();
     }
 
-    /// Lets the air press on the drum, and be pressed by it. Allocates.
+    /// Adds an air load: sound from elsewhere acts on the drum, and it radiates to others. Allocates.
     pub fn set_listener(&mut self) {
         self.body.enter_air();
     }
 
-    /// Volume by which each mode makes the drum smaller, per modal displacement, m2, and the share of its sound that goes
-    /// all around by that, `[mode]`; what is left goes as it goes far away. [`set_transfers`](Self::set_transfers)
-    /// must be called after.
+    /// Volume by which each mode compresses the drum, per modal displacement, m2, and the omnidirectional share of its sound,
+    /// `[mode]`; the rest goes to other pieces as to the far field. [`set_transfers`](Self::set_transfers) must be called
+    /// after.
     pub fn set_volumes(&mut self, volumes: impl Iterator<Item = (f64, f64)>) {
         self.body.set_volumes(volumes);
     }
 
-    /// Changes how each mode is heard from near, as in [`SurfaceParts::transfer`], and from far away, as at a metre;
-    /// what rings is heard so at once.
+    /// Changes the transfers to the near receiver, as in [`SurfaceParts::transfer`], and to the far one, given at a metre. They
+    /// act at once.
     ///
     /// # Real-time
     /// No allocation; linear in the number of modes.
@@ -265,17 +264,17 @@ impl Surface {
         self.follow();
     }
 
-    /// Whether the air presses on it at all.
+    /// Whether sound from elsewhere acts on it.
     pub fn listens(&self) -> bool {
         self.body.is_in_air()
     }
 
-    /// Whether wires lie still that could be moved.
+    /// Whether there are parked wires that can be woken.
     pub fn has_parked_wires(&self) -> bool {
         self.attachments.iter().any(|attachment| attachment.is_parked())
     }
 
-    /// Lets attachments that lie still move again.
+    /// Wakes parked attachments.
     pub fn wake(&mut self) {
         let Surface { body, contacts, attachments, observers, .. } = self;
         for attachment in attachments {
@@ -284,12 +283,12 @@ impl Surface {
         self.connect_stale();
     }
 
-    /// Lets wires that lie still move again.
+    /// Wakes parked wires.
     pub fn hear(&mut self) {
         self.wake();
     }
 
-    /// Tells everything that hangs on the modes, or on how they are heard, that they have changed.
+    /// Updates everything that depends on the modes or the transfers.
     fn follow(&mut self) {
         self.body.follow();
         self.attachments.iter_mut().for_each(|attachment| attachment.follow(&self.body));
@@ -298,13 +297,11 @@ impl Surface {
         }
     }
 
-    /// Renders sound pressure at each ear, Pa, overwriting `out`, while sound from elsewhere arrives: at the listening
-    /// point, far away as at a metre, and as far as it goes all around, what other pieces hear. At most
-    /// [`MAX_RUN`](crate::modal::simd::MAX_RUN) samples.
+    /// Renders the pressure at each receiver, Pa, into `out`, under the incident pressure: near, far at a metre, and the
+    /// omnidirectional part at a metre, which other pieces receive. At most [`MAX_RUN`](crate::modal::simd::MAX_RUN) samples.
     ///
     /// # Real-time
-    /// Linear in modes times samples; a few times dearer while something touches, and by the cost
-    /// of the potential while that acts.
+    /// Linear in modes times samples. A few times as much during contacts; more while the nonlinear force acts.
     pub fn render_in_air(
         &mut self,
         mut out: [&mut [f32]; RECEIVERS],
@@ -325,27 +322,27 @@ impl Surface {
         self.observers.bands_mut().for_each(|band| band.render(near, far));
     }
 
-    /// Energy of the strikers and of what their contacts hold, J.
+    /// Energy of the strikers and their contacts, J.
     pub fn striker_energy(&self) -> f64 {
         self.contacts.energy(0..MAX_STRIKERS)
     }
 
-    /// Kinetic energy that strikers have come with since the last reset, J.
+    /// Kinetic energy of all strikers at their arrival since the last reset, J.
     pub fn brought_energy(&self) -> f64 {
         self.log.brought
     }
 
-    /// Energy that strikers have taken away with them since the last reset, J.
+    /// Energy of all strikers at their departure since the last reset, J.
     pub fn departed_energy(&self) -> f64 {
         self.log.departed
     }
 
-    /// Zeroes what has decayed to nothing; reports whether all is finite, and rests it if not.
+    /// Zeroes what has decayed. Returns whether all values are finite; if not, everything is reset.
     ///
     /// # Real-time
     /// Linear in the number of modes; meant for once a block.
     pub fn settle(&mut self) -> bool {
-        // What touches may drive modes, by less in a block than what could be forgotten.
+        // Contacts may drive modes by less in a block than the threshold of zeroing.
         let driven = self.attachments.iter().any(|attachment| attachment.drives_body());
         self.body.settle(self.contacts.is_empty() && !driven && !self.contacts.is_lossless());
         let Surface { body, contacts, attachments, observers, .. } = self;
@@ -358,7 +355,7 @@ impl Surface {
         }
         let struck = self.is_struck();
         if !struck && self.body.is_inside_out() {
-            // Turned back, as a drummer would; what it still trembles by is cut off.
+            // Turned back, as by a drummer. The rest of its motion is cut off.
             self.rest();
         }
         if !struck {
@@ -367,7 +364,7 @@ impl Surface {
         finite
     }
 
-    /// Parks attachments that nothing is heard of.
+    /// Parks attachments that are inaudible.
     fn park(&mut self) {
         for i in 0..self.attachments.len() {
             if self.attachments[i].parks_below().is_some_and(|limit| self.energy() < limit) {
@@ -376,7 +373,7 @@ impl Surface {
         }
     }
 
-    /// Whether nothing moves and nothing is about.
+    /// Whether nothing moves and no exciter is present.
     pub fn is_still(&self) -> bool {
         self.observers.bands().all(HighBand::is_still)
             && self.attachments.iter().all(|attachment| attachment.is_still())
@@ -384,19 +381,19 @@ impl Surface {
             && self.body.modal().is_still()
     }
 
-    /// Whether strikers are about.
+    /// Whether strikers are present.
     pub fn is_struck(&self) -> bool {
         self.contacts.is_struck()
     }
 
-    /// Puts everything to rest as [`reset`](Self::reset) does; what was counted stays.
+    /// [`reset`](Self::reset) that keeps the counted energies.
     pub fn rest(&mut self) {
         let counted = (self.log.brought, self.log.departed);
         self.reset();
         (self.log.brought, self.log.departed) = counted;
     }
 
-    /// Puts everything to rest; strikers are gone.
+    /// Puts everything to rest and removes all strikers.
     pub fn reset(&mut self) {
         self.body.reset();
         self.observers.bands_mut().for_each(HighBand::reset);

@@ -141,7 +141,11 @@ fn rebuilt(drum: DrumSpec, chance: &mut Chance) -> DrumSpec {
         _ => {}
     }
     drum.muffler = match chance.below(4) {
-        0 => Muffler::Pillow { sigma: chance.between(0.0, 60.0), flow: chance.between(0.0, 300.0) },
+        0 => Muffler::Pillow {
+            sigma: chance.between(0.0, 60.0),
+            corner_hz: chance.between(0.0, 300.0),
+            flow: chance.between(0.0, 300.0),
+        },
         1 => Muffler::Ring { sigma: chance.between(0.0, 60.0), inner: chance.between(0.3, 0.99) },
         _ => drum.muffler,
     };

@@ -36,7 +36,7 @@ pub const RATE: u32 = 48_000;
 const DRUM_SECONDS: f64 = 4.0;
 const CYMBAL_SECONDS: f64 = 8.0;
 
-/// Who is shown a stroke and what the ears hear of it, full scale 1; an error ends the measurement.
+/// Is shown every stroke and its sound through each recording chain, full scale 1. An error ends the measurement.
 pub type Show<'a> = dyn Fn(&Job, &[Vec<f32>; 2]) -> Result<()> + Sync + 'a;
 
 /// Renders and measures everything, on as many threads as there are cores, each with a kit of its own.
@@ -47,7 +47,7 @@ pub fn run(request: &Request) -> Result<Report> {
     run_and_show(request, &|_, _| Ok(()))
 }
 
-/// The same, showing every stroke, in no order, with what each ear hears of it (full scale 1).
+/// [`run`] that also shows every stroke, in no order, with its sound through each recording chain (full scale 1).
 ///
 /// # Errors
 /// As [`run`], and what `show` returns.
@@ -69,7 +69,7 @@ pub fn run_and_show(request: &Request, show: &Show) -> Result<Report> {
 }
 
 impl Job {
-    /// Renders the stroke, shows what each ear hears, and measures it.
+    /// Renders the stroke, shows its sounds, and measures it.
     fn strike(&self, stand: &mut Stand, request: &Request, show: &Show) -> Result<[Stroke; 2]> {
         let Job { subject, slot, speed, place } = *self;
         let strike = Strike { speed, radius: place, ..subject.strike(&request.kit, slot) };

@@ -208,7 +208,7 @@ impl Builder {
         }
     }
 
-    /// The shapes of what has been built, for whoever draws.
+    /// Shapes of the built pieces, for the editor.
     pub fn shapes(&self) -> Shapes {
         Shapes { shared: self.shared.clone() }
     }
@@ -220,7 +220,7 @@ impl Drop for Builder {
         self.shared.latest.store(NO_ORDER, Ordering::Release);
         self.shared.changed.notify_all();
         if let Some(thread) = self.thread.take() {
-            // The thread catches panics; were it to end in one, there is nobody left to tell.
+            // The thread catches panics; if it ended in one, there is no other thread to tell.
             let _ = thread.join();
         }
     }
@@ -326,7 +326,7 @@ impl Shared {
                 let (send, options, is_dropped) = (send.clone(), &options, &is_dropped);
                 scope.spawn_fifo(move |_| {
                     if !is_dropped() {
-                        // Received to the end, or nobody wants it.
+                        // Received to the end, or no longer wanted.
                         let _ = send.send((index, made(make, *slot, build, options)));
                     }
                 });
@@ -370,7 +370,7 @@ impl Shared {
                 Ok(()) => return,
                 Err(refused) => sent = refused,
             }
-            // The audio thread has taken nothing, perhaps because it does not run, and somebody may be waiting.
+            // The audio thread has taken nothing, perhaps because it does not run, and a caller may be waiting.
             make_room(queue, &sent);
         }
     }

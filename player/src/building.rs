@@ -12,7 +12,7 @@ use crate::kit_document::KitDocument;
 use crate::parameters::{Construction, Drives, parameters};
 use crate::workers::{Deadline, Patience, Workers};
 
-/// Whether somebody waits for every buffer.
+/// Whether the host waits for every buffer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pace {
     /// The host plays.
@@ -42,7 +42,7 @@ impl PartialEq for BuildPlan {
 pub struct WorkerPlan {
     /// How many.
     pub workers: usize,
-    /// Whether somebody waits for them.
+    /// Whether the host waits for them.
     pub pace: Pace,
 }
 
@@ -50,7 +50,7 @@ impl WorkerPlan {
     /// Nobody.
     pub const NOBODY: WorkerPlan = WorkerPlan { workers: 0, pace: Pace::RealTime };
 
-    /// Starts the threads; none if nobody is wanted.
+    /// Starts the threads, if any are wanted.
     ///
     /// # Errors
     /// If the system starts no more threads.
@@ -58,7 +58,7 @@ impl WorkerPlan {
         Ok(self.workers()?.map(|workers| -> Box<dyn RenderWorkers> { Box::new(workers) }))
     }
 
-    /// Starts the threads, for which the audio thread waits no longer than a deadline allows; none if nobody is wanted.
+    /// Starts the threads, if any are wanted. The audio thread waits for them no longer than a deadline allows.
     ///
     /// # Errors
     /// If the system starts no more threads.
@@ -75,7 +75,7 @@ impl WorkerPlan {
             Pace::Offline => Patience::Offline,
         };
         // In the floating point mode of the audio thread, or the bits would differ.
-        let render = |post: &mut RenderJob| flushed(|| post.render());
+        let render = |job: &mut RenderJob| flushed(|| job.render());
         Ok(Some(Workers::new(self.workers, patience, render)?))
     }
 }
@@ -132,8 +132,7 @@ impl BuildPlan {
         self.kit.kit.build(slot)
     }
 
-    /// The slots that have a piece, what takes longest to build first, so that nobody who builds side by side waits for
-    /// the last.
+    /// The slots that have a piece. Building starts with the slowest piece, so that parallel builds end together.
     pub fn longest_first(&self) -> Vec<Slot> {
         let mut slots: Vec<(f64, Slot)> =
             self.kit.kit.slots().map(|(slot, piece)| (building_time(piece), slot)).collect();

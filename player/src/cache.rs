@@ -13,7 +13,7 @@
 //!
 //! and is taken only if all of it is right; whatever is not is as good as missing, and written anew. Its
 //! name holds a digest of the version of the engine's equations and of what was asked for, so that a newer engine finds nothing
-//! of an older one's. Files are written beside and moved into place: whoever reads meanwhile sees a whole one or none.
+//! of an older one's. Files are written beside and moved into place: a concurrent reader finds a whole file or none.
 //!
 //! Nothing here runs on the audio thread.
 

@@ -24,7 +24,7 @@ pub struct Deadlines {
     epoch: Instant,
     /// When the audio thread waits no longer for workers in the present buffer, ns since the epoch; 0 between buffers.
     until: AtomicU64,
-    /// Bits of the sample rate, Hz; 0 where nobody waits.
+    /// Bits of the sample rate, Hz; 0 where there is no deadline.
     rate: AtomicU64,
     met: AtomicU64,
     late: AtomicU64,
@@ -48,7 +48,7 @@ impl Default for Deadlines {
 impl Deadline for Deadlines {
     fn is_over(&self) -> bool {
         let until = self.until.load(Ordering::Relaxed);
-        // Outside of a buffer nobody knows.
+        // Outside of a buffer there is none.
         until > 0 && nanoseconds(self.epoch.elapsed()) >= until
     }
 }

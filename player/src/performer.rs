@@ -421,7 +421,7 @@ impl Performer {
         }
     }
 
-    /// Describes the kit to whoever draws it, and starts the peaks anew.
+    /// Writes a snapshot of the kit, and restarts the peaks.
     ///
     /// # Real-time
     /// A copy, no allocation.

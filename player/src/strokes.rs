@@ -1,8 +1,7 @@
 //! Strokes played by hand on the editor's picture, on their way to the audio thread.
 //!
-//! A bounded queue: whoever looks at the kit puts strokes in, `process` takes them out at the start of its next buffer
-//! and waits for nobody; hands take turns among themselves. When nobody renders, the queue fills up and further strokes are lost, as those on a kit nobody
-//! hears.
+//! A bounded queue: the editor puts strokes in, and `process` takes them out at the start of its next buffer without waiting.
+//! Several editors take turns. While nothing renders, the queue fills up and further strokes are dropped.
 
 use std::sync::{Arc, Mutex, PoisonError};
 

@@ -1,7 +1,7 @@
 //! Worker threads that render the pieces of a kit beside the audio thread.
 //!
 //! Hand-off: two bounded queues without locks. For every run the audio thread puts the jobs ([`RenderJob`]) that have something to
-//! do on one queue; whoever takes a job owns it, renders it, and puts it on the other. The audio thread takes jobs from the
+//! do on one queue. The thread that takes a job owns it, renders it, and puts it on the other. The audio thread takes jobs from the
 //! first queue until it is empty, as a worker does. So a job that no worker has claimed is done in any case. Then it waits for
 //! the claimed ones. Nothing is shared but the queues: the compiler proves that no job is ever in two hands, and there is no
 //! unsafe code here or in the engine. What the queues do inside (crossbeam's `ArrayQueue`) is taken on trust; docs/kit.md has
@@ -44,7 +44,7 @@ const IDLE: Duration = Duration::from_secs(1);
 /// How long the audio thread waits for a job that a worker has claimed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Patience {
-    /// Until the [`Deadline`], or some milliseconds where nobody knows one; then the piece is silent for the run.
+    /// Until the [`Deadline`], or some milliseconds where there is none; then the piece is silent for the run.
     RealTime,
     /// Until it is done, or half a minute has passed: while a file is rendered.
     Offline,
@@ -69,11 +69,11 @@ pub trait Deadline: Send + Sync {
     fn is_over(&self) -> bool;
 }
 
-/// A job on its way, where it belongs, and the run it is for.
+/// A job with its slot and its run.
 struct JobSlot {
     slot: usize,
     run: u64,
-    post: Box<RenderJob>,
+    job: Box<RenderJob>,
 }
 
 /// What the threads share.
@@ -125,21 +125,21 @@ impl Workers {
     }
 
     /// Takes back one job that is done, if there is one.
-    fn take_back(&mut self, posts: &mut [Option<Box<RenderJob>>]) -> bool {
-        let Some(JobSlot { slot, run, post }) = self.shared.done.pop() else {
+    fn take_back(&mut self, jobs: &mut [Option<Box<RenderJob>>]) -> bool {
+        let Some(JobSlot { slot, run, job }) = self.shared.done.pop() else {
             return false;
         };
         // One of an earlier run is not waited for any more.
         self.away -= usize::from(run == self.run);
-        posts[slot] = Some(post);
+        jobs[slot] = Some(job);
         true
     }
 
     /// Waits for the jobs of this run that others have, as long as the deadline and the patience allow.
-    fn wait(&mut self, posts: &mut [Option<Box<RenderJob>>]) {
+    fn wait(&mut self, jobs: &mut [Option<Box<RenderJob>>]) {
         let mut looks = 0;
         loop {
-            while self.take_back(posts) {}
+            while self.take_back(jobs) {}
             if self.away == 0 || looks == self.patience.looks() || self.is_late() {
                 return;
             }
@@ -155,36 +155,35 @@ impl Workers {
 }
 
 impl RenderWorkers for Workers {
-    fn render(&mut self, posts: &mut [Option<Box<RenderJob>>]) {
-        let busy = |post: &Option<Box<RenderJob>>| post.as_ref().is_some_and(|post| post.is_busy());
-        let share = posts.iter().filter(|&post| busy(post)).count() > 1;
+    fn render(&mut self, jobs: &mut [Option<Box<RenderJob>>]) {
+        let busy = |job: &Option<Box<RenderJob>>| job.as_ref().is_some_and(|job| job.is_busy());
+        let share = jobs.iter().filter(|&job| busy(job)).count() > 1;
         self.run = self.run.wrapping_add(1);
         self.away = 0;
-        for (slot, place) in posts.iter_mut().enumerate() {
+        for (slot, place) in jobs.iter_mut().enumerate() {
             let shared = share && busy(place);
             match place.take() {
-                Some(post) if shared => match self.shared.waiting.push(JobSlot { slot, run: self.run, post })
-                {
+                Some(job) if shared => match self.shared.waiting.push(JobSlot { slot, run: self.run, job }) {
                     Ok(()) => self.away += 1,
                     // There is room for every job; if there were not, it would be done here.
-                    Err(JobSlot { mut post, .. }) => {
-                        (self.shared.render)(&mut post);
-                        *place = Some(post);
+                    Err(JobSlot { mut job, .. }) => {
+                        (self.shared.render)(&mut job);
+                        *place = Some(job);
                     }
                 },
-                Some(mut post) => {
-                    (self.shared.render)(&mut post);
-                    *place = Some(post);
+                Some(mut job) => {
+                    (self.shared.render)(&mut job);
+                    *place = Some(job);
                 }
                 None => {}
             }
         }
-        while let Some(JobSlot { slot, mut post, .. }) = self.shared.waiting.pop() {
-            (self.shared.render)(&mut post);
-            posts[slot] = Some(post);
+        while let Some(JobSlot { slot, mut job, .. }) = self.shared.waiting.pop() {
+            (self.shared.render)(&mut job);
+            jobs[slot] = Some(job);
             self.away -= 1;
         }
-        self.wait(posts);
+        self.wait(jobs);
     }
 }
 
@@ -202,13 +201,13 @@ impl Drop for Workers {
 fn work(shared: &Shared) {
     let (mut looks, mut latest) = (0, Instant::now());
     while !shared.closing.load(Ordering::Relaxed) {
-        if let Some(mut job) = shared.waiting.pop() {
+        if let Some(mut claimed) = shared.waiting.pop() {
             // The job goes back whatever happens: without it its piece would be gone.
-            if catch_unwind(AssertUnwindSafe(|| (shared.render)(&mut job.post))).is_err() {
-                job.post.give_up();
+            if catch_unwind(AssertUnwindSafe(|| (shared.render)(&mut claimed.job))).is_err() {
+                claimed.job.give_up();
             }
             // There is room for every job.
-            let _ = shared.done.push(job);
+            let _ = shared.done.push(claimed);
             (looks, latest) = (0, Instant::now());
         } else if looks < LOOKS {
             looks += 1;

@@ -26,7 +26,7 @@ pub fn forbid() {
     seccompiler::apply_filter(&program).expect("a kernel that filters");
 }
 
-/// Ends a child; whether all went well is told to whoever runs it.
+/// Ends a child with a status that tells its parent whether all went well.
 pub fn done(well: bool) -> ! {
     std::process::exit(if well { DONE } else { 1 });
 }

@@ -43,17 +43,17 @@ fn every_mode_of_every_piece_rings_at_its_frequency_and_decays_at_its_rate() {
     for name in names() {
         let mut piece = piece(&name, RATE);
         let modes = modal::body_modes(&piece).len();
-        let rung = modal::follow(&mut piece, 8.0);
-        assert_eq!(rung.len(), modes, "{name}: some do not move");
-        for (mode, rung) in rung {
+        let motions = modal::follow(&mut piece, 8.0);
+        assert_eq!(motions.len(), modes, "{name}: some do not move");
+        for (mode, motion) in motions {
             if mode.frequency_hz >= 0.5 * RATE {
                 continue;
             }
-            let decay = modal::decay_error(&mode, &rung);
-            assert!(rung.turns > 5.0, "{name} {mode:?}: {rung:?}");
-            assert!(rung.off.abs() < 0.05, "{name} {mode:?}: {rung:?}");
-            assert!(decay.abs() < 1e-3, "{name} {mode:?}: {rung:?}");
-            worst = (worst.0.max(rung.off.abs()), worst.1.max(decay.abs()));
+            let decay = modal::decay_error(&mode, &motion);
+            assert!(motion.turns > 5.0, "{name} {mode:?}: {motion:?}");
+            assert!(motion.off.abs() < 0.05, "{name} {mode:?}: {motion:?}");
+            assert!(decay.abs() < 1e-3, "{name} {mode:?}: {motion:?}");
+            worst = (worst.0.max(motion.off.abs()), worst.1.max(decay.abs()));
         }
     }
     println!("worst: {:.5} cents, decay {:.2e}", worst.0, worst.1);

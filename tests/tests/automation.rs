@@ -101,7 +101,7 @@ fn step(sound: &[f32]) -> f32 {
     third.chunks_exact(960).map(beyond).fold(0.0, f32::max) / (2.0 * peak)
 }
 
-/// A step that nobody hears under a drum that rings: 74 dB below the sound's peak.
+/// A step that is inaudible under a ringing drum: 74 dB below the peak of the sound.
 const CLICK: f32 = 2e-4;
 
 #[test]

@@ -233,10 +233,10 @@ fn heard(piece: &PieceSpec, hertz: f64) -> [f64; 2] {
     body.push(&port, 1e3);
     let (blocks, mut squares) = (150, [0.0; 2]);
     for _ in 0..blocks {
-        let mut ears = [[0.0_f32; BLOCK]; RECEIVERS];
-        piece.render_in_air(ears.each_mut().map(|ear| &mut ear[..]), None);
-        for (squares, ear) in squares.iter_mut().zip(&ears) {
-            *squares += ear.iter().map(|x| f64::from(*x).powi(2)).sum::<f64>();
+        let mut receivers = [[0.0_f32; BLOCK]; RECEIVERS];
+        piece.render_in_air(receivers.each_mut().map(|receiver| &mut receiver[..]), None);
+        for (squares, receiver) in squares.iter_mut().zip(&receivers) {
+            *squares += receiver.iter().map(|x| f64::from(*x).powi(2)).sum::<f64>();
         }
     }
     squares.map(|squares| (squares / (blocks * BLOCK) as f64).sqrt())

@@ -315,7 +315,7 @@ fn realism_prints_the_documented_json_and_keeps_the_sounds() {
         .map(|entry| entry.unwrap().file_name().into_string().unwrap())
         .collect();
     sounds.sort();
-    assert_eq!(sounds.len(), 12, "two speeds, three places, two ears: {sounds:?}");
+    assert_eq!(sounds.len(), 12, "two speeds, three places, two recording chains: {sounds:?}");
     assert!(sounds.contains(&"rack-tom-2-at-0.3-close.wav".to_owned()));
     assert!(sounds.contains(&"rack-tom-4-at-0.4-mix.wav".to_owned()));
 }

@@ -173,7 +173,7 @@ fn five_thousand_strokes_in_ten_seconds_stay_finite_and_bounded_and_none_is_lost
     let struck: u32 = snapshot.pieces.iter().map(|piece| piece.strike.count).sum();
     let hurried: u32 = snapshot.pieces.iter().map(|piece| piece.hurried_strikers).sum();
     println!("peak {peak:.1}, {hurried} strikers made room for others, {:.0} % of real time", 100.0 * share);
-    // Every stroke was played, and whoever had to make room for the next is counted.
+    // Every stroke was played, and every striker removed for the next one was counted.
     assert_eq!((struck, snapshot.dropped_strikes, snapshot.missed_runs), (5_000, 0, 0));
     assert!(hurried > 100, "{hurried}");
     for (slot, piece) in snapshot.pieces.iter().enumerate() {

@@ -4,7 +4,7 @@ use overhear::building::Pace;
 use overhear::kit_document::KitDocument;
 use overhear_measure::realism::{self, PieceReport, RecordingChain, SPEEDS};
 
-/// Pieces struck softly to hard, bounced, as each ear hears them.
+/// Pieces struck softly to hard, bounced, through each recording chain.
 fn bounced(names: &[&str]) -> Vec<PieceReport> {
     let names: Vec<String> = names.iter().map(|&name| name.to_owned()).collect();
     let subjects = realism::subjects(&names).unwrap();

@@ -36,7 +36,7 @@ fn sound(kit: &mut Kit, frames: usize, buffer: usize) -> Vec<f32> {
     left
 }
 
-/// The greatest second difference: a step of the sound stands out in it, as it does to the ear.
+/// The greatest second difference: a step of the sound stands out in it, and is audible.
 fn roughest(sound: &[f32]) -> f32 {
     sound.windows(3).map(|x| (x[0] - 2.0 * x[1] + x[2]).abs()).fold(0.0, f32::max)
 }

@@ -187,11 +187,11 @@ fn on_a_worker() -> bool {
 #[test]
 fn a_worker_that_stalls_holds_nobody_up_and_is_counted() {
     static CALLS: AtomicU32 = AtomicU32::new(0);
-    let stall = |post: &mut RenderJob| {
+    let stall = |job: &mut RenderJob| {
         if on_a_worker() && CALLS.fetch_add(1, Ordering::Relaxed) == 20 {
             thread::sleep(Duration::from_secs(1));
         }
-        post.render();
+        job.render();
     };
     let (snapshot, loudest) = play_with(Patience::RealTime, stall, || CALLS.load(Ordering::Relaxed) > 20);
     assert!(snapshot.missed_runs > 0 && loudest > 0.01, "{} runs", snapshot.missed_runs);
@@ -201,11 +201,11 @@ fn a_worker_that_stalls_holds_nobody_up_and_is_counted() {
 #[test]
 fn a_worker_that_panics_gives_its_piece_back() {
     static CALLS: AtomicU32 = AtomicU32::new(0);
-    let panic = |post: &mut RenderJob| {
+    let panic = |job: &mut RenderJob| {
         if on_a_worker() && CALLS.fetch_add(1, Ordering::Relaxed) == 20 {
             panic!("as the test wants it");
         }
-        post.render();
+        job.render();
     };
     // Patient, so that no other run is missed however busy the machine is.
     let (snapshot, loudest) = play_with(Patience::Offline, panic, || CALLS.load(Ordering::Relaxed) > 20);

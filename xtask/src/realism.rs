@@ -78,11 +78,11 @@ fn subjects_help() -> String {
     format!("What to strike, all if none is given: {}", SUBJECTS.map(|subject| subject.name).join(", "))
 }
 
-/// Writes what each ear hears of a stroke.
+/// Writes the sound of a stroke through each recording chain.
 fn keep(folder: &Path, job: &Job, heard: &[Vec<f32>; 2]) -> Result<()> {
     let Job { subject, speed, place, .. } = job;
-    for (ear, sound) in RecordingChain::ALL.into_iter().zip(heard) {
-        let path = folder.join(format!("{}-{speed}-at-{place}-{}.wav", subject.name, ear.name()));
+    for (chain, sound) in RecordingChain::ALL.into_iter().zip(heard) {
+        let path = folder.join(format!("{}-{speed}-at-{place}-{}.wav", subject.name, chain.name()));
         let mut file = WavFile::create(&path, Bits::Float32, RATE, 1, sound.len() as u64)?;
         file.write(&[sound])?;
         file.finish()?;

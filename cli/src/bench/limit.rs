@@ -5,7 +5,7 @@ use overhear_engine::modal::simd::Kernels;
 use overhear_engine::piece::Piece;
 use serde::Serialize;
 
-/// Multiplications with an addition that a mode takes a sample as it rings: its rotation (4), two ears (2 each).
+/// Multiplications with an addition that a mode takes a sample as it rings: its rotation (4), two receivers (2 each).
 const PER_MODE: f64 = 8.0;
 
 /// Passes of one measurement, and measurements; the quickest counts.

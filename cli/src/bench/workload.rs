@@ -28,7 +28,7 @@ pub enum Scene {
     AllAtOnce(Quality),
     /// The same while every tuning and muffling is automated: a new value for each in every block.
     Gliding(Quality),
-    /// A kit that nobody has struck, for a second.
+    /// A kit at rest, for a second.
     Idle,
     /// One piece, and the second after a hard stroke.
     Piece(Slot, Quality),

@@ -74,7 +74,7 @@ pub fn takes(song: &Song, style: &Style) -> Result<Taken> {
 }
 
 impl Job {
-    /// Renders the song and its stems; shows progress if nobody else does.
+    /// Renders the song and its stems. Shows progress if no other job does.
     ///
     /// # Errors
     /// [`BadInput`](crate::error::BadInput) for what cannot be read or written; nothing is left

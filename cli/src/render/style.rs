@@ -28,7 +28,7 @@ pub struct Style {
 }
 
 impl Style {
-    /// How whoever plays is set up.
+    /// Settings of the performer.
     pub fn setup(&self) -> Setup {
         Setup { rate: self.rate, kit: self.kit.clone(), settings: self.settings.clone() }
     }

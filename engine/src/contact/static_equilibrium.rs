@@ -1,28 +1,28 @@
-//! Bodies that rest on each other at several points: the forces that hold them, all being still.
+//! Static equilibrium of bodies that rest on each other at several points.
 //!
-//! Model: what the points would overlap by without any force, `g`, less what the forces `F` bend and push away, is
-//! what they are pressed together by, `d = g - S F`; and each force is that of the elastic contact, `F = K d^alpha`.
-//! `S` has the steady compliances of all that gives way. The energy `f S f / 2 + V(g - S f)` is convex in `f`; Newton's
-//! method, with steps halved until the energy falls, finds its one minimum, which is the balance.
+//! Model: without forces the points would overlap by `g`. The forces `F` reduce the overlap to the compressions
+//! `d = g - S F`, where `S` holds the static compliances. Each force is that of the elastic contact, `F = K d^alpha`. The energy
+//! `F S F / 2 + V(g - S F)` is convex in `F`. Its one minimum is the equilibrium. Newton's method finds it, with steps halved until
+//! the energy falls.
 
 use super::ContactLaw;
 use super::solver::eliminate;
 
-/// Steps; it needs 3 to 8, from nothing up to 15.
+/// Newton steps; 3 to 8 are needed, up to 15 without an estimate.
 const MAX_STEPS: usize = 40;
-/// Halvings of one.
+/// Halvings of a step.
 const MAX_HALVINGS: usize = 12;
-/// Error of a force over the largest, below which all are found.
+/// Largest error of a force, relative to the largest force.
 const FOUND: f64 = 1e-13;
 
-/// Forces at all points that hold bodies which would overlap by `overlap` (m) without them, N; `forces` is a guess
-/// first. `yields` are compliances, m/N.
+/// Finds the static forces at all points, N. `overlap` is `g`, m; `compliances` are static, m/N; `forces` is an estimate
+/// first.
 ///
 /// # Real-time
 /// At most 40 steps of the order of the cube of the points, a microsecond each; usually 5.
 pub fn settle<const N: usize>(
     law: &ContactLaw,
-    yields: &[[f64; N]; N],
+    compliances: &[[f64; N]; N],
     overlap: &[f64; N],
     forces: &mut [f64; N],
 ) {
@@ -31,7 +31,7 @@ pub fn settle<const N: usize>(
         return;
     }
     for _ in 0..MAX_STEPS {
-        let d = compressions(yields, overlap, forces);
+        let d = compressions(compliances, overlap, forces);
         let mut matrix = [[0.0; N]; N];
         let mut right = [0.0; N];
         let mut largest = 0.0_f64;
@@ -39,7 +39,7 @@ pub fn settle<const N: usize>(
             let (force, slope) = law.elastic(d[i]);
             right[i] = force - forces[i];
             largest = largest.max(force);
-            matrix[i] = yields[i].map(|s| slope * s);
+            matrix[i] = compliances[i].map(|s| slope * s);
             matrix[i][i] += 1.0;
         }
         let error = right.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
@@ -51,7 +51,7 @@ pub fn settle<const N: usize>(
         let mut share = 1.0;
         for _ in 0..MAX_HALVINGS {
             let next: [f64; N] = std::array::from_fn(|i| forces[i] + share * change[i]);
-            let d = compressions(yields, overlap, &next);
+            let d = compressions(compliances, overlap, &next);
             if energy(law, overlap, &next, &d) <= before {
                 *forces = next;
                 break;
@@ -59,19 +59,20 @@ pub fn settle<const N: usize>(
             share *= 0.5;
         }
     }
-    // The law itself has the last word, so that what is open presses with exactly nothing.
-    let d = compressions(yields, overlap, forces);
+    // Through the law, so that the force of an open contact is exactly zero.
+    let d = compressions(compliances, overlap, forces);
     *forces = d.map(|d| law.elastic(d).0);
 }
 
 /// `g - S F`, m.
 pub fn compressions<const N: usize>(
-    yields: &[[f64; N]; N],
+    compliances: &[[f64; N]; N],
     overlap: &[f64; N],
     forces: &[f64; N],
 ) -> [f64; N] {
     std::array::from_fn(|i| {
-        overlap[i] - yields[i].iter().zip(forces).map(|(yields, force)| yields * force).sum::<f64>()
+        overlap[i]
+            - compliances[i].iter().zip(forces).map(|(compliance, force)| compliance * force).sum::<f64>()
     })
 }
 

@@ -74,8 +74,8 @@ pub struct RigidMotion {
 pub struct Ordered {
     /// Which of the plate's.
     pub shell: usize,
-    /// Whether it is among those in front, all of which the stretching may act on.
-    pub in_front: bool,
+    /// Whether it is a coupled mode, which the stretching may act on.
+    pub is_coupled: bool,
 }
 
 /// What a struck cymbal has beside its modes, to become a [`Surface`].
@@ -87,7 +87,7 @@ pub struct PlateShapes {
     coupled: Option<Coupled>,
 }
 
-/// The stretching, the modes in front that it acts on, and the highest of them, Hz.
+/// The stretching, the coupled modes that it acts on, and the highest of them, Hz.
 struct Coupled {
     potential: VonKarman,
     modes: usize,
@@ -158,20 +158,20 @@ impl<'a> CymbalPlate<'a> {
         rigid.iter().enumerate().for_each(|(radial, motion)| rows.push_rigid(radial, motion));
         let SoundingPlate { plate, radiated } = &*self.known;
         let mut pairs = Vec::new();
-        let mut front = 0;
-        for &Ordered { shell: row, in_front } in order {
+        let mut coupled = 0;
+        for &Ordered { shell: row, is_coupled } in order {
             let shell = &plate.shells[row];
             if self.is_coupled(shell) {
                 pairs.push(CoupledPair { shell: row, mode: rows.modes.len(), axis: self.axis(shell) });
             }
             self.push_shell(&mut rows, rigid.len() + row, shell, &radiated[row], mounted(row, shell));
-            if in_front {
-                front = rows.modes.len();
+            if is_coupled {
+                coupled = rows.modes.len();
             }
         }
         let coupled = self.highest_hz.filter(|_| !pairs.is_empty()).map(|highest_hz| Coupled {
             potential: VonKarman::new(plate, &self.tables, &pairs),
-            modes: front,
+            modes: coupled,
             highest_hz,
         });
         let shapes = ShapeTable::new(&radial_rows(rigid, plate, &self.tables), rows.index);

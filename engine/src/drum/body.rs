@@ -7,6 +7,7 @@ use crate::damping::{Muffler, SIGMA_T60};
 use crate::mode::{Member, ModeInfo, ModeKind};
 use crate::split::Splitting;
 
+use super::mixing::{self, MixedModes};
 use super::modes::DrumModes;
 use super::spec::DrumSpec;
 use super::tuned::{PitchPosition, TunedMode};
@@ -15,8 +16,12 @@ use crate::high_band::SliceInfo;
 /// One mode of the body: which of the drum's, and which member of a pair.
 #[derive(Debug, Clone, Copy)]
 pub struct BodyMode {
-    /// Which of the drum's.
+    /// Which of the drum's; of a mixed mode, the one that it is most of.
     pub pair: usize,
+    /// Where it is among the [modes at the present pitch](super::tuned::ModeAtPitch): kept pairs, then mixed modes.
+    pub row: usize,
+    /// Which mixed mode, if it is one.
+    pub mixed: Option<usize>,
     /// Which member.
     pub member: Member,
     /// Factor on the pair's frequency.
@@ -26,14 +31,14 @@ pub struct BodyMode {
 }
 
 /// The pairs as modes of a body, `[mode]`.
-pub fn assemble(spec: &DrumSpec, drum: &DrumModes, round: bool) -> Vec<BodyMode> {
+pub fn assemble(spec: &DrumSpec, drum: &DrumModes, mixed: Option<&MixedModes>, round: bool) -> Vec<BodyMode> {
     let splitting = if round { Splitting::ROUND } else { spec.evenness };
     let angle = match spec.muffler {
         Muffler::Gel { angle, .. } => angle,
         Muffler::Pillow { .. } | Muffler::Ring { .. } => 0.0,
     };
     let mut modes = Vec::new();
-    for (pair, mode) in drum.modes.iter().enumerate() {
+    for (pair, mode) in drum.modes[..drum.kept].iter().enumerate() {
         let turn = f64::from(mode.m) * (angle - spec.evenness.axis(mode.m, 0));
         let (body, n, _) = describe(drum, mode);
         // A pair is split by what it is, not by where it stands, so that a rebuild splits it alike.
@@ -43,9 +48,15 @@ pub fn assemble(spec: &DrumSpec, drum: &DrumModes, round: bool) -> Vec<BodyMode>
                 Member::Cosine => turn.cos(),
                 Member::Sine => turn.sin(),
             };
-            modes.push(BodyMode { pair, member, detuning, gel_turn });
+            modes.push(BodyMode { pair, row: pair, mixed: None, member, detuning, gel_turn });
         }
     }
+    let even = mixing::even_modes(drum);
+    let names = mixed.into_iter().flat_map(|mixed| &mixed.names).enumerate();
+    modes.extend(names.map(|(k, &name)| {
+        let mixing::EvenMode { pair, member } = even[name as usize];
+        BodyMode { pair, row: drum.kept + k, mixed: Some(k), member, detuning: 1.0, gel_turn: 0.0 }
+    }));
     modes
 }
 
@@ -83,7 +94,12 @@ pub fn all_around(drum: &DrumModes, mode: &TunedMode, place: &PitchPosition) -> 
     if mode.m != 0 {
         return 0.0;
     }
-    let u = mode.at(place).omega * drum.heads.batter.membrane.spec().radius / SPEED_OF_SOUND;
+    long_wave(drum, mode.at(place).omega)
+}
+
+/// How much of a motion of volume at an angular frequency (rad/s) goes all around, 0 to 1.
+pub fn long_wave(drum: &DrumModes, omega: f64) -> f64 {
+    let u = omega * drum.heads.batter.membrane.spec().radius / SPEED_OF_SOUND;
     (LONG_WAVE[1] - u).clamp(0.0, LONG_WAVE[1] - LONG_WAVE[0]) / (LONG_WAVE[1] - LONG_WAVE[0])
 }
 

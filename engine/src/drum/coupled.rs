@@ -200,6 +200,7 @@ impl<'a> OrderProblem<'a> {
             share[usize::from(part.far)] += kinetic;
             sigma += kinetic * part.head.membrane.spec().loss.sigma(omega);
         }
+        sigma += self.edge_sigma(parts, omega, &vector);
         if let Some(cavity) = self.cavity {
             let springs = cavity.modes.iter().filter(|mode| mode.omega > 0.0);
             for (mode, y) in springs.zip(&vector[heads..]) {
@@ -218,6 +219,20 @@ impl<'a> OrderProblem<'a> {
         sigma += 0.5 * DENSITY * omega * radius.powi(3) * resistance;
         let monopole_area = air_load::monopole_area(radius, resistance, omega);
         CoupledMode { omega, sigma, vector, direction, share, shares, flow, outlet, monopole_area }
+    }
+
+    /// Decay rate by what the edges take from a mode of unit modal mass, 1/s: `T^2 Re Y int (dw/dn)^2 ds / (2 omega^2)`
+    /// of each head.
+    fn edge_sigma(&self, parts: &[Part], omega: f64, vector: &[f64]) -> f64 {
+        let mut pulls = [0.0; 2];
+        for (part, q) in parts.iter().zip(vector) {
+            pulls[usize::from(part.far)] += q * part.head.tension * part.head.membrane.rim_slope(part.mode);
+        }
+        let Some(edge) = self.batter.membrane.spec().edge else { return 0.0 };
+        let radius = self.batter.membrane.spec().radius;
+        let around = radius * std::f64::consts::PI * if self.m == 0 { 2.0 } else { 1.0 };
+        let square = pulls.iter().map(|pull| pull * pull).sum::<f64>();
+        0.5 * around * square * edge.mobility(omega) / (omega * omega)
     }
 
     /// Displacement of the air at an open end.

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::build_context::BuildContext;
 use crate::drum::coupled::CoupledMode;
 use crate::drum::heads::{BareHeads, MIDDLE, TunedHead, TunedHeads};
+use crate::drum::mixing::MIXED_FROM;
 use crate::drum::spec::DrumSpec;
 use crate::drum::tuned::{self, Grid, PitchPosition, TunedMode};
 use crate::error::SpecError;
@@ -29,8 +30,11 @@ const HEARD_SHARE: f64 = 1e-3;
 pub struct DrumModes {
     /// The heads.
     pub heads: TunedHeads,
-    /// The drum's modes, pairs once, lowest first at the default pitch.
+    /// The drum's modes, pairs once, lowest first at the default pitch; then those that are mixed, lowest first in the
+    /// middle of the range.
     pub modes: Vec<TunedMode>,
+    /// How many are not mixed; all, if the heads are even.
+    pub kept: usize,
 }
 
 /// The drum's modes of one order, followed through the pitches.
@@ -59,12 +63,18 @@ impl DrumModes {
         let tables = bare.tables();
         let heads = bare.tuned(spec, &tables);
         let orders = (0..=heads.orders()).zip(&tables);
-        let mut modes: Vec<TunedMode> =
+        let modes: Vec<TunedMode> =
             orders.flat_map(|(m, table)| follow_order(&heads, spec, m, table)).collect();
         let [_, default, _] = spec.pitches();
         let place = heads.scale.place(default);
+        let mixed_from = spec.tension_field.map(|_| TAU * MIXED_FROM * heads.scale.pitches()[MIDDLE]);
+        let (mut modes, mut mixed): (Vec<_>, Vec<_>) =
+            modes.into_iter().partition(|mode| mixed_from.is_none_or(|from| mode.reference.omega < from));
         modes.sort_by(|a, b| a.at(&place).omega.total_cmp(&b.at(&place).omega));
-        Ok(DrumModes { heads, modes })
+        mixed.sort_by(|a, b| a.reference.omega.total_cmp(&b.reference.omega));
+        let kept = modes.len();
+        modes.extend(mixed);
+        Ok(DrumModes { heads, modes, kept })
     }
 
     /// Volume by which a mode without nodal diameters makes the drum smaller, per modal displacement, m2: that of

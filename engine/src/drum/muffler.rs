@@ -1,8 +1,11 @@
 //! What muffling takes from a drum's modes.
 
 use crate::damping::Muffler;
+use crate::mode::Member;
 
 use super::body::BodyMode;
+use super::heads::MIDDLE;
+use super::mixing::{self, EvenMode, MixedModes};
 use super::modes::DrumModes;
 use super::spec::DrumSpec;
 use super::tuned::{ModeAtPitch, PitchPosition};
@@ -14,8 +17,15 @@ const RING_PLACES: usize = 6;
 /// What muffling takes from the modes.
 #[derive(Debug, Clone, PartialEq)]
 pub enum MufflerCoefs {
-    /// Decay rates of the heads' own motion and of the air's along the drum at full amount, 1/s.
-    Pillow(f64, f64),
+    /// A pillow.
+    Pillow {
+        /// Decay rate of the heads' own motion far above the corner at full amount, 1/s.
+        sigma: f64,
+        /// Corner, rad/s.
+        corner: f64,
+        /// Decay rate of the air's motion along the drum at full amount, 1/s.
+        flow: f64,
+    },
     /// A pad.
     Gel {
         /// Decay rate of a mode of unit square there at full amount, 1/s.
@@ -26,6 +36,8 @@ pub enum MufflerCoefs {
         dashpot: f64,
         /// The batter's radial functions there, `[batter mode]`.
         radial: Vec<f64>,
+        /// Squared shape of the mixed modes there, in the middle of the range of pitches.
+        mixed: Vec<f64>,
     },
     /// A ring.
     Ring {
@@ -37,19 +49,40 @@ pub enum MufflerCoefs {
         radius: f64,
         /// The batter's radial functions under it, `[batter mode][place]`, at places of equal area.
         radial: Vec<f64>,
+        /// Mean square of the mixed modes under it, in the middle of the range of pitches.
+        mixed: Vec<f64>,
     },
 }
 
 impl MufflerCoefs {
     /// Worked out for a drum. Allocates.
-    pub fn new(spec: &DrumSpec, drum: &DrumModes) -> MufflerCoefs {
+    pub fn new(spec: &DrumSpec, drum: &DrumModes, mixed: Option<&MixedModes>) -> MufflerCoefs {
         let membrane = spec.membrane(&spec.batter);
+        let even = mixing::even_modes(drum);
+        let middle = drum.heads.scale.place(drum.heads.scale.pitches()[MIDDLE]);
+        let batter = |pair: usize, of: &dyn Fn(usize) -> f64| -> f64 {
+            let (first, count) = drum.heads.batter.order(drum.modes[pair].m);
+            (0..count).map(|i| drum.modes[pair].share(i, &middle) * of(first + i)).sum()
+        };
         match spec.muffler {
-            Muffler::Pillow { sigma, flow } => MufflerCoefs::Pillow(sigma, flow),
-            Muffler::Gel { sigma, radius, .. } => {
+            Muffler::Pillow { sigma, corner_hz, flow } => {
+                MufflerCoefs::Pillow { sigma, corner: std::f64::consts::TAU * corner_hz, flow }
+            }
+            Muffler::Gel { sigma, radius, angle } => {
                 let film = membrane.area_density() * membrane.area();
                 let radial = drum.heads.batter.membrane.radial_shapes(&[radius]);
-                MufflerCoefs::Gel { sigma, radius, dashpot: 2.0 * film * sigma, radial }
+                let shape = |simple: usize| {
+                    let EvenMode { pair, member } = even[simple];
+                    let m = drum.modes[pair].m;
+                    let (sin, cos) = (f64::from(m) * (angle - spec.evenness.axis(m, 0))).sin_cos();
+                    let around = if member == Member::Cosine { cos } else { sin };
+                    around * batter(pair, &|i| radial[i])
+                };
+                let square = |parts: &mut dyn Iterator<Item = (usize, f64)>| {
+                    parts.map(|(simple, share)| share * shape(simple)).sum::<f64>().powi(2)
+                };
+                let mixed = of_mixed(mixed, square);
+                MufflerCoefs::Gel { sigma, radius, dashpot: 2.0 * film * sigma, radial, mixed }
             }
             Muffler::Ring { sigma, inner } => {
                 let film = membrane.area_density() * membrane.area();
@@ -58,7 +91,17 @@ impl MufflerCoefs {
                     .map(|i| (inner * inner + part(i) * (1.0 - inner * inner)).sqrt())
                     .collect();
                 let radial = drum.heads.batter.membrane.radial_shapes(&places);
-                MufflerCoefs::Ring { sigma, dashpot: 2.0 * film * sigma, radius: 0.5 * (1.0 + inner), radial }
+                // All the way around, modes of different orders do not meet, and a pair's square is half of its largest.
+                let mean = |simple: usize| {
+                    let pair = even[simple].pair;
+                    let around = if drum.modes[pair].m == 0 { 1.0 } else { 0.5 };
+                    let at = |at: usize| batter(pair, &|i| radial[i * RING_PLACES + at]).powi(2);
+                    around * (0..RING_PLACES).map(at).sum::<f64>() / RING_PLACES as f64
+                };
+                let mixed =
+                    of_mixed(mixed, |parts| parts.map(|(simple, share)| share * share * mean(simple)).sum());
+                let radius = 0.5 * (1.0 + inner);
+                MufflerCoefs::Ring { sigma, dashpot: 2.0 * film * sigma, radius, radial, mixed }
             }
         }
     }
@@ -66,7 +109,7 @@ impl MufflerCoefs {
     /// What so much of it, 0 to 1, takes from the high band.
     pub fn above(&self, amount: f64) -> HighMuffling {
         match *self {
-            MufflerCoefs::Pillow(sigma, _) => HighMuffling { even: amount * sigma, ..HighMuffling::NONE },
+            MufflerCoefs::Pillow { sigma, .. } => HighMuffling { even: amount * sigma, ..HighMuffling::NONE },
             MufflerCoefs::Gel { sigma, radius, .. } | MufflerCoefs::Ring { sigma, radius, .. } => {
                 HighMuffling { pad: (amount * sigma, radius), ..HighMuffling::NONE }
             }
@@ -75,15 +118,23 @@ impl MufflerCoefs {
 
     /// Decay rate that full muffling adds to a mode, 1/s.
     pub fn sigma(&self, mode: &BodyMode, rung: &ModeAtPitch, drum: &DrumModes, place: &PitchPosition) -> f64 {
-        match self {
-            MufflerCoefs::Pillow(sigma, flow) => sigma * (rung.batter + rung.resonant) + flow * rung.flow,
-            MufflerCoefs::Gel { dashpot, radial, .. } => {
+        match (self, mode.mixed) {
+            (
+                MufflerCoefs::Gel { dashpot, mixed, .. } | MufflerCoefs::Ring { dashpot, mixed, .. },
+                Some(k),
+            ) => dashpot * mixed[k] / (2.0 * rung.mass),
+            (MufflerCoefs::Pillow { sigma, corner, flow }, _) => {
+                let square = rung.omega * rung.omega;
+                let absorbed = sigma * square / (square + corner * corner);
+                absorbed * (rung.batter + rung.resonant) + flow * rung.flow
+            }
+            (MufflerCoefs::Gel { dashpot, radial, .. }, None) => {
                 let tuned = &drum.modes[mode.pair];
                 let (first, count) = drum.heads.batter.order(tuned.m);
                 let shape: f64 = (0..count).map(|i| tuned.share(i, place) * radial[first + i]).sum();
                 dashpot * (shape * mode.gel_turn).powi(2) / (2.0 * rung.mass)
             }
-            MufflerCoefs::Ring { dashpot, radial, .. } => {
+            (MufflerCoefs::Ring { dashpot, radial, .. }, None) => {
                 let tuned = &drum.modes[mode.pair];
                 let (first, count) = drum.heads.batter.order(tuned.m);
                 let shape = |at: usize| -> f64 {
@@ -97,4 +148,13 @@ impl MufflerCoefs {
             }
         }
     }
+}
+
+/// A value for every mixed mode, from the even modes it is made of.
+fn of_mixed(
+    mixed: Option<&MixedModes>,
+    value: impl Fn(&mut dyn Iterator<Item = (usize, f64)>) -> f64,
+) -> Vec<f64> {
+    let modes = mixed.into_iter().flat_map(|mixed| (0..mixed.len()).map(|k| mixed.mixture.parts(k)));
+    modes.map(|mut parts| value(&mut parts)).collect()
 }

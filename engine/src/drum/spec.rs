@@ -4,8 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::cavity::CavitySpec;
 use crate::contact::Material;
-use crate::damping::{LossLaw, Muffler};
+use crate::damping::{EdgeSpec, LossLaw, Muffler};
 use crate::diffraction::Outside;
+use crate::drum::tension_field::TensionFieldSpec;
 use crate::error::SpecError;
 use crate::membrane::MembraneSpec;
 use crate::numbers::{self, Numbers, Visitor};
@@ -36,6 +37,9 @@ pub struct DrumSpec {
     /// What the head is stretched over; none for a head on its own, with air on both faces.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shell: Option<ShellSpec>,
+    /// How the edge that carries the heads yields; none of one that does not.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub edge: Option<EdgeSpec>,
     /// The hoop that a stick can meet; none where it is out of reach.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hoop: Option<HoopSpec>,
@@ -46,6 +50,9 @@ pub struct DrumSpec {
     pub muffler: Muffler,
     /// How uneven its tension is.
     pub evenness: Splitting,
+    /// How uneven its heads are where modes crowd; none of heads whose orders do not mix.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tension_field: Option<TensionFieldSpec>,
     /// How tips press on its heads.
     pub contact: HeadContact,
     /// Whether it sounds above its heads' complete sets of modes; see [`high_band`](crate::high_band).
@@ -181,6 +188,9 @@ impl Numbers for DrumSpec {
         if let Some(shell) = &mut self.shell {
             shell.visit_part("shell", visitor);
         }
+        if let Some(edge) = &mut self.edge {
+            edge.visit_part("edge", visitor);
+        }
         if let Some(hoop) = &mut self.hoop {
             hoop.visit_part("hoop", visitor);
         }
@@ -189,6 +199,9 @@ impl Numbers for DrumSpec {
         }
         self.muffler.visit_part("muffler", visitor);
         self.evenness.visit_part("evenness", visitor);
+        if let Some(field) = &mut self.tension_field {
+            field.visit_part("tension_field", visitor);
+        }
     }
 }
 
@@ -230,7 +243,7 @@ impl DrumSpec {
     /// A head as a membrane.
     pub fn membrane(&self, head: &HeadSpec) -> MembraneSpec {
         let HeadSpec { thickness, plies, material, loss, .. } = *head;
-        MembraneSpec { radius: self.radius(), thickness, plies, material, loss }
+        MembraneSpec { radius: self.radius(), thickness, plies, material, loss, edge: self.edge }
     }
 
     /// The enclosed air; none of a head on its own.

@@ -10,14 +10,17 @@
 //! is `S / 4`; past the film's yield strain the tension grows no more. The potential is `A dT S / 4` up
 //! to there and a straight line in `S` beyond: never negative, and its gradient continuous.
 //!
-//! The drum's modes mix the head's, within each order. Shares are those of the
+//! The drum's modes mix the head's, within each order. Modes that are [mixed](super::mixing) of many orders stretch the head
+//! each by itself: what they are made of has nearly one wavenumber, and the sum over all of them is the same. Shares are those of the
 //! default pitch. Modes above 1.5 kHz hold next to none of a stroke's energy and are left out.
 //!
 //! Source: Berger, J. Appl. Mech. 22, 1955; Avanzini & Marogna, IEEE TASLP 18, 2010.
 
 use std::collections::BTreeMap;
 
+use crate::drum::mixing::{self, MixedModes};
 use crate::drum::modes::DrumModes;
+use crate::drum::tuned::PitchPosition;
 use crate::membrane::MembraneSpec;
 use crate::modal::simd::blocks::{Block, BlockProduct};
 use crate::modal::simd::{Kernels, LANES};
@@ -61,18 +64,26 @@ pub struct Stretch {
     /// Displacements in the order of the blocks, and their product with the matrix.
     sorted: Row,
     product: Row,
+    /// `S` of each mixed mode by itself, 1/m2; they follow the modes of the blocks.
+    mixed: Row,
+    mixed_product: Row,
 }
 
 impl Stretch {
     /// The stretch of a drum's batter; the modes of the body are the drum's below the limit at that
     /// pitch (Hz), pairs as two. Returns it with their number. Allocates.
-    pub fn new(spec: &MembraneSpec, drum: &DrumModes, pitch_hz: f64) -> (Stretch, usize) {
+    pub fn new(
+        spec: &MembraneSpec,
+        drum: &DrumModes,
+        mixed: Option<&MixedModes>,
+        pitch_hz: f64,
+    ) -> (Stretch, usize) {
         let place = drum.heads.scale.place(pitch_hz);
         let limit = std::f64::consts::TAU * LIMIT_HZ;
         // Modes with their shares times the wavenumbers, by order.
         let mut sorted: BTreeMap<u32, Vec<BentMode>> = BTreeMap::new();
         let mut count = 0;
-        for mode in drum.modes.iter().take_while(|mode| mode.at(&place).omega < limit) {
+        for mode in drum.modes[..drum.kept].iter().take_while(|mode| mode.at(&place).omega < limit) {
             let (first, heads) = drum.heads.batter.order(mode.m);
             let wave = |i: usize| drum.heads.batter.membrane.modes()[first + i].zero / spec.radius;
             let bent: Vec<f64> = (0..heads).map(|i| wave(i) * mode.share(i, &place)).collect();
@@ -99,6 +110,12 @@ impl Stretch {
         let rows = modes.into_iter().map(|(_, row)| row).collect();
         let mut matrix = zero_row(columns.len());
         matrix.copy_from_slice(&columns);
+        // The body's first modes are all kept ones, then the mixed.
+        let all_kept = drum.modes[..drum.kept].iter().all(|mode| mode.at(&place).omega < limit);
+        let mixed = mixed.filter(|_| all_kept);
+        let bent = mixed.map_or_else(Vec::new, |mixed| alone(spec, drum, mixed, &place, limit));
+        let mut alone = zero_row(bent.len());
+        alone.iter_mut().zip(&bent).for_each(|(row, bent)| *row = *bent as f32);
         let stretch = Stretch {
             stiffness: energy_factor(spec),
             yield_strain: 4.0 * YIELD_STRAIN,
@@ -108,8 +125,10 @@ impl Stretch {
             rows,
             sorted: zero_row(start),
             product: zero_row(start),
+            mixed: alone,
+            mixed_product: zero_row(bent.len()),
         };
-        (stretch, count as usize)
+        (stretch, count as usize + bent.len())
     }
 
     /// `S` at displacements `q`; leaves half its gradient in `product`, in the order of the blocks.
@@ -119,8 +138,32 @@ impl Stretch {
         }
         let Stretch { kernels, blocks, matrix, sorted, product, .. } = self;
         kernels.blocks(BlockProduct { blocks, matrix, x: sorted, y: product });
-        f64::from(self.kernels.dot(&self.sorted, &self.product))
+        let kept = f64::from(self.kernels.dot(&self.sorted, &self.product));
+        let rest = &q[self.rows.len()..];
+        self.mixed_product.iter_mut().zip(&*self.mixed).zip(rest).for_each(|((out, a), q)| *out = a * q);
+        kept + f64::from(self.kernels.dot(&self.mixed_product, rest))
     }
+}
+
+/// `S` of each mixed mode by itself up to a limit (rad/s), 1/m2, lowest first.
+fn alone(
+    spec: &MembraneSpec,
+    drum: &DrumModes,
+    mixed: &MixedModes,
+    place: &PitchPosition,
+    limit: f64,
+) -> Vec<f64> {
+    let even = mixing::even_modes(drum);
+    let square = |simple: usize| -> f64 {
+        let mode = &drum.modes[even[simple].pair];
+        let (first, heads) = drum.heads.batter.order(mode.m);
+        let wave = |i: usize| drum.heads.batter.membrane.modes()[first + i].zero / spec.radius;
+        (0..heads).map(|i| (wave(i) * mode.share(i, place)).powi(2)).sum()
+    };
+    let modes = (0..mixed.len()).take_while(|&k| mixed.at(k, place).omega < limit);
+    modes
+        .map(|k| mixed.mixture.parts(k).map(|(simple, share)| share * share * square(simple)).sum())
+        .collect()
 }
 
 /// `A E h / (16 (1 - nu))`, J.
@@ -141,6 +184,8 @@ impl Potential for Stretch {
         for (gradient, &row) in gradient.iter_mut().zip(&self.rows) {
             *gradient = factor * self.product[row as usize];
         }
+        let rest = gradient[self.rows.len()..].iter_mut();
+        rest.zip(&*self.mixed_product).for_each(|(gradient, product)| *gradient = factor * product);
         Evaluation { energy, depth: 0.0 }
     }
 }
@@ -154,7 +199,7 @@ mod tests {
     fn the_gradient_is_that_of_the_energy_below_and_beyond_yield() {
         let spec = reference::drum("rack-tom");
         let drum = DrumModes::new(&spec).unwrap();
-        let (mut stretch, modes) = Stretch::new(&spec.membrane(&spec.batter), &drum, spec.pitch_hz);
+        let (mut stretch, modes) = Stretch::new(&spec.membrane(&spec.batter), &drum, None, spec.pitch_hz);
         let mut gradient = zero_row(modes);
         let mut scratch = zero_row(modes);
         for size in [1e-4_f32, 3e-3, 3e-2] {

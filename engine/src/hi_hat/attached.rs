@@ -15,7 +15,7 @@ use super::settling::Settled;
 /// Contacts of strikers and of rims.
 const MOST: usize = STRIKER_PLACES + POINTS;
 
-/// A striker farther off than this does not meet the surface within a sample, m.
+/// A striker farther away than this does not reach the surface within a sample, m.
 const APART: f64 = 1e-3;
 
 impl Pair {
@@ -105,7 +105,7 @@ impl Attachment for Pair {
     }
 
     fn preload_offset(&self, point: usize, coupling: f64, free: &FreeStep) -> f64 {
-        self.eases_striker(point, coupling, free.divisor)
+        self.preload_offset_at(point, coupling, free.divisor)
     }
 
     fn solve(&mut self, contacts: &mut Contacts, free: &FreeStep) -> bool {

@@ -1,46 +1,46 @@
-//! The foot on the pedal: how the rod gets from where it is to where it is asked to be.
+//! The foot on the pedal, which moves the rod to its goal.
 //!
-//! Model: foot and pedal are a mass on a critically damped spring, the leg, that no force from above stops;
-//! and a foot has a fastest speed. A pedal that is sent in steps, as controllers do, thus moves smoothly and as
-//! fast as the steps come, and how hard two cymbals meet follows from how fast they are brought together.
+//! Model: foot and pedal are a mass on a critically damped spring, the leg. Forces of the cymbals do not act on it. A foot has a
+//! largest speed. A pedal that is moved in steps, as controllers do, therefore moves smoothly and as fast as the steps come. The
+//! speed of the rod determines the force between the cymbals.
 //!
-//! Coordinates: `y` is how far the rod is down from where the pedal is up, m.
+//! Coordinates: `y` is the way of the rod down from the raised pedal, m.
 
 use crate::fitted;
 
 /// Stiffness of the leg over the mass it moves, as a rate, 1/s. *By ear*: half a movement takes 8 ms, short
-/// enough to be played, long enough that no step of a controller is heard.
+/// enough to be played, long enough that the steps of a controller are inaudible.
 const LEG: f64 = fitted::LEG_RATE;
 
 /// Slowest, default and fastest speed of a foot, m/s. *Derived*: from lowering it to a stamp; a foot falls the
 /// 3 cm between open and closed at 0.8 m/s by itself.
 pub const SPEED: (f64, f64, f64) = (0.02, 1.0, 2.5);
 
-/// So close (m) and so slow (m/s) is there.
+/// Distance (m) and speed (m/s) below which the goal counts as reached.
 const THERE: (f64, f64) = (1e-7, 1e-5);
 
 /// A foot and the rod it moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Foot {
-    /// Place of the rod, m.
+    /// Position of the rod, m.
     y: f64,
     /// Its speed, m/s.
     v: f64,
     target: f64,
     fastest: f64,
     turn: Option<Turn>,
-    /// Where a stamp ends, m.
+    /// End of a stamp, m.
     end: Option<f64>,
 }
 
-/// Where to turn, and where to go then, m.
+/// Turning point, and the goal after it, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Turn {
     at: f64,
     then: f64,
-    /// Whether the way to the turn is down.
+    /// Whether the motion to the turning point is down.
     down: bool,
-    /// Whether the way from there is a stamp.
+    /// Whether the motion after it is a stamp.
     stamps: bool,
 }
 
@@ -50,29 +50,29 @@ impl Foot {
         Foot { y, v: 0.0, target: y, fastest: SPEED.1, turn: None, end: None }
     }
 
-    /// How far down the rod is, m.
+    /// Way of the rod down, m.
     pub fn place(&self) -> f64 {
         self.y
     }
 
-    /// How fast it goes down, m/s.
+    /// Speed of the rod, positive down, m/s.
     pub fn speed(&self) -> f64 {
         self.v
     }
 
-    /// Whether it moves or is about to.
+    /// Whether it moves or will move.
     pub fn moves(&self) -> bool {
         self.y != self.target || self.v != 0.0
     }
 
-    /// Sets out for a place (m) at up to a speed (m/s).
+    /// Moves to a position (m) at up to a speed (m/s).
     pub fn go(&mut self, target: f64, fastest: f64) {
         (self.target, self.fastest) = (target, fastest.clamp(SPEED.0, SPEED.2));
         (self.turn, self.end) = (None, None);
     }
 
-    /// Goes down to a place (m) at up to a speed (m/s) and does not slow down before: what is there stops it. One
-    /// that is lower than `from` (m) goes up there first.
+    /// Moves down to a position (m) at up to a speed (m/s) without slowing down before it. A foot that is lower than `from` (m)
+    /// moves up there first.
     pub fn stamp(&mut self, from: f64, target: f64, fastest: f64) {
         if self.y > from {
             self.turn(from, target, fastest);
@@ -83,22 +83,22 @@ impl Foot {
         }
     }
 
-    /// Goes past `at` (m) at up to a speed (m/s), and from there at once to `then` (m).
+    /// Moves past `at` (m) at up to a speed (m/s), and from there at once to `then` (m).
     pub fn turn(&mut self, at: f64, then: f64, fastest: f64) {
         let down = at > self.y;
-        // Aimed beyond, so as not to slow down before the turn.
+        // The goal lies past the turning point, so that the foot does not slow down before it.
         let beyond = 2.0 * fastest / LEG;
         self.go(if down { at + beyond } else { at - beyond }, fastest);
         self.turn = Some(Turn { at, then, down, stamps: false });
     }
 
-    /// Is there at once.
+    /// Takes a position at once.
     pub fn jump(&mut self) {
         self.target = self.turn.take().map(|turn| turn.then).or(self.end.take()).unwrap_or(self.target);
         (self.y, self.v) = (self.target, 0.0);
     }
 
-    /// Lets a sample pass.
+    /// Advances by a sample.
     pub fn step(&mut self, dt: f64) {
         if !self.moves() {
             return;

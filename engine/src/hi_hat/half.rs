@@ -1,9 +1,9 @@
-//! One cymbal of a hi-hat, as its two halves need it: modes, their shapes, what is heard, what the rim feels.
+//! One cymbal of a hi-hat: modes, mode shapes, transfers, and shapes at the rim.
 //!
-//! Model: a [cymbal](crate::cymbal) without its stand: it moves as a whole by [`Rigid`](super::rigid::Rigid).
+//! Model: a [cymbal](crate::cymbal) without its stand. Its rigid motion is in [`Rigid`](super::rigid::Rigid).
 //!
-//! Order of the modes: the lowest first, for whoever draws; then those that hard strokes couple, then all others,
-//! each part by what the rim can tell apart (see [`RimHarmonics`]).
+//! Order of the modes: the lowest, which the editor draws; then those that hard strokes couple; then all others. Each part is
+//! sorted by the class at the rim (see [`RimHarmonics`]).
 
 use crate::build_context::BuildContext;
 use crate::cymbal::assembly::{CymbalPlate, Ordered, PlateShapes};
@@ -20,14 +20,14 @@ use crate::snapshot::FIELD_MODES;
 use super::rigid::Mount;
 use super::rim_points::POINTS;
 
-/// How a mode is to be damped.
+/// Damping of the modes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Damping {
     /// Muffling, 0 to 1.
     pub muffling: f64,
-    /// How firmly a hand holds it, 0 to 1.
+    /// Firmness of a hand that holds it, 0 to 1.
     pub hand: f64,
-    /// How much the rims rub, 0 to 1.
+    /// Amount of rubbing of the rims, 0 to 1.
     pub rubbing: f64,
     /// Nothing is lost.
     pub lossless: bool,
@@ -37,12 +37,12 @@ pub struct Damping {
 pub struct Half {
     /// Its modes.
     pub cymbal: CymbalModes,
-    /// What the rim feels of each.
+    /// Shapes of the modes at the rim.
     pub folded: RimHarmonics,
     rubbing: LossLaw,
 }
 
-/// What a shell mode is to the order of the modes.
+/// Rank of a shell mode in the order of the modes.
 struct Ranked {
     shell: usize,
     /// Lowest, coupled, rest; then by class.
@@ -102,10 +102,10 @@ fn order(plate: &CymbalPlate<'_>) -> Vec<Ordered> {
     };
     let mut ranked: Vec<Ranked> = plate.shells().iter().enumerate().map(rank).collect();
     ranked.sort_by_key(|mode| mode.rank);
-    ranked.iter().map(|mode| Ordered { shell: mode.shell, in_front: mode.rank.0 < 2 }).collect()
+    ranked.iter().map(|mode| Ordered { shell: mode.shell, is_coupled: mode.rank.0 < 2 }).collect()
 }
 
-/// The class of an order at [`POINTS`] places, and the sign of its sine there.
+/// The class of an order at [`POINTS`] points, and the sign of its sine there.
 fn class_of(m: u32) -> (usize, f64) {
     let rest = m as usize % POINTS;
     if rest <= POINTS / 2 { (rest, 1.0) } else { (POINTS - rest, -1.0) }
@@ -119,7 +119,7 @@ fn share(m: u32, member: Member, axis: f64, at_rim: f64) -> (usize, [f64; 2]) {
         Member::Cosine => (cos, sin),
         Member::Sine => (-sin, cos),
     };
-    // At these places the sines of the first and the last class vanish.
+    // At these points the sines of the first and the last class are zero.
     let sine = if class == 0 || class == POINTS / 2 { 0.0 } else { sign * s };
     (class, [at_rim * c, at_rim * sine])
 }

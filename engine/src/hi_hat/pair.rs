@@ -1,28 +1,27 @@
-//! Two cymbals face to face: the lower one, how both move as a whole, and the places where their rims meet.
+//! A pair of cymbals: the lower one, the rigid motion of both, and the contacts of their rims.
 //!
-//! Displacements are positive downward. At [`POINTS`] places around the rim the upper cymbal overlaps the lower one by
+//! Displacements are positive downward. At [`POINTS`] points around the rim the upper cymbal overlaps the lower one by
 //!
 //! ```text
 //! d_j = w_top(j) - w_bottom(j) + bend_j - depth_j
 //! ```
 //!
-//! with `w` both the cymbals' motion as a whole and their shells' bending, `depth` how far the lower rim is below the
-//! upper one while the pedal is up, and presses with `F_j` by the law of every contact.
+//! with `w` the sum of rigid motion and shell deflection, and `depth` the gap of the rims while the pedal is up. The force is
+//! `F_j` by the law of every contact.
 //!
-//! Shells are measured from where the clamping has bent them, as snare wires are from where the strainer
-//! holds them: with `P_j` the forces in [static equilibrium](crate::contact::static_equilibrium) at the present place of the rod and `bend` what
-//! they bend, a shell moves by `F_j - P_j` only. Clamped cymbals that are still are exactly still, and nothing is
-//! lost of the small in the large. Held by a still pedal, all of this keeps its energy to rounding. `P` and `bend`
-//! follow a moving pedal over a block; what they and the rod change of the energy is the
-//! [pedal's work](Pair::pedal_work).
+//! The shells' displacements are measured from their static deflection under the clamping, as those of snare wires are from the
+//! strainer's. Let `P_j` be the forces in [static equilibrium](crate::contact::static_equilibrium) at the present position of the
+//! rod, and `bend` the deflection by them. A shell then moves under `F_j - P_j` only. Clamped cymbals at rest are exactly at rest,
+//! and small motion keeps its precision. With a still pedal the energy is conserved to rounding. `P` and `bend` follow a moving
+//! pedal over a block. The change of energy by them and by the rod is the [pedal's work](Pair::pedal_work).
 //!
-//! A touch that lasts becomes as lossy as one between rims at rest: pads of dirt and a film of air lie between them, and
-//! they rub. What they lose in all is one number.
+//! The loss of a lasting contact approaches that of rims at rest, which have dirt and air between them and rub. One number stands
+//! for all of these losses.
 //!
-//! Contacts cost nothing while the rims cannot meet: what both could reach at most is less than the way.
+//! Contacts cost nothing while the largest possible motion of both rims is smaller than the gap.
 //!
-//! Neglected: the clutch's and the seat's grip on the shells beyond their losses (they hold the mean
-//! displacement); motion along the rims; the air between.
+//! Neglected: the stiffness of clutch and seat against deflection of the shells (they hold the mean displacement); motion along
+//! the rims; the air between.
 
 mod pedal;
 mod rest;
@@ -45,28 +44,28 @@ use pedal::Pedal;
 use state::{Dynamics, RimState, StrikerPlace};
 use statics::{Balance, Statics};
 
-/// What a pair is made from.
+/// Parts of a pair.
 pub struct PairParts {
     /// The lower cymbal's modes.
     pub bottom: Vec<Mode>,
-    /// How they are heard from near and from far away, as at a metre, Pa s2/m of their acceleration, real and
+    /// Their transfers to the near receiver and to the far one, at a metre, Pa s2/m of their acceleration, real and
     /// imaginary part.
     pub transfers: [Vec<[f64; 2]>; 2],
-    /// What the rims feel of the modes of the upper and of the lower cymbal.
+    /// Shapes of the modes of the upper and the lower cymbal at the rim.
     pub folded: [RimHarmonics; 2],
-    /// Both as stiff bodies.
+    /// Both as rigid bodies.
     pub rigid: [Rigid; 2],
-    /// The law of every place.
+    /// The law of every point.
     pub law: ContactLaw,
-    /// Loss of a touch that lasts, s/m.
+    /// Loss of a lasting contact, s/m.
     pub lasting_loss: f64,
-    /// How far the lower rim is below the upper one while the pedal is up, m.
+    /// Gap of the rims while the pedal is up, m.
     pub depth: [f64; POINTS],
     /// Hz.
     pub sample_rate: f64,
 }
 
-/// The lower cymbal and all that is between it and the upper one.
+/// The lower cymbal and its contacts with the upper one.
 pub struct Pair {
     /// The lower shell.
     pub(super) lower: SoundingBody,
@@ -77,7 +76,7 @@ pub struct Pair {
     pub(super) rims: RimState,
     pub(super) pedal: Pedal,
     pub(super) strikers: [StrikerPlace; STRIKER_PLACES],
-    /// Whether both are at rest as stiff bodies.
+    /// Whether both are at rest as rigid bodies.
     pub(super) still: bool,
     /// Whether rims may meet.
     pub(super) engaged: bool,
@@ -117,12 +116,12 @@ impl Pair {
         &mut self.lower.modal
     }
 
-    /// Upper and lower cymbal as stiff bodies.
+    /// Upper and lower cymbal as rigid bodies.
     pub fn rigid(&self) -> &[Rigid; 2] {
         &self.rigid
     }
 
-    /// Upper and lower cymbal as stiff bodies, to be set up by tests.
+    /// Upper and lower cymbal as rigid bodies, to be set up by tests.
     pub fn rigid_mut(&mut self) -> &mut [Rigid; 2] {
         &mut self.rigid
     }
@@ -132,27 +131,27 @@ impl Pair {
         &self.pedal.foot
     }
 
-    /// The foot on the pedal, to be sent somewhere.
+    /// The foot on the pedal, to be moved.
     pub fn foot_mut(&mut self) -> &mut Foot {
         &mut self.pedal.foot
     }
 
-    /// Forces at the places now, N.
+    /// Present forces at the rim points, N.
     pub fn forces(&self) -> &[f64; POINTS] {
         &self.rims.force
     }
 
-    /// Force that clamps the rims together in balance, N.
+    /// Static force that clamps the rims together, N.
     pub fn clamped(&self) -> f64 {
         self.pedal.rest.preload.iter().sum()
     }
 
-    /// Work of the pedal since the last reset beyond what it takes to bring resting cymbals from one rest to another, J.
+    /// Work of the pedal since the last reset, less the change of the static energy, J.
     pub fn pedal_work(&self) -> f64 {
         self.pedal.work
     }
 
-    /// Landings at the rims since the latest stroke, places apart now, and when one last lifted off.
+    /// Landings at the rims since the latest stroke, points open at present, and the time of the last lift.
     pub fn landings(&self) -> RimSnapshot {
         RimSnapshot {
             landings: self.rims.landings,
@@ -183,11 +182,11 @@ impl Pair {
         let bodies = [(top, receiver), (&self.lower.modal, &self.lower.receiver)];
         let changed = self.statics.follow(bodies.map(|(body, _)| body), &self.folded, &self.rigid);
         self.dynamics.follow(bodies, &self.folded, &self.rigid, &self.statics.weights);
-        self.dynamics.ease(&self.pedal.rest.preload);
+        self.dynamics.update_offset(&self.pedal.rest.preload);
         if !changed {
             return;
         }
-        // The balance is another one too: what rests is there at once, what moves is led there.
+        // The equilibrium changes too. Cymbals at rest take it at once; moving ones are led there.
         if self.still {
             self.come_to_rest();
         } else {
@@ -200,7 +199,7 @@ impl Pair {
         self.statics.clamping(y, &self.rims.law, &self.rigid)
     }
 
-    /// Comes to rest with the foot where it is to go; shells as they are.
+    /// Comes to rest with the foot at its goal; the shells stay as they are.
     pub fn come_to_rest(&mut self) {
         self.pedal.foot.jump();
         let Balance { rest, places, compression } = self.statics.balance(
@@ -215,10 +214,10 @@ impl Pair {
         self.rims.touching = compression.map(|d| d > 0.0);
         self.rims.lambda = [self.rims.lasting_loss; POINTS];
         (self.engaged, self.still) = (false, true);
-        self.dynamics.ease(&rest.preload);
+        self.dynamics.update_offset(&rest.preload);
     }
 
-    /// Overlap at the places with both shells as they are, m.
+    /// Overlap at the rim points with the present deflection of both shells, m.
     pub(super) fn overlaps(&self, top: &ModalBody) -> [f64; POINTS] {
         let mut shells = top.folded_displacement(&self.folded[0]);
         let below = self.lower.modal.folded_displacement(&self.folded[1]);
@@ -230,14 +229,14 @@ impl Pair {
         std::array::from_fn(|j| shells[j] + self.apart(j))
     }
 
-    /// What of the overlap is not the shells' motion, m.
+    /// Overlap without the shells' motion, m.
     fn apart(&self, j: usize) -> f64 {
         let weights = &self.statics.weights[j];
         self.rigid[0].at(weights) - self.rigid[1].at(weights) + self.pedal.rest.bend[j]
             - self.statics.depth[j]
     }
 
-    /// Takes care of the rims from now on, until the next look at it, once a block, says otherwise.
+    /// Solves the rims' contacts from now on, until the check of a block finds them apart.
     pub fn engage(&mut self, top: &ModalBody) {
         self.still = false;
         if !self.engaged {
@@ -246,12 +245,12 @@ impl Pair {
         }
     }
 
-    /// Whether any place touches.
+    /// Whether any rim point touches.
     pub fn is_touching(&self) -> bool {
         self.rims.touching.contains(&true)
     }
 
-    /// Energy beyond that of rest, J: of the lower shell, of both cymbals as a whole and of the contacts.
+    /// Energy above that at rest, J: of the lower shell, of the rigid motion of both cymbals, and of the contacts.
     pub(super) fn held_energy(&self) -> f64 {
         self.lower.modal.energy() + self.held()
     }

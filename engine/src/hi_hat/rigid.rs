@@ -1,8 +1,8 @@
-//! A cymbal moving as a whole on its rod or seat: up and down, and tilting either way.
+//! Rigid motion of a cymbal on its rod or seat: heave and two tilts.
 //!
 //! Model: three masses on springs. In units of the tilt's displacement `q`, of unit mean square over the disc,
-//! the disc moves by `2 r q cos(theta)` at the share `r` of its radius, and `q` has the mass of the cymbal. In
-//! `f64`, for the way down to the other cymbal is ten thousand times what their contacts give.
+//! the disc moves by `2 r q cos(theta)` at the share `r` of its radius, and `q` has the mass of the cymbal. The state is
+//! `f64`, as the distance to the other cymbal is ten thousand times a compression of their contacts.
 
 use std::f64::consts::TAU;
 
@@ -11,10 +11,10 @@ use serde::{Deserialize, Serialize};
 use crate::numbers::{Numbers, Visitor};
 use crate::surface::oscillator::Oscillator;
 
-/// How much a place feels of heave and of both tilts: shares.
+/// Weights of heave and both tilts at a point.
 pub type Weights = [f64; 3];
 
-/// What holds a cymbal at its centre: felts, as springs and dampers.
+/// Mount of a cymbal at its centre: felts, as springs and dampers.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Mount {
@@ -41,7 +41,7 @@ impl Numbers for Mount {
     }
 }
 
-/// A cymbal as a stiff body on its mount.
+/// A cymbal as a rigid body on its mount.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rigid {
     parts: [Oscillator; 3],
@@ -62,13 +62,13 @@ impl Rigid {
         }
     }
 
-    /// What a place at `radius` (share of it) in direction `angle` (rad) feels.
+    /// Weights of the point at `radius` (share of it) in direction `angle` (rad).
     pub fn weights(radius: f64, angle: f64) -> Weights {
         let (sin, cos) = angle.sin_cos();
         [1.0, 2.0 * radius * cos, 2.0 * radius * sin]
     }
 
-    /// Displacement of a place, m.
+    /// Displacement of a point, m.
     pub fn at(&self, weights: &Weights) -> f64 {
         self.parts.iter().zip(weights).map(|(part, weight)| part.q * weight).sum()
     }
@@ -78,7 +78,7 @@ impl Rigid {
         self.parts.map(|part| part.q)
     }
 
-    /// Is at rest there, m.
+    /// Puts it to rest at this heave and these tilts, m.
     pub fn put(&mut self, place: &[f64; 3]) {
         for (part, &q) in self.parts.iter_mut().zip(place) {
             (part.q, part.v) = (q, 0.0);
@@ -90,12 +90,12 @@ impl Rigid {
         self.parts.iter_mut().zip(speed).for_each(|(part, v)| part.v = v);
     }
 
-    /// How far a unit force held over a sample at one place has moved another by its end, m/N.
+    /// One-sample compliance between two points, m/N.
     pub fn compliance(&self, a: &Weights, b: &Weights) -> f64 {
         self.parts.iter().zip(a.iter().zip(b)).map(|(part, (a, b))| a * b * part.compliance()).sum()
     }
 
-    /// How far a steady unit force at one place moves another, m/N.
+    /// Static compliance between two points, m/N.
     pub fn steady_compliance(&self, a: &Weights, b: &Weights) -> f64 {
         self.stiffness.iter().zip(a.iter().zip(b)).map(|(stiffness, (a, b))| a * b / stiffness).sum()
     }
@@ -105,19 +105,19 @@ impl Rigid {
         self.parts.iter_mut().for_each(Oscillator::step);
     }
 
-    /// Adds what a force (N), held over the sample just stepped, did.
+    /// Adds the effect of a force (N) held over the sample just stepped.
     pub fn push(&mut self, weights: &Weights, force: f64) {
         self.parts.iter_mut().zip(weights).for_each(|(part, weight)| part.push(weight * force));
     }
 
-    /// Force with which the mount, held at `y` and moving at `v`, draws the heave, N, beside the spring
-    /// to zero that the body has of itself; and of it the damper's share.
+    /// Force of the mount on the heave, N, with the mount at `y` moving at `v`, in addition to the body's own spring to zero; and
+    /// the damper's share of it.
     pub fn drawn(&self, y: f64, v: f64) -> (f64, f64) {
         let damper = self.damping * v;
         (self.stiffness[0] * y + damper, damper)
     }
 
-    /// Adds what many forces at once did, summed as each part feels them (N).
+    /// Adds the effect of several forces, summed with the weights of each part, N.
     pub fn push_parts(&mut self, forces: &Weights) {
         self.parts.iter_mut().zip(forces).for_each(|(part, force)| part.push(*force));
     }
@@ -128,8 +128,7 @@ impl Rigid {
         absolute + self.stiffness[0] * y * (0.5 * y - self.parts[0].q)
     }
 
-    /// No place on the rim will be farther from where the cymbal rests with its mount at `y` than this, m, if left
-    /// alone.
+    /// Largest distance, m, of any point on the rim from its rest position with the mount at `y`, if nothing else acts.
     pub fn reach(&self, y: f64) -> f64 {
         let far = |part: &Oscillator, stiffness: f64, rest: f64| {
             let spring = stiffness * (0.5 * rest * rest - rest * part.q);
@@ -140,7 +139,7 @@ impl Rigid {
         far(heave, k_heave, y) + 2.0 * far(x, k_x, 0.0).hypot(far(z, k_z, 0.0))
     }
 
-    /// Whether all is a number.
+    /// Whether all values are finite.
     pub fn is_finite(&self) -> bool {
         self.parts.iter().all(|part| part.q.is_finite() && part.v.is_finite())
     }

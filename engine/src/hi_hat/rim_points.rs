@@ -1,16 +1,16 @@
-//! Places around a rim, and the classes of waves that they can tell apart.
+//! Points around a rim, and the classes of waves that they distinguish.
 
 use std::f64::consts::TAU;
 
 use crate::modal::rim_harmonics::ClassCompliances;
 use crate::modal::simd::rim_harmonics::{Amplitudes, MAX_CLASSES};
 
-/// Places around the rims where they may touch.
+/// Points around the rims where they may touch.
 pub const POINTS: usize = 16;
 
 const _: () = assert!(POINTS / 2 < MAX_CLASSES);
 
-/// Direction of a place, rad.
+/// Direction of a point, rad.
 pub fn angle(place: usize) -> f64 {
     TAU * place as f64 / POINTS as f64
 }
@@ -18,9 +18,9 @@ pub fn angle(place: usize) -> f64 {
 /// Classes of waves.
 const CLASSES: usize = POINTS / 2 + 1;
 
-/// Cosine and sine of every class's wave, `[class][cosine, sine][place]`.
+/// Cosine and sine of every class's wave, `[class][cosine, sine][point]`.
 static WAVES: [[[f64; POINTS]; 2]; CLASSES] = {
-    // Of pi / 8 and its multiples; all others by symmetry.
+    // Multiples of pi / 8; all others by symmetry.
     const A: f64 = 0.923_879_532_511_286_8;
     const B: f64 = std::f64::consts::FRAC_1_SQRT_2;
     const C: f64 = 0.382_683_432_365_089_8;
@@ -41,7 +41,7 @@ static WAVES: [[[f64; POINTS]; 2]; CLASSES] = {
     waves
 };
 
-/// What amplitudes amount to at each place, in their units.
+/// Values at each point from the amplitudes, in the same unit.
 #[inline(always)]
 pub fn at_points(amplitudes: &Amplitudes) -> [f64; POINTS] {
     let mut out = [0.0; POINTS];
@@ -54,7 +54,7 @@ pub fn at_points(amplitudes: &Amplitudes) -> [f64; POINTS] {
     out
 }
 
-/// What forces at the places (N) amount to on each amplitude.
+/// Forces on each amplitude from forces at the points, N.
 #[inline(always)]
 pub fn amplitudes(forces: &[f64; POINTS]) -> Amplitudes {
     let mut out = Amplitudes::default();
@@ -71,13 +71,13 @@ pub fn amplitudes(forces: &[f64; POINTS]) -> Amplitudes {
     out
 }
 
-/// Compliance between each two places, m/N.
+/// Compliance between each two points, m/N.
 pub fn between_points(classes: &ClassCompliances) -> [[f64; POINTS]; POINTS] {
     let mut out = [[0.0; POINTS]; POINTS];
-    for (yields, waves) in classes.iter().zip(&WAVES) {
+    for (compliance, waves) in classes.iter().zip(&WAVES) {
         for (i, row) in out.iter_mut().enumerate() {
             for (j, out) in row.iter_mut().enumerate() {
-                let to = |k: usize| yields[k][0] * waves[0][j] + yields[k][1] * waves[1][j];
+                let to = |k: usize| compliance[k][0] * waves[0][j] + compliance[k][1] * waves[1][j];
                 *out += waves[0][i] * to(0) + waves[1][i] * to(1);
             }
         }

@@ -1,31 +1,31 @@
-//! What is looked at once a block in a [`Pair`]: whether its rims may meet, whether it rests.
+//! Check of a [`Pair`] once a block: whether its rims may meet, whether it rests.
 
 use crate::modal::ModalBody;
 
 use super::pair::Pair;
 use super::rigid::Rigid;
 
-/// Way that a striker may push the rim within a block: at least, m, and of one that is fast, over its own. *Derived*: 5 m/s
-/// for a millisecond; a light body leaves a heavy one at up to twice its speed.
+/// Distance by which a striker may push the rim within a block: at least, m, and relative to its own. *Derived*: 5 m/s for a
+/// millisecond; a light body leaves a heavy one at up to twice its speed.
 const PUSHED: (f64, f64) = (5e-3, 2.0);
 
-/// Energy under which cymbals that touch are at rest, J: 10 dB under what a piece sleeps at.
+/// Energy below which touching cymbals are at rest, J: 10 dB below that at which a piece sleeps.
 const STILL: f64 = 1e-11;
 
-/// What a block's look has found.
+/// Result of the check.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Settled {
     /// Something moves.
     Moving,
-    /// The cymbals rest on each other; the upper shell is to be put to rest too.
+    /// The cymbals rest on each other; the caller resets the upper shell.
     Parked,
-    /// A value is not a number.
+    /// A value is not finite.
     Broken,
 }
 
 impl Pair {
-    /// Once a block: follows the rod, zeroes what has decayed, looks whether rims may meet. The fastest of the strikers
-    /// about the upper cymbal, if there are any, comes so far (m) in a block.
+    /// Called once a block: follows the rod, zeroes what has decayed, and checks whether the rims may meet. `way` is the distance
+    /// (m) that the fastest striker of the upper cymbal, if there is one, moves in a block.
     ///
     /// # Real-time
     /// Linear in the number of modes, and some microseconds while the pedal moves.
@@ -65,7 +65,7 @@ impl Pair {
         Settled::Moving
     }
 
-    /// Whether the rims might meet if left alone, or brought nearer by so much (m).
+    /// Whether the rims may meet by themselves, or if brought nearer by so much (m).
     fn may_meet(&self, top: &ModalBody, nearer: f64) -> bool {
         let y = self.pedal.foot.place();
         let nearest = self.statics.nearest() - y - nearer;

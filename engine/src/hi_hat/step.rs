@@ -1,8 +1,8 @@
 //! One sample of a [`Pair`]: both cymbals step freely, then the rims' forces are found together with the strikers'
 //! (see [the solver](crate::contact::solver)).
 //!
-//! Signs: a striker presses the upper cymbal down, a place of the rim presses it up and the lower one down. What
-//! the force beyond the upper cymbal's modes has to do with a contact is counted as that contact presses.
+//! Signs: a striker presses the upper cymbal down. A rim point presses it up and the lower one down. The coupling of a contact
+//! with the upper cymbal's nonlinear force is positive in the direction in which that contact presses.
 
 use crate::contact::ContactStep;
 use crate::contact::solver::uniform::UniformContacts;
@@ -18,19 +18,19 @@ use super::rigid::Rigid;
 use super::rim_points;
 use super::rim_points::POINTS;
 
-/// Time in which a touch becomes as lossy as one that lasts, s. *By ear*.
+/// Time constant in which the loss of a contact becomes that of a lasting one, s. *By ear*.
 const SETTLING: f64 = fitted::HAT_SETTLING;
 
-/// A place less open than this may close in a sample, m. *Derived*: what 5 m/s does in one.
+/// A gap smaller than this may close within a sample, m. *Derived*: the way of 5 m/s in a sample.
 const MARGIN: f64 = 2e-4;
 
 impl Pair {
-    /// A striker comes down at `radius` (share of it) in direction `angle` (rad).
+    /// Sets the position of a striker: `radius` as a share of the radius, `angle` in rad.
     pub(super) fn put_striker(&mut self, point: usize, radius: f64, angle: f64) {
         self.strikers[point].weights = Rigid::weights(radius, angle);
     }
 
-    /// Follows a change of a striker's port.
+    /// Updates the compliances of a striker after a change of its input vector.
     pub(super) fn connect_striker(&mut self, point: usize, top: &ModalBody, port: &InputVector) {
         let shell = rim_points::at_points(&top.folded_compliance(&self.folded[0], port));
         let place = &mut self.strikers[point];
@@ -40,9 +40,9 @@ impl Pair {
         }
     }
 
-    /// How far the preloads, which the upper shell is measured from, ease a striker's contact, m; `coupling` and
-    /// `divisor` tell of the force beyond the modes.
-    pub(super) fn eases_striker(&self, point: usize, coupling: f64, divisor: f64) -> f64 {
+    /// Offset of a striker's contact by the preloads, from which the upper shell's displacement is measured, m. `coupling` and
+    /// `divisor` are those of the nonlinear force.
+    pub(super) fn preload_offset_at(&self, point: usize, coupling: f64, divisor: f64) -> f64 {
         let place = &self.strikers[point];
         let shell: f64 = place.shell.iter().zip(&self.pedal.rest.preload).map(|(y, p)| y * p).sum();
         shell - coupling * self.preloads_coupled() / divisor
@@ -52,14 +52,14 @@ impl Pair {
         self.dynamics.coupling.iter().zip(&self.pedal.rest.preload).map(|(u, p)| u * p).sum()
     }
 
-    /// Follows the force beyond the upper cymbal's modes; without one nothing is coupled.
+    /// Updates the coupling with the upper cymbal's nonlinear force; without one it is zero.
     pub(super) fn couple_with(&mut self, top: &ModalBody, force: Option<&NonlinearForce>) {
         self.dynamics.coupling = force.map_or([0.0; POINTS], |force| {
             rim_points::at_points(&force.folded_coupling(top, &self.folded[0])).map(|q| -q)
         });
     }
 
-    /// The pedal moves on: rod, preloads and what they bend.
+    /// Advances the pedal: the rod, the preloads and the static deflection.
     fn follow_pedal(&mut self) {
         if !self.pedal.moves() {
             return;
@@ -70,13 +70,13 @@ impl Pair {
             for (j, d) in self.rims.compression.iter_mut().enumerate() {
                 *d += self.pedal.rest.bend[j] - old[j];
             }
-            self.dynamics.ease(&self.pedal.rest.preload);
+            self.dynamics.update_offset(&self.pedal.rest.preload);
         }
         self.pedal.work += self.held() - before;
     }
 
-    /// Steps both as stiff bodies, and the lower shell if rims may meet. The upper one has stepped; `mean` (m) and
-    /// the dimensionless `divisor` tell of the force beyond its modes.
+    /// Steps both cymbals as rigid bodies, and the lower shell if the rims may meet. The upper shell has stepped before; `mean`
+    /// (m) and the dimensionless `divisor` are those of its nonlinear force.
     pub(super) fn step_free(&mut self, top: &ModalBody, mean: f64, divisor: f64) {
         self.follow_pedal();
         self.pedal.from = self.rigid[0].place()[0];
@@ -90,9 +90,9 @@ impl Pair {
         }
         self.lower.modal.step();
         let overlaps = self.overlaps(top);
-        let beyond = mean - self.preloads_coupled() / divisor;
+        let nonlinear = mean - self.preloads_coupled() / divisor;
         for (j, overlap) in overlaps.into_iter().enumerate() {
-            let free = overlap + self.dynamics.preload_offset[j] + self.dynamics.coupling[j] * beyond;
+            let free = overlap + self.dynamics.preload_offset[j] + self.dynamics.coupling[j] * nonlinear;
             if !self.rims.touching[j] && free > 0.0 {
                 self.rims.lambda[j] = self.rims.law.lambda((free - self.rims.compression[j]) / self.dt);
             } else if self.rims.touching[j] {
@@ -124,12 +124,12 @@ impl Pair {
         rims.solve(&self.kernels, &mut self.rims.force)
     }
 
-    /// Compliance between a place and another, m/N; `divisor` tells of the force beyond the modes.
+    /// Compliance between two rim points, m/N; `divisor` is that of the nonlinear force.
     pub(super) fn stiffened(&self, i: usize, j: usize, divisor: f64) -> f64 {
         self.dynamics.whole[i][j] - self.dynamics.coupling[i] * self.dynamics.coupling[j] / divisor
     }
 
-    /// Compliance between a striker, of that coupling, and a place, m/N.
+    /// Compliance between a striker of that coupling and a rim point, m/N.
     pub(super) fn stiffened_to(&self, point: usize, coupling: f64, j: usize, divisor: f64) -> f64 {
         self.strikers[point].whole[j] - coupling * self.dynamics.coupling[j] / divisor
     }
@@ -146,14 +146,14 @@ impl Pair {
         ContactProblem { law: self.rims.law, step, force: self.rims.force[j] }
     }
 
-    /// Applies the forces at the rims; returns what they press the force beyond the modes with, and the pressure at once,
-    /// Pa.
+    /// Applies the forces at the rims. Returns their force on the nonlinear variable, and the pressure proportional to
+    /// them, Pa.
     pub(super) fn press_rims(&mut self, top: &mut ModalBody) -> (f64, Pressure) {
         if !self.engaged {
             return (0.0, Pressure::default());
         }
-        let beyond: [f64; POINTS] = std::array::from_fn(|j| self.rims.force[j] - self.pedal.rest.preload[j]);
-        if beyond == [0.0; POINTS] && self.rims.force == [0.0; POINTS] {
+        let dynamic: [f64; POINTS] = std::array::from_fn(|j| self.rims.force[j] - self.pedal.rest.preload[j]);
+        if dynamic == [0.0; POINTS] && self.rims.force == [0.0; POINTS] {
             return (0.0, Pressure::default());
         }
         let mut felt = [0.0; 3];
@@ -164,7 +164,7 @@ impl Pair {
         self.rigid[1].push_parts(&felt);
         let down = self.kernels.vectorized(
             #[inline(always)]
-            || rim_points::amplitudes(&beyond),
+            || rim_points::amplitudes(&dynamic),
         );
         let up: Amplitudes = down.map(|pair| pair.map(|x| -x));
         top.push_folded(&self.folded[0], &up);
@@ -172,12 +172,15 @@ impl Pair {
         let heard = |forces: &Amplitudes, direct: &Amplitudes| -> f32 {
             forces.iter().flatten().zip(direct.iter().flatten()).map(|(force, direct)| force * direct).sum()
         };
-        let pressed = beyond.iter().zip(&self.dynamics.coupling).map(|(force, u)| force * u).sum();
+        let pressed = dynamic.iter().zip(&self.dynamics.coupling).map(|(force, u)| force * u).sum();
         let [above, below] = &self.dynamics.direct;
-        (pressed, std::array::from_fn(|ear| heard(&up, &above[ear]) + heard(&down, &below[ear])))
+        (
+            pressed,
+            std::array::from_fn(|receiver| heard(&up, &above[receiver]) + heard(&down, &below[receiver])),
+        )
     }
 
-    /// Ends the sample; `strikers` are the points about, their forces (N) and their coupling. What is heard of the
+    /// Ends the sample; `strikers` are the points present, their forces (N) and their coupling. Returns the pressure of the
     /// lower shell, Pa.
     pub(super) fn finish_sample(
         &mut self,
@@ -207,8 +210,8 @@ impl Pair {
         self.lower.modal.listen(&self.lower.receiver)
     }
 
-    /// Many samples in which no rim meets the other: adds what is heard of the lower shell, Pa. As stiff bodies both
-    /// have moved for the first `stiff` of them already.
+    /// Renders samples in which the rims do not touch, and adds the pressure of the lower shell, Pa. As rigid bodies both
+    /// cymbals have stepped for the first `stiff` samples already.
     pub(super) fn ring_apart(&mut self, out: [&mut [f32]; RECEIVERS], stiff: usize) {
         let samples = out[0].len();
         for _ in stiff..samples {

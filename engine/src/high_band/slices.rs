@@ -13,7 +13,7 @@ use crate::receiver::ReceiverPosition;
 use crate::split::hash;
 
 /// Slices in an octave.
-const SLICES: f64 = 40.0;
+const SLICES: f64 = 300.0;
 
 /// Highest frequency, Hz, and its largest share of the sample rate.
 const TOP_HZ: f64 = 16_000.0;
@@ -164,7 +164,8 @@ fn wavenumber(head: &MembraneSpec, omega: f64, tension: f64) -> f64 {
 
 pub(super) fn mode(spec: &HighBandSpec, slice: &Slice, tension: f64) -> Mode {
     let (omega, radiated, mass) = wave(&spec.head, slice.zero, tension);
-    let sigma = if spec.lossless { 0.0 } else { spec.head.loss.sigma(omega) + radiated };
+    let edge = spec.head.edge_sigma(tension, slice.zero / spec.head.radius, mass, omega);
+    let sigma = if spec.lossless { 0.0 } else { spec.head.loss.sigma(omega) + edge + radiated };
     Mode { omega, sigma, mass: mass * spec.head.area() / slice.count }
 }
 

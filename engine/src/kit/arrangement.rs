@@ -1,4 +1,4 @@
-//! How a kit that plays becomes another one: all of it that is neither a piece nor a control.
+//! Arrangement: everything of a kit that is neither a piece nor a control, to be exchanged while it plays.
 
 use super::room::Tail;
 use crate::kit_spec::KitSpec;
@@ -13,7 +13,7 @@ pub struct Arrangement {
     pub(super) layout: Layout,
     pub(super) room: RoomSpec,
     pub(super) tail: Tail,
-    /// Pieces of slots that are to be empty, once they are not heard any more.
+    /// Pieces of slots that become empty, once they are inaudible.
     pub(super) removed: [Option<Box<Piece>>; SLOTS],
 }
 

@@ -1,4 +1,4 @@
-//! What of a kit can be moved while it plays.
+//! Live controls of a kit.
 
 use crate::slot::Slot;
 
@@ -20,16 +20,16 @@ pub enum Control {
     Tuning(Slot),
     /// Muffling of a piece, 0 to 1.
     Muffling(Slot),
-    /// Force that presses a drum's snare wires on, N; of other pieces nothing.
+    /// Preload of a drum's snare wires, N; no effect on other pieces.
     Preload(Slot),
     /// Whether a drum's snare wires lie against its head: below one half they are off.
     Wires(Slot),
     /// A hi-hat's pedal, 0 (up) to 1 (down); see [`Piece::press_pedal`](crate::piece::Piece::press_pedal).
     Pedal(Slot),
     /// Level of a piece in every microphone, dB; at or below [`SILENT_DB`](crate::kit::SILENT_DB) the piece is silent.
-    /// What other pieces hear of it stays.
+    /// Its sound at other pieces does not change.
     Level(Slot),
-    /// Where a piece's close microphone lies in the stereo, -1 (left) to 1 (right); see
+    /// Pan of a piece's close microphone, -1 (left) to 1 (right); see
     /// [`Placement::side`](crate::layout::Placement::side). Of a pair, see [`Balance`](Self::Balance).
     Pan(Slot),
     /// Balance of a pair of microphones, -1 (left alone) to 1 (right alone); of a close one, its pan.
@@ -40,11 +40,11 @@ pub enum Control {
     CloseLevel,
     /// Switch: the microphone is silent.
     Mute(Microphone),
-    /// Switch: only microphones with this are heard, if any has it.
+    /// Switch: if any microphone has it, all others are silent.
     Solo(Microphone),
-    /// Switch: the drums hear the other pieces.
+    /// Switch: sympathetic resonance of the drums.
     SympatheticCoupling,
-    /// How much of the other pieces' sound reaches the drums, 0 to 1 (all of it).
+    /// Share of the other pieces' sound that reaches the drums, 0 to 1.
     Sympathy,
     /// Switch: the outputs bend softly instead of passing full scale.
     SafetyClip,

@@ -1,4 +1,4 @@
-//! What can be asked of a kit while it plays: strokes, controls, pedals, microphones put elsewhere.
+//! Strokes, controls, pedals and moved microphones of a kit that plays.
 
 use crate::hi_hat::SPLASHING;
 use crate::hi_hat::foot::SPEED;
@@ -11,9 +11,8 @@ use super::Kit;
 use super::control::{Control, Microphone};
 
 impl Kit {
-    /// Puts the overheads or the room pair somewhere, m, not farther than [`FARTHEST`](crate::layout::FARTHEST) from any piece;
-    /// what is heard fades over in some hundredths of a second. A close microphone is where its piece was built to
-    /// be heard.
+    /// Moves the overheads or the room pair to `places`, m, not farther than [`FARTHEST`](crate::layout::FARTHEST) from any
+    /// piece. The sound cross-fades within some hundredths of a second. A close microphone stays where its piece was built for.
     ///
     /// # Real-time
     /// No allocation, no lock.
@@ -28,7 +27,7 @@ impl Kit {
     }
 
     fn mut_piece(&mut self, slot: Slot) -> Option<&mut Box<Piece>> {
-        self.posts[slot.index()].as_mut()?.piece.as_mut()
+        self.jobs[slot.index()].as_mut()?.piece.as_mut()
     }
 
     /// Strikes a piece at the next sample. A stroke on a piece not yet built is dropped and counted.
@@ -42,7 +41,7 @@ impl Kit {
         }
     }
 
-    /// Lets a hand take hold of a cymbal, from 0 (lets go) to 1 (firmly); see [`Piece::choke`]. A NaN is ignored.
+    /// Chokes a cymbal by hand, from 0 (free) to 1 (firmly held); see [`Piece::choke`]. A NaN is ignored.
     ///
     /// # Real-time
     /// No allocation, no lock.
@@ -52,7 +51,7 @@ impl Kit {
         }
     }
 
-    /// Moves a control from the next sample on, to the nearest end of its range if beyond it. A NaN
+    /// Sets a control from the next sample on; a value outside its range becomes the nearest end. A NaN
     /// is ignored, and so is a control that the slot's piece does not have.
     ///
     /// # Real-time
@@ -63,17 +62,17 @@ impl Kit {
         }
         let on = value >= 0.5;
         match control {
-            Control::Master => self.desk.set_master(value),
-            Control::Level(slot) => self.desk.set_level(slot, value),
-            Control::Pan(slot) => self.desk.set_balance(Microphone::Close(slot), value),
-            Control::Balance(microphone) => self.desk.set_balance(microphone, value),
-            Control::MicrophoneLevel(microphone) => self.desk.set_strip_level(microphone, value),
-            Control::CloseLevel => self.desk.set_close(value),
-            Control::Mute(microphone) => self.desk.mute(microphone, on),
-            Control::Solo(microphone) => self.desk.solo(microphone, on),
-            Control::SafetyClip => self.desk.set_clip(on),
-            Control::SympatheticCoupling => self.listen(on, self.sympathy),
-            Control::Sympathy => self.listen(self.hearing, value.clamp(0.0, 1.0) as f32),
+            Control::Master => self.mixer.set_master(value),
+            Control::Level(slot) => self.mixer.set_level(slot, value),
+            Control::Pan(slot) => self.mixer.set_balance(Microphone::Close(slot), value),
+            Control::Balance(microphone) => self.mixer.set_balance(microphone, value),
+            Control::MicrophoneLevel(microphone) => self.mixer.set_strip_level(microphone, value),
+            Control::CloseLevel => self.mixer.set_close(value),
+            Control::Mute(microphone) => self.mixer.mute(microphone, on),
+            Control::Solo(microphone) => self.mixer.solo(microphone, on),
+            Control::SafetyClip => self.mixer.set_clip(on),
+            Control::SympatheticCoupling => self.couple(on, self.sympathy),
+            Control::Sympathy => self.couple(self.coupled, value.clamp(0.0, 1.0) as f32),
             Control::Pedal(slot) => self.press_pedal(slot, value, SPEED.1),
             Control::Preload(slot)
             | Control::Wires(slot)
@@ -82,10 +81,10 @@ impl Kit {
         }
     }
 
-    /// Moves a control of a piece, and of whatever takes its place.
+    /// Sets a control of a piece and of those that will replace it.
     fn adjust(&mut self, slot: Slot, control: Control, value: f64) {
         let retained = &mut self.retained[slot.index()];
-        let piece = self.posts[slot.index()].as_mut().and_then(|post| post.piece.as_mut());
+        let piece = self.jobs[slot.index()].as_mut().and_then(|job| job.piece.as_mut());
         match control {
             Control::Preload(_) => {
                 retained.preload = value;
@@ -106,13 +105,13 @@ impl Kit {
         }
     }
 
-    fn listen(&mut self, hearing: bool, sympathy: f32) {
-        (self.hearing, self.sympathy) = (hearing, sympathy);
-        self.ears.set(if hearing { sympathy } else { 0.0 });
+    fn couple(&mut self, coupled: bool, sympathy: f32) {
+        (self.coupled, self.sympathy) = (coupled, sympathy);
+        self.coupling.set(if coupled { sympathy } else { 0.0 });
     }
 
-    /// Lets somebody step on a slot's pedal, which is then left at a place, 0 to 1, given where it was; on a
-    /// piece that comes later it is there at once.
+    /// Moves a slot's pedal by `step`. `left` gives the position where it ends, 0 to 1, from the one before; a piece that is
+    /// installed later starts there.
     fn step_on(&mut self, slot: Slot, left: impl FnOnce(f64) -> f64, step: impl FnOnce(&mut Piece)) {
         let retained = &mut self.retained[slot.index()];
         retained.pedal = left(retained.pedal);
@@ -121,7 +120,7 @@ impl Kit {
         }
     }
 
-    /// Brings a hi-hat's pedal to a place, 0 (up) to 1 (down), at up to a speed (m/s); see
+    /// Moves a hi-hat's pedal to a position, 0 (up) to 1 (down), at up to a speed (m/s); see
     /// [`Piece::press_pedal`]. A NaN is ignored.
     ///
     /// # Real-time
@@ -148,15 +147,15 @@ impl Kit {
         self.step_on(slot, |pedal| pedal.min(SPLASHING), |hat| hat.splash_pedal(speed));
     }
 
-    /// Lets every control arrive at once: for setting the kit up before it sounds.
+    /// Ends all glides of controls, to set the kit up before it sounds.
     ///
     /// # Real-time
     /// No allocation, no lock; linear in the number of modes.
     pub fn finish_controls(&mut self) {
-        self.desk.jump();
-        self.ears.jump();
+        self.mixer.jump();
+        self.coupling.jump();
         self.air.jump();
-        for piece in self.posts.iter_mut().flatten().filter_map(|post| post.piece.as_mut()) {
+        for piece in self.jobs.iter_mut().flatten().filter_map(|job| job.piece.as_mut()) {
             piece.finish_controls();
         }
     }

@@ -1,28 +1,27 @@
-//! The air between two places: a delay and what distance leaves of a sound.
+//! Delay lines: sound paths between two positions, with their delay and attenuation.
 //!
-//! A [`DelayLine`] keeps what a piece has sent out of late; a [`DelayTap`] reads it some way off. Between samples it reads by a cubic
-//! through four of them (Lagrange): above a quarter of the sample rate it loses some highs, 1 dB at 11 kHz of 44.1 at
-//! worst, less than air and distance do.
+//! A [`DelayLine`] holds the recent sound of a piece. A [`DelayTap`] reads it at some distance. Between samples it interpolates by
+//! a cubic through four of them (Lagrange), which loses at most 1 dB at 11 kHz of 44.1, less than air absorption does.
 //!
-//! Positions on a line are counted by the kit's clock, so that nothing depends on how time is cut.
+//! Positions on a line are counted by the kit's clock, so the output does not depend on the host's buffers.
 
 use crate::air_load::SPEED_OF_SOUND;
 use crate::block::BLOCK;
 use crate::layout::FARTHEST;
 
-/// Samples that a cubic needs before and after the place it is read at, less one.
+/// Samples that a cubic needs before and after the position it is read at, less one.
 const AHEAD: usize = 1;
 const TAPS: usize = 4;
 
-/// How long a moved tap takes from where it was to where it is, s. *By ear*: no click, and no gliding pitch.
+/// Length of the cross-fade of a moved tap, s. *By ear*: no click, and no gliding pitch.
 const MOVE_TIME: f64 = 0.03;
 
-/// What was sent out over the longest way that there is.
+/// Recent sound of a piece, as long as the longest path.
 pub(super) struct DelayLine {
     /// A power of two and, after it, its first samples once more.
     samples: Box<[f32]>,
     mask: usize,
-    /// Samples of silence since something was sent.
+    /// Samples of silence since the latest sound.
     silence: usize,
 }
 
@@ -37,12 +36,12 @@ impl DelayLine {
         DelayLine { samples: vec![0.0; length + REPEATED].into(), mask: length - 1, silence: length }
     }
 
-    /// Whether nothing is under way.
+    /// Whether it holds silence only.
     pub(super) fn is_silent(&self) -> bool {
         self.silence > self.mask
     }
 
-    /// Sends a run from a time (samples) on.
+    /// Writes a run from a time (samples) on.
     pub(super) fn send(&mut self, clock: u64, sound: &[f32]) {
         if sound.iter().all(|&x| x == 0.0) {
             if self.is_silent() {
@@ -61,7 +60,7 @@ impl DelayLine {
         }
     }
 
-    /// Adds what arrives from a time on.
+    /// Adds the sound at a tap from a time on.
     pub(super) fn hear(&self, clock: u64, tap: &DelayTap, out: &mut [f32]) {
         let first = (clock as usize).wrapping_sub(tap.whole + TAPS - 1 - AHEAD) & self.mask;
         let past = &self.samples[first..first + out.len() + TAPS - 1];
@@ -81,21 +80,21 @@ impl DelayLine {
     }
 }
 
-/// A place on a line.
+/// A position on a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct DelayTap {
     /// Whole samples of the delay.
     whole: usize,
-    /// Of the samples about it, oldest first.
+    /// Weights of the samples around it, oldest first.
     weights: [f32; TAPS],
 }
 
 impl DelayTap {
-    /// So late (s) and with that gain.
+    /// A tap with a delay (s) and a gain.
     pub(super) fn new(delay: f64, gain: f64, sample_rate: f64) -> DelayTap {
         let samples = (delay * sample_rate).clamp(0.0, FARTHEST / SPEED_OF_SOUND * sample_rate);
         if samples < AHEAD as f64 {
-            // Nothing newer is there yet: a straight line between the two that are.
+            // Newer samples do not exist yet: interpolate linearly.
             let part = samples as f32;
             let gain = gain as f32;
             return DelayTap { whole: AHEAD, weights: [0.0, 0.0, part * gain, (1.0 - part) * gain] };
@@ -112,7 +111,7 @@ impl DelayTap {
         DelayTap { whole: whole as usize, weights: weights.map(|weight| (weight * gain) as f32) }
     }
 
-    /// A way through free air, m; sound at a metre is what a line carries. What arrives is earlier by `lead`, m.
+    /// A path through free air, m, for a line that holds the sound at a metre. The delay is shorter by `lead`, m.
     pub(super) fn along(metres: f64, lead: f64, sample_rate: f64) -> DelayTap {
         let late = (metres - lead).max(0.0) / SPEED_OF_SOUND;
         DelayTap::new(late, 1.0 / metres.max(crate::layout::NEAREST), sample_rate)
@@ -123,20 +122,20 @@ impl DelayTap {
         DelayTap { weights: self.weights.map(|weight| weight * share), ..self }
     }
 
-    /// Longest run (samples) that can be heard before it is sent.
+    /// Longest run (samples) that can be read before it is written.
     pub(super) fn reach(&self) -> usize {
         self.whole - AHEAD
     }
 }
 
-/// A tap that moves from place to place by fading over.
+/// A tap that moves by a cross-fade.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct MovingDelayTap {
     from: DelayTap,
     to: DelayTap,
-    /// Where to after that.
+    /// The next target.
     next: DelayTap,
-    /// Share of the way, and its change in a sample.
+    /// Progress of the cross-fade, 0 to 1, and its change in a sample.
     share: f32,
     step: f32,
 }
@@ -151,12 +150,12 @@ impl MovingDelayTap {
         self.next = tap;
     }
 
-    /// Arrives at once.
+    /// Ends the cross-fade.
     pub(super) fn jump(&mut self) {
         (self.from, self.to, self.share) = (self.next, self.next, 1.0);
     }
 
-    /// Adds what arrives from a time on, and moves.
+    /// Adds the sound at the tap from a time on, and advances the cross-fade.
     pub(super) fn hear(&mut self, line: &DelayLine, clock: u64, out: &mut [f32]) {
         let mut done = 0;
         while done < out.len() {
@@ -190,7 +189,7 @@ mod tests {
 
     const RATE: f64 = 44_100.0;
 
-    /// What arrives of an impulse at time 0, in runs of that length.
+    /// Response to an impulse at time 0, rendered in runs of that length.
     fn arrival(tap: DelayTap, run: usize) -> Vec<f32> {
         let mut line = DelayLine::new(RATE);
         let mut heard = vec![0.0; 960];

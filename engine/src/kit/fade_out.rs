@@ -1,4 +1,4 @@
-//! A piece that another has replaced: it fades out under the new one instead of stopping short.
+//! Fade-out of a piece that another one has replaced.
 
 use crate::block::BLOCK;
 use crate::modal::RECEIVERS;
@@ -7,22 +7,22 @@ use crate::piece::Piece;
 /// Length of the fade, s. *By ear*: no click, even of a kick; over before a new stroke has decayed.
 const FADE_TIME: f64 = 0.05;
 
-/// The piece on its way out, if there is one.
+/// The piece that fades out, if there is one.
 pub struct FadeOut {
     piece: Option<Box<Piece>>,
-    /// Samples still to sound.
+    /// Samples left.
     left: u32,
     /// Length of the fade, samples.
     length: u32,
 }
 
 impl FadeOut {
-    /// Nobody leaves; the sample rate is in Hz.
+    /// No fade; the sample rate is in Hz.
     pub fn new(sample_rate: f64) -> FadeOut {
         FadeOut { piece: None, left: 0, length: (FADE_TIME * sample_rate).ceil() as u32 }
     }
 
-    /// Lets a piece leave; hands back one that need not be heard any more.
+    /// Starts the fade of a piece. Returns a piece that need not sound any longer.
     pub fn start(&mut self, piece: Box<Piece>) -> Option<Box<Piece>> {
         if piece.is_asleep() {
             return Some(piece);
@@ -31,22 +31,22 @@ impl FadeOut {
         self.piece.replace(piece)
     }
 
-    /// Hands back the piece whose fade is over.
+    /// Returns the piece whose fade is over.
     pub fn gone(&mut self) -> Option<Box<Piece>> {
         if self.left == 0 { self.piece.take() } else { None }
     }
 
-    /// Whether nobody is heard leaving.
+    /// Whether no piece fades out.
     pub fn is_over(&self) -> bool {
         self.left == 0
     }
 
-    /// Lets whoever leaves be silent from now on.
+    /// Ends the fade.
     pub fn cut(&mut self) {
         self.left = 0;
     }
 
-    /// Adds what is still heard at every ear, Pa, within one block.
+    /// Adds what still sounds at every receiver, Pa, within one block.
     pub fn render(&mut self, sound: [&mut [f32]; RECEIVERS]) {
         let Some(piece) = self.piece.as_mut().filter(|_| self.left > 0) else { return };
         let mut fading = [[0.0_f32; BLOCK]; RECEIVERS];
@@ -57,7 +57,7 @@ impl FadeOut {
         for (sound, fading) in sound.into_iter().zip(&fading) {
             for (i, (sound, fading)) in sound.iter_mut().zip(fading).enumerate() {
                 let share = before.saturating_sub(1 + i as u32) as f32 / self.length as f32;
-                // Level at both ends: a straight fade's corner is heard on a low drum.
+                // Flat at both ends: the corner of a linear fade is audible on a low drum.
                 *sound += *fading * share * share * (3.0 - 2.0 * share);
             }
         }

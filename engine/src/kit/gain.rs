@@ -23,7 +23,7 @@ pub(super) fn gain(db: f64) -> f32 {
 pub(super) struct Gain {
     value: f32,
     target: f32,
-    /// Share of the way left after a sample.
+    /// Share of the difference left after a sample.
     keep: f32,
 }
 
@@ -42,12 +42,12 @@ impl Gain {
         self.target = gain;
     }
 
-    /// Whether it is zero and stays so.
+    /// Whether it is zero and its target too.
     pub(super) fn is_shut(&self) -> bool {
         self.value == 0.0 && self.target == 0.0
     }
 
-    /// Whether it has arrived.
+    /// Whether it has reached its target.
     pub(super) fn rests(&self) -> bool {
         self.value == self.target
     }
@@ -60,7 +60,7 @@ impl Gain {
         let mut out = [0.0; BLOCK];
         for out in &mut out[..samples] {
             self.value = self.target + (self.value - self.target) * self.keep;
-            // -140 dB away is there; the last step cannot be heard.
+            // -140 dB away counts as reached; the last step is inaudible.
             if (self.value - self.target).abs() < 1e-7 {
                 self.value = self.target;
             }
@@ -69,13 +69,13 @@ impl Gain {
         out
     }
 
-    /// Arrives at once.
+    /// Takes its target at once.
     pub(super) fn jump(&mut self) {
         self.value = self.target;
     }
 }
 
-/// A place between left and right, constant in power.
+/// A pan between left and right of constant power.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Pan {
     sides: [Gain; 2],
@@ -102,7 +102,7 @@ impl Pan {
         self.sides[1].set((1.0 + side).clamp(0.0, 1.0) as f32);
     }
 
-    /// Whether it has arrived.
+    /// Whether it has reached its target.
     pub(super) fn rests(&self) -> bool {
         self.sides.iter().all(Gain::rests)
     }
@@ -112,7 +112,7 @@ impl Pan {
         self.sides.each_mut().map(|side| side.run(samples))
     }
 
-    /// Arrives at once.
+    /// Takes its target at once.
     pub(super) fn jump(&mut self) {
         self.sides.iter_mut().for_each(Gain::jump);
     }

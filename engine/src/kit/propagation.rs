@@ -1,20 +1,20 @@
-//! The air of the kit: what every piece sends out, how it reaches the drums' heads and the microphones.
+//! Propagation of sound from each piece to the drums' heads and the microphones.
 //!
-//! Model: a piece sends out what it is heard as far away, in the direction of the overheads, as at a metre; and, of a drum to
-//! the others, what goes [all around](crate::surface::incident_field). Everywhere it arrives after the way over the speed of
-//! sound, weakened as one over the way. Pieces neither shade nor mirror each other.
+//! Model: a piece radiates its far field in the direction of the overheads, given at a metre. The other pieces receive the
+//! [omnidirectional part](crate::surface::incident_field) of a drum. The delay is the path length over the speed of sound, and
+//! the pressure falls as one over the path length. Pieces neither shade nor reflect each other.
 //!
-//! Limits: one direction stands for all. That is right for a drum's low modes, which go all around; high modes
-//! and cymbals, which are dipoles, are given to the side what they send up.
+//! Limits: one direction stands for all. That is right for a drum's low modes, which radiate evenly. To the side, high modes and
+//! cymbals, which are dipoles, radiate too much.
 
 use super::arrangement::Arrangement;
 use super::delay_line::{DelayLine, DelayTap, MovingDelayTap};
 use super::gain::GainRuns;
 use super::mixer::{Mixer, PAIRS};
 use super::render_job::RenderJob;
-use super::room::{self, SILENT_RUN, Tail};
+use super::room::{self, Tail};
 use crate::air_load::SPEED_OF_SOUND;
-use crate::block::BLOCK;
+use crate::block::{BLOCK, SILENT_RUN};
 use crate::kit_spec::Kind;
 use crate::kit_spec::room::RoomSpec;
 use crate::layout::{CLOSE, Layout, Pair, Placement, distance};
@@ -26,28 +26,28 @@ use crate::slot::{SLOTS, Slot};
 /// Faces of a surface of the room.
 const IMAGES: usize = 6;
 
-/// What a pair of microphones hears over a run, Pa.
+/// Pressure at a pair of microphones over a run, Pa.
 pub(super) type PairRun = [[f32; BLOCK]; 2];
 
-/// The kit's air.
+/// Delay lines and taps of a kit.
 pub(super) struct Propagation {
     sample_rate: f64,
     layout: Layout,
     room: RoomSpec,
-    /// What each piece sends out: to its close microphone, far away, and to other pieces.
+    /// Sound of each piece: near field, far field, and to other pieces.
     lines: [[DelayLine; RECEIVERS]; SLOTS],
-    /// Of each piece, from the others: `[listener][source]`.
+    /// From the other pieces: `[receiver][source]`.
     heard: Box<[[DelayTap; SLOTS]; SLOTS]>,
     /// To the close microphone.
     close: [DelayTap; SLOTS],
-    /// Distance from each piece at which its sound is time zero of the mix, m.
+    /// Distance from each piece at which its sound has no delay in the mix, m.
     time_zero: [f64; SLOTS],
     /// `[pair][side][piece]`.
     pairs: Box<[[[MovingDelayTap; SLOTS]; 2]; PAIRS]>,
     /// `[side][piece][image]`, of the room pair.
     images: Box<[[[MovingDelayTap; IMAGES]; SLOTS]; 2]>,
     tail: Tail,
-    /// Which slots hold drums: they hear the others, and are heard by what goes all around.
+    /// Slots with drums: they receive the others, and radiate their omnidirectional part to them.
     drums: [bool; SLOTS],
     min_delay: usize,
 }
@@ -71,21 +71,21 @@ impl Propagation {
             drums: [false; SLOTS],
             min_delay: BLOCK,
         };
-        air.lay_ways();
+        air.update_paths();
         air.place_pair(0, layout.overheads);
         air.place_pair(1, layout.room);
         air.jump();
         air
     }
 
-    /// Works out the ways between the pieces.
-    fn lay_ways(&mut self) {
+    /// Updates the paths between the pieces.
+    fn update_paths(&mut self) {
         let mut shortest = None;
         for (to, from) in Slot::ALL.into_iter().flat_map(|to| Slot::ALL.map(|from| (to, from))) {
-            if let Some(way) = self.layout.path_length(from, to).filter(|_| from != to) {
-                let tap = DelayTap::along(way, 0.0, self.sample_rate);
+            if let Some(path) = self.layout.path_length(from, to).filter(|_| from != to) {
+                let tap = DelayTap::along(path, 0.0, self.sample_rate);
                 self.heard[to.index()][from.index()] = tap;
-                // Only drums have a radius, and only they listen.
+                // Only drums have a radius, and only they receive.
                 if self.layout.pieces[to.index()].is_some_and(|piece| piece.radius > 0.0) {
                     shortest = Some(shortest.map_or(tap.reach(), |least: usize| least.min(tap.reach())));
                 }
@@ -94,31 +94,31 @@ impl Propagation {
         self.min_delay = shortest.unwrap_or(BLOCK).max(1);
     }
 
-    /// Takes over where everything stands, and the room.
+    /// Takes over all positions, and the room.
     pub(super) fn arrange(&mut self, arrangement: &mut Arrangement) {
         if arrangement.room != self.room {
             std::mem::swap(&mut self.room, &mut arrangement.room);
             std::mem::swap(&mut self.tail, &mut arrangement.tail);
         }
         std::mem::swap(&mut self.layout, &mut arrangement.layout);
-        self.lay_ways();
+        self.update_paths();
         self.place_pair(0, self.layout.overheads);
         self.place_pair(1, self.layout.room);
     }
 
-    /// Puts the piece of a slot somewhere.
+    /// Takes over the position of a slot's piece.
     pub(super) fn place_slot(&mut self, slot: Slot, piece: &Piece) {
         let at = slot.index();
         self.drums[at] = piece.kind() == Kind::Drum;
         if self.layout.pieces[at] != Some(*piece.placement()) {
             self.layout.pieces[at] = Some(*piece.placement());
-            self.lay_ways();
+            self.update_paths();
             self.place_at(at);
         }
         self.place_close(at, piece.close());
     }
 
-    /// Lets both pairs of microphones hear a piece from where it stands.
+    /// Updates the paths from a piece to both pairs of microphones.
     fn place_at(&mut self, piece: usize) {
         let [overheads, room] = [self.layout.overheads, self.layout.room];
         self.place_piece(piece, 0, overheads);
@@ -128,25 +128,25 @@ impl Propagation {
         }
     }
 
-    /// The shortest way between two pieces that hear each other, less what reading it needs, samples.
+    /// The shortest delay between two pieces that are coupled, less the length of the interpolation, samples.
     pub(super) fn min_delay(&self) -> usize {
         self.min_delay
     }
 
-    /// Puts a close microphone where its piece was built to be heard. What is on the way to it is heard there at once.
+    /// Takes over the close microphone that a piece was built for. Sound in its delay line moves with it at once.
     fn place_close(&mut self, piece: usize, microphone: &CloseMicrophone) {
         let CloseMicrophone { point, time_zero, gain } = *microphone;
-        // What distance does to the level is in the piece's own sound.
+        // The attenuation by distance is part of the piece's own sound.
         let late = (point.distance - time_zero).max(0.0) / SPEED_OF_SOUND;
         self.close[piece] = DelayTap::new(late, f64::from(gain), self.sample_rate);
         if std::mem::replace(&mut self.time_zero[piece], time_zero) == time_zero {
             return;
         }
-        // The pairs hear it by as much later as it is time zero from nearer by.
+        // The delay to the pairs grows by as much as time zero is nearer to the piece.
         self.place_at(piece);
     }
 
-    /// Puts a pair of microphones somewhere; what is heard fades over.
+    /// Moves a pair of microphones; the sound cross-fades.
     pub(super) fn place_pair(&mut self, pair: usize, places: Pair) {
         (0..SLOTS).for_each(|piece| self.place_piece(piece, pair, places));
         if pair == 1 {
@@ -156,7 +156,7 @@ impl Propagation {
         }
     }
 
-    /// Lets a pair of microphones hear a piece from there.
+    /// Updates the paths from a piece to a pair of microphones.
     fn place_piece(&mut self, piece: usize, pair: usize, places: Pair) {
         let Some(Placement { centre, .. }) = self.layout.pieces[piece] else { return };
         let (rate, lead) = (self.sample_rate, self.time_zero[piece]);
@@ -171,51 +171,51 @@ impl Propagation {
         }
     }
 
-    /// Where everything stands.
+    /// Positions of pieces and microphones.
     pub(super) fn layout(&self) -> &Layout {
         &self.layout
     }
 
-    /// Moved microphones arrive at once.
+    /// Ends all cross-fades.
     pub(super) fn jump(&mut self) {
         let pairs = self.pairs.iter_mut().flatten().flatten();
         pairs.chain(self.images.iter_mut().flatten().flatten()).for_each(MovingDelayTap::jump);
     }
 
-    /// Of one piece alone.
+    /// Ends the cross-fades of one piece.
     fn jump_piece(&mut self, piece: usize) {
         let pairs = self.pairs.iter_mut().flatten().map(|side| &mut side[piece]);
         let images = self.images.iter_mut().flat_map(|side| &mut side[piece]);
         pairs.chain(images).for_each(MovingDelayTap::jump);
     }
 
-    /// Lets a piece hear the others over its run, so much of them.
-    pub(super) fn arrive(&self, listener: usize, clock: u64, amount: &[f32; BLOCK], post: &mut RenderJob) {
-        post.hears = false;
+    /// Writes the sound of the others into a job, times `amount`.
+    pub(super) fn arrive(&self, receiver: usize, clock: u64, amount: &[f32; BLOCK], job: &mut RenderJob) {
+        job.receives = false;
         for (from, lines) in self.lines.iter().enumerate() {
-            // A cymbal sends the same everywhere: nobody's hearing comes back to it.
+            // Cymbals receive nothing, so their far field serves for all.
             let line = &lines[if self.drums[from] { 2 } else { 1 }];
-            if from == listener || line.is_silent() {
+            if from == receiver || line.is_silent() {
                 continue;
             }
-            if !std::mem::replace(&mut post.hears, true) {
-                post.incident = SILENT_RUN;
+            if !std::mem::replace(&mut job.receives, true) {
+                job.incident = SILENT_RUN;
             }
-            line.hear(clock, &self.heard[listener][from], &mut post.incident[..post.run]);
+            line.hear(clock, &self.heard[receiver][from], &mut job.incident[..job.run]);
         }
-        if post.hears {
-            post.incident.iter_mut().zip(amount).for_each(|(pressure, amount)| *pressure *= amount);
-        }
-    }
-
-    /// Takes up what a piece sends out.
-    pub(super) fn send(&mut self, piece: usize, clock: u64, post: &RenderJob) {
-        for (line, sound) in self.lines[piece].iter_mut().zip(&post.sound) {
-            line.send(clock, &sound[..post.run]);
+        if job.receives {
+            job.incident.iter_mut().zip(amount).for_each(|(pressure, amount)| *pressure *= amount);
         }
     }
 
-    /// Nothing came from a piece.
+    /// Takes up the sound of a piece.
+    pub(super) fn send(&mut self, piece: usize, clock: u64, job: &RenderJob) {
+        for (line, sound) in self.lines[piece].iter_mut().zip(&job.sound) {
+            line.send(clock, &sound[..job.run]);
+        }
+    }
+
+    /// Takes up silence from a piece.
     pub(super) fn send_silence(&mut self, piece: usize, clock: u64, samples: usize) {
         self.lines[piece].iter_mut().for_each(|line| line.send(clock, &SILENT_RUN[..samples]));
     }
@@ -228,18 +228,18 @@ impl Propagation {
         }
     }
 
-    /// All pieces at a pair of microphones, each at its level; nothing if nobody listens.
+    /// All pieces at a pair of microphones, each at its level; silence if the pair is off.
     pub(super) fn pair(
         &mut self,
         pair: usize,
         clock: u64,
         samples: usize,
         levels: &GainRuns,
-        desk: &Mixer,
+        mixer: &Mixer,
     ) -> PairRun {
         let mut heard = [SILENT_RUN; 2];
-        if desk.is_shut(pair) {
-            // What moves has arrived when somebody listens again.
+        if mixer.is_shut(pair) {
+            // Cross-fades have ended when the pair is on again.
             self.pairs[pair].iter_mut().flatten().for_each(MovingDelayTap::jump);
             return heard;
         }
@@ -262,28 +262,28 @@ impl Propagation {
         heard
     }
 
-    /// Adds the room's tail of what is sent out now, far away as at a metre.
+    /// Adds the room's tail of `sent`, the far field at a metre, Pa.
     pub(super) fn tail(&mut self, sent: &[f32], out: &mut PairRun) {
         let [left, right] = out.each_mut().map(|side| &mut side[..sent.len()]);
         self.tail.render(sent, [left, right]);
     }
 
-    /// Makes silence exact; meant for now and then, on the kit's clock.
+    /// Makes silence exact. Called now and then, on the kit's clock.
     pub(super) fn settle(&mut self) {
         self.tail.settle();
     }
 
-    /// Whether nothing of a slot is under way.
+    /// Whether the delay lines of a slot are silent.
     pub(super) fn is_slot_silent(&self, slot: usize) -> bool {
         self.lines[slot].iter().all(DelayLine::is_silent)
     }
 
-    /// Whether nothing is under way anywhere.
+    /// Whether all delay lines and the room are silent.
     pub(super) fn is_silent(&self) -> bool {
         self.tail.is_silent() && self.lines.iter().flatten().all(DelayLine::is_silent)
     }
 
-    /// Still again; moved microphones have arrived.
+    /// Silences all delay lines and ends all cross-fades.
     pub(super) fn reset(&mut self) {
         self.lines.iter_mut().flatten().for_each(DelayLine::reset);
         self.tail.reset();

@@ -1,4 +1,4 @@
-//! One run after another: pieces rendered, sound sent on its way, microphones mixed.
+//! Rendering of a kit, run by run: pieces, propagation, mix.
 
 use crate::block::BLOCK;
 use crate::kit_spec::Kind;
@@ -7,14 +7,13 @@ use crate::slot::SLOTS;
 use super::Kit;
 use super::mixer::{Bus, PAIRS, Routing, Stereo};
 
-/// The silence of the room is looked for once in so many blocks.
+/// Blocks between two checks for silence of the room.
 const SETTLE_BLOCKS: u64 = 128;
 
 impl Kit {
     /// Renders both outputs, full scale 1, overwriting them. Any length; both the same.
     ///
-    /// The same strikes and controls at the same samples give the same output, however the
-    /// calls cut the time.
+    /// The same strikes and controls at the same samples give the same output for any length of the calls.
     ///
     /// # Real-time
     /// No allocation, no lock.
@@ -25,9 +24,8 @@ impl Kit {
     /// [`render`](Self::render), and in the same pass each piece by itself.
     ///
     /// `outputs` are the close microphones of all [`SLOTS`], then the overheads, then the room, before the
-    /// master: they add up to what the master gets. Pairs that are left out at the end, or shorter than the main
-    /// one, are not written: an output that nobody listens to is a pair of empty slices. What is written to
-    /// `main` does not depend on them.
+    /// master: their sum is the input of the master. Pairs that are missing at the end, or shorter than the main
+    /// one, are not written: an unused output is a pair of empty slices. `main` does not depend on them.
     ///
     /// # Real-time
     /// No allocation, no lock.
@@ -61,8 +59,8 @@ impl Kit {
     fn render_run(&mut self, routing: Routing, mut mix: Stereo<'_>, outputs: &mut [Stereo<'_>], at: usize) {
         let samples = mix[0].len();
         mix.iter_mut().for_each(|side| side.fill(0.0));
-        let still = self.is_asleep() && self.desk.rests() && self.ears.rests();
-        self.render_posts(samples);
+        let still = self.is_asleep() && self.mixer.rests() && self.coupling.rests();
+        self.render_jobs(samples);
         // Asleep before and asleep after: nothing but silence has been sent.
         if still && self.is_asleep() {
             for side in outputs.iter_mut().flatten() {
@@ -70,26 +68,26 @@ impl Kit {
             }
             return;
         }
-        let Kit { posts, air, desk, clock, missed_runs, .. } = self;
-        // Levels move even where nothing plays yet: when a piece is ready must not matter.
-        let levels = desk.levels(samples);
-        let mut bus = Bus { mix, master: desk.master(samples), routing };
+        let Kit { jobs, air, mixer, clock, missed_runs, .. } = self;
+        // Levels move even where nothing plays yet: the time at which a piece is ready must not matter.
+        let levels = mixer.levels(samples);
+        let mut bus = Bus { mix, master: mixer.master(samples), routing };
         let mut outputs = outputs
             .iter_mut()
             .map(|output| output.each_mut().map(|side| side.get_mut(at..at + samples).unwrap_or_default()));
         let mut sent = [0.0; BLOCK];
-        for (slot, post) in posts.iter().enumerate() {
-            if post.as_ref().is_some_and(|post| post.is_empty()) && air.is_slot_silent(slot) {
+        for (slot, job) in jobs.iter().enumerate() {
+            if job.as_ref().is_some_and(|job| job.is_empty()) && air.is_slot_silent(slot) {
                 for side in outputs.next().into_iter().flatten() {
                     side.fill(0.0);
                 }
                 continue;
             }
-            // One that has come back late has the sound of an earlier run.
-            match post.as_ref().filter(|post| post.due == *clock) {
-                Some(post) => {
-                    air.send(slot, *clock, post);
-                    let terms = sent.iter_mut().zip(&post.sound[1]).zip(&levels[slot]);
+            // A job that came back late has the sound of an earlier run.
+            match job.as_ref().filter(|job| job.due == *clock) {
+                Some(job) => {
+                    air.send(slot, *clock, job);
+                    let terms = sent.iter_mut().zip(&job.sound[1]).zip(&levels[slot]);
                     terms.take(samples).for_each(|((sum, sound), level)| *sum += level * sound);
                 }
                 None => {
@@ -101,34 +99,34 @@ impl Kit {
             let sound = &mut sound[..samples];
             air.close(slot, *clock, sound);
             sound.iter_mut().zip(&levels[slot]).for_each(|(sound, level)| *sound *= level);
-            desk.add(slot, [sound, sound], &mut bus, outputs.next());
+            mixer.add(slot, [sound, sound], &mut bus, outputs.next());
         }
         for pair in 0..PAIRS {
-            let mut heard = air.pair(pair, *clock, samples, &levels, desk);
-            if pair + 1 == PAIRS && !desk.is_shut(pair) {
+            let mut heard = air.pair(pair, *clock, samples, &levels, mixer);
+            if pair + 1 == PAIRS && !mixer.is_shut(pair) {
                 air.tail(&sent[..samples], &mut heard);
             }
             let [left, right] = heard.each_ref().map(|side| &side[..samples]);
-            desk.add(SLOTS + pair, [left, right], &mut bus, outputs.next());
+            mixer.add(SLOTS + pair, [left, right], &mut bus, outputs.next());
         }
-        desk.finish(&mut bus);
+        mixer.finish(&mut bus);
     }
 
-    /// Lets every piece hear the others and renders it.
-    fn render_posts(&mut self, samples: usize) {
-        let uncoupled = self.ears.is_shut();
-        let amount = self.ears.run(samples);
-        for (slot, post) in self.posts.iter_mut().enumerate() {
-            let Some(post) = post else { continue };
-            post.prepare(self.resets, self.clock, samples);
-            let listens = post.piece.as_ref().is_some_and(|piece| piece.kind() == Kind::Drum);
-            if listens && !uncoupled {
-                self.air.arrive(slot, self.clock, &amount, post);
+    /// Passes every piece the sound of the others and renders it.
+    fn render_jobs(&mut self, samples: usize) {
+        let uncoupled = self.coupling.is_shut();
+        let amount = self.coupling.run(samples);
+        for (slot, job) in self.jobs.iter_mut().enumerate() {
+            let Some(job) = job else { continue };
+            job.prepare(self.resets, self.clock, samples);
+            let receives = job.piece.as_ref().is_some_and(|piece| piece.kind() == Kind::Drum);
+            if receives && !uncoupled {
+                self.air.arrive(slot, self.clock, &amount, job);
             }
         }
         match &mut self.workers {
-            Some(workers) => workers.render(&mut self.posts),
-            None => self.posts.iter_mut().flatten().for_each(|post| post.render()),
+            Some(workers) => workers.render(&mut self.jobs),
+            None => self.jobs.iter_mut().flatten().for_each(|job| job.render()),
         }
     }
 }

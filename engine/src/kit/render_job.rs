@@ -1,7 +1,7 @@
-//! A piece at its post: what it needs for a run and what it leaves.
+//! Render jobs: a piece with the input and output of one run.
 //!
-//! Within a run no piece can hear another: whatever it hears was sent before. So posts can be rendered in any
-//! order and on any thread; whoever does it is a [`RenderWorkers`].
+//! Within a run no sound of one piece reaches another. Jobs can therefore be rendered in any order and on any thread.
+//! [`RenderWorkers`] render them.
 
 use super::fade_out::FadeOut;
 use crate::block::BLOCK;
@@ -11,18 +11,18 @@ use crate::piece::Piece;
 /// A piece with its run.
 pub struct RenderJob {
     pub(super) piece: Option<Box<Piece>>,
-    /// What it has replaced.
-    pub(super) leaving: FadeOut,
-    /// Resets of the kit that it knows of.
+    /// The piece it has replaced.
+    pub(super) fade_out: FadeOut,
+    /// Resets of the kit that it has followed.
     resets: u32,
-    /// When the run begins, and its samples.
+    /// Start of the run on the kit's clock, and its length in samples.
     pub(super) due: u64,
     pub(super) run: usize,
-    /// Whether anything arrives.
-    pub(super) hears: bool,
-    /// Pressure that arrives, Pa.
+    /// Whether sound arrives from other pieces.
+    pub(super) receives: bool,
+    /// Pressure of that sound, Pa.
     pub(super) incident: [f32; BLOCK],
-    /// What it sends out: at the close microphone, far away as at a metre, and to other pieces as at a metre, Pa.
+    /// Sound of the piece: at the close microphone, in the far field at a metre, and to other pieces at a metre, Pa.
     pub(super) sound: [[f32; BLOCK]; RECEIVERS],
 }
 
@@ -30,35 +30,35 @@ impl RenderJob {
     pub(super) fn new(sample_rate: f64) -> RenderJob {
         RenderJob {
             piece: None,
-            leaving: FadeOut::new(sample_rate),
+            fade_out: FadeOut::new(sample_rate),
             resets: 0,
             due: 0,
             run: 0,
-            hears: false,
+            receives: false,
             incident: [0.0; BLOCK],
             sound: [[0.0; BLOCK]; RECEIVERS],
         }
     }
 
-    /// Gets ready for a run of the kit's clock, which has been reset so many times.
+    /// Prepares a run at `clock` of a kit that has been reset `resets` times.
     pub(super) fn prepare(&mut self, resets: u32, clock: u64, samples: usize) {
         self.reset(resets);
-        // Not so if it has come back late, or after a reset.
+        // The run before is missing if the job came back late, or after a reset.
         if self.due.wrapping_add(self.run as u64) != clock {
             let phase = (clock % BLOCK as u64) as usize;
             self.piece.iter_mut().for_each(|piece| piece.align(phase));
-            self.leaving.cut();
+            self.fade_out.cut();
         }
-        (self.due, self.run, self.hears) = (clock, samples, false);
+        (self.due, self.run, self.receives) = (clock, samples, false);
     }
 
-    /// Puts everything to rest if the kit has been reset more often than is known here.
+    /// Puts everything to rest if the kit has been reset since the last call.
     pub(super) fn reset(&mut self, resets: u32) {
         if std::mem::replace(&mut self.resets, resets) == resets {
             return;
         }
         self.piece.iter_mut().for_each(|piece| piece.reset());
-        self.leaving.cut();
+        self.fade_out.cut();
     }
 
     /// Renders the run.
@@ -66,43 +66,43 @@ impl RenderJob {
     /// # Real-time
     /// No allocation, no lock.
     pub fn render(&mut self) {
-        let RenderJob { piece, leaving, run, hears, incident, sound, .. } = self;
+        let RenderJob { piece, fade_out, run, receives, incident, sound, .. } = self;
         let out = sound.each_mut().map(|row| &mut row[..*run]);
         match piece {
-            Some(piece) => piece.render_in_air(out, hears.then_some(&incident[..*run])),
+            Some(piece) => piece.render_in_air(out, receives.then_some(&incident[..*run])),
             None => out.into_iter().for_each(|out| out.fill(0.0)),
         }
-        leaving.render(sound.each_mut().map(|row| &mut row[..*run]));
+        fade_out.render(sound.each_mut().map(|row| &mut row[..*run]));
     }
 
-    /// Whether there is no piece, and none that leaves.
+    /// Whether there is no piece, and none that fades out.
     pub(super) fn is_empty(&self) -> bool {
-        self.piece.is_none() && self.leaving.is_over()
+        self.piece.is_none() && self.fade_out.is_over()
     }
 
-    /// Whether nothing comes from it and nothing leaves.
+    /// Whether the piece is asleep and none fades out.
     pub(super) fn is_asleep(&self) -> bool {
-        self.leaving.is_over() && self.piece.as_ref().is_none_or(|piece| piece.is_asleep())
+        self.fade_out.is_over() && self.piece.as_ref().is_none_or(|piece| piece.is_asleep())
     }
 
-    /// Says that the run could not be rendered: the piece is silent for it, and the kit counts that.
+    /// Marks the run as not rendered. The piece is silent for it, and the kit counts that.
     pub fn give_up(&mut self) {
         self.due = u64::MAX;
         self.run = 0;
     }
 
-    /// Whether there is something to do that is worth handing over.
+    /// Whether the run has work that is worth handing to a worker.
     pub fn is_busy(&self) -> bool {
-        self.hears || !self.is_asleep()
+        self.receives || !self.is_asleep()
     }
 }
 
-/// Whoever renders posts.
+/// Renders jobs, on one thread or several.
 pub trait RenderWorkers: Send {
-    /// Renders every post. All that are there at the start must be back at the end; one that is not is silent for
-    /// the run and for as long as it stays away.
+    /// Renders every job. All jobs present at the start must be present at the end. A piece whose job is missing is silent
+    /// until the job is back.
     ///
     /// # Real-time
     /// Called by the audio thread: must not allocate, lock, call the system or wait for long.
-    fn render(&mut self, posts: &mut [Option<Box<RenderJob>>]);
+    fn render(&mut self, jobs: &mut [Option<Box<RenderJob>>]);
 }

@@ -1,9 +1,9 @@
-//! What a slot's controls are, for whatever piece is installed there.
+//! Values of a slot's controls, for any piece that is installed there.
 
 use crate::kit_spec::PieceSpec;
 use crate::surface::wires::PRELOAD;
 
-/// What a piece is to take over when it is installed.
+/// Values that a piece takes over when it is installed.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct RetainedControls {
     pub(super) tuning: f64,
@@ -14,7 +14,7 @@ pub(super) struct RetainedControls {
 }
 
 impl RetainedControls {
-    /// As a piece of that description stands before anybody moves its controls.
+    /// Default values of a piece of that description.
     pub(super) fn of(piece: Option<&PieceSpec>) -> RetainedControls {
         RetainedControls {
             tuning: piece.map_or(1.0, |piece| piece.instrument.tunings()[1]),

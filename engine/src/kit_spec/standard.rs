@@ -5,8 +5,9 @@
 use crate::build_context::Idealization;
 use crate::contact::Material;
 use crate::cymbal::spec::{CymbalSpec, Stand};
-use crate::damping::{LossLaw, Muffler};
+use crate::damping::{EdgeSpec, LossLaw, Muffler};
 use crate::drum::spec::{DrumSpec, HeadContact, HeadSpec, PitchOf, ResonantSpec, ShellSpec};
+use crate::drum::tension_field::TensionFieldSpec;
 use crate::fitted;
 use crate::hi_hat::rigid::Mount;
 use crate::hi_hat::spec::HiHatSpec;
@@ -32,7 +33,7 @@ impl KitSpec {
     pub fn standard() -> KitSpec {
         KitSpec {
             pieces: vec![
-                piece("kick", "Kick", kick(), ([0.0, 0.30, -0.23], [0.0, 0.0, -1.0]), (0.15, 0.0, 0.0)),
+                piece("kick", "Kick", kick(), ([0.0, 0.30, -0.23], [0.0, 0.0, -1.0]), (0.3, 0.0, 0.0)),
                 PieceSpec {
                     // *Fitted*.
                     defaults: Defaults {
@@ -164,10 +165,8 @@ fn single_ply(pitch_ratio: f64, modes_to_hz: f64) -> ResonantSpec {
     ResonantSpec { pitch_ratio, thickness, plies, material, loss, modes_to_hz }
 }
 
-/// Losses of films. *Fitted*: drums are recorded with 0.32 to 0.36 s at 8 kHz whatever their heads, of which the
-/// room's tail is a part; these leave a head on its own 0.25 s there, and the octaves from 500 Hz to 2 kHz where recordings
-/// have them. The literature's 5 to 12 1/s per kHz leaves 0.07 to 0.16 s. The kick's constant part is the felt
-/// strip and what else leans on its head.
+/// Losses of films. *Fitted* within the literature's 2 to 12 1/s per kHz; what the [edge](EDGE) takes is not among them.
+/// The kick's constant part is the felt strip and what else leans on its head.
 const KICK_LOSS: LossLaw =
     LossLaw { constant: fitted::KICK_BATTER_LOSS, per_khz: fitted::KICK_BATTER_LOSS_PER_KHZ };
 const TOM_LOSS: LossLaw =
@@ -206,20 +205,37 @@ fn two_headed(
         batter,
         resonant: Some(resonant),
         shell: Some(ShellSpec::Cylinder { depth: inches(depth_in), air_q: fitted::AIR_Q }),
+        edge: Some(EDGE),
         hoop: None,
         wires: None,
         muffler: Muffler::GEL,
         evenness: Splitting::DRUM,
+        tension_field: Some(UNEVEN),
         contact: HeadContact::Wraps,
         high_band: true,
     }
 }
 
+/// What carries heads on toms and bass drums: collar, bearing edge, hoop and shell. *Fitted*.
+const EDGE: EdgeSpec = EdgeSpec { resistance: fitted::EDGE_RESISTANCE, corner_hz: fitted::EDGE_CORNER_HZ };
+
+/// On snare drums, whose shells are short and whose hoops stiff. *Fitted*.
+const SNARE_EDGE: EdgeSpec = EdgeSpec { resistance: fitted::SNARE_EDGE_RESISTANCE, ..EDGE };
+
+/// How uneven heads are: tension by lugs that are a few cents apart, film, collar. *Fitted*.
+const UNEVEN: TensionFieldSpec =
+    TensionFieldSpec { rms: fitted::TENSION_RMS, correlation: fitted::TENSION_CORRELATION, seed: 1 };
+
+/// The corner of the filling of a pillow: a quarter wave in 0.1 m of filling in which waves go at some 50 m/s. *Judgement*.
+const PILLOW_CORNER: f64 = 125.0;
+
 /// 22 x 18 in bass drum with a pillow.
 fn kick() -> InstrumentSpec {
     let drum =
         two_headed([22.0, 18.0], film(0.36e-3, 2, KICK_LOSS), single_ply(1.10, 1000.0), [35.0, 55.0, 90.0]);
-    InstrumentSpec::Drum(DrumSpec { muffler: Muffler::Pillow { sigma: 21.0, flow: PILLOW_FLOW }, ..drum })
+    let muffler =
+        Muffler::Pillow { sigma: fitted::PILLOW_SIGMA, corner_hz: PILLOW_CORNER, flow: PILLOW_FLOW };
+    InstrumentSpec::Drum(DrumSpec { muffler, ..drum })
 }
 
 /// 14 x 5.5 in snare drum. Its pitch is *fitted*: close by, a snare of 220 Hz is taken for one of 370 Hz, its (1,1); so tuned
@@ -237,24 +253,30 @@ fn snare() -> InstrumentSpec {
         material: Material::STEEL,
         restitution: 0.35,
     };
-    InstrumentSpec::Drum(DrumSpec { wires: Some(wires), hoop: Some(HOOP), ..drum })
+    InstrumentSpec::Drum(DrumSpec {
+        wires: Some(wires),
+        hoop: Some(HOOP),
+        edge: Some(SNARE_EDGE),
+        tension_field: Some(TensionFieldSpec { seed: 2, ..UNEVEN }),
+        ..drum
+    })
 }
 
 /// A tom: two-ply batter, single-ply resonant head.
-fn tom(size_in: [f64; 2], pitches: [f64; 3]) -> InstrumentSpec {
-    let drum = two_headed(size_in, film(0.36e-3, 2, TOM_LOSS), single_ply(1.15, 1500.0), pitches);
-    InstrumentSpec::Drum(DrumSpec { hoop: Some(HOOP), ..drum })
+fn tom(size_in: [f64; 2], pitches: [f64; 3], seed: u32) -> InstrumentSpec {
+    let drum = two_headed(size_in, film(0.36e-3, 2, TOM_LOSS), single_ply(1.15, 2500.0), pitches);
+    let tension_field = Some(TensionFieldSpec { seed, ..UNEVEN });
+    InstrumentSpec::Drum(DrumSpec { hoop: Some(HOOP), tension_field, ..drum })
 }
 
-/// 12 x 9 in rack tom.
+/// 12 x 9 in rack tom, heard at 127 Hz, as recorded ones are. *Fitted*.
 fn rack_tom() -> InstrumentSpec {
-    tom([12.0, 9.0], [90.0, 140.0, 260.0])
+    tom([12.0, 9.0], [90.0, fitted::RACK_TOM_PITCH_HZ, 260.0], 3)
 }
 
-/// 16 x 16 in floor tom, half an octave under the rack tom. *Fitted*: so tuned it is nearest to recordings, above all its second
-/// partial and the middle of its first 50 ms.
+/// 16 x 16 in floor tom, heard at 82 Hz, as recorded ones are. *Fitted*.
 fn floor_tom() -> InstrumentSpec {
-    tom([16.0, 16.0], [55.0, fitted::FLOOR_TOM_PITCH_HZ, 160.0])
+    tom([16.0, 16.0], [55.0, fitted::FLOOR_TOM_PITCH_HZ, 160.0], 4)
 }
 
 /// 26 in timpani on a kettle of 0.14 m3.
@@ -266,6 +288,8 @@ fn timpani() -> InstrumentSpec {
         shell: Some(ShellSpec::Kettle { volume: 0.14, air_q: fitted::AIR_Q }),
         pitch_of: PitchOf::PrincipalHeard,
         evenness: Splitting::CLEARED,
+        edge: None,
+        tension_field: None,
         ..drum
     })
 }

@@ -1,10 +1,10 @@
-//! Places on a body where forces act.
+//! Input vectors: the weights with which a force acts on the modes.
 
 use super::row::{Row, zero_row};
 
-/// A place on the body where a force may act: mode shapes there, and what follows from them.
+/// Weights with which a force acts on the modes: the mode shapes at a point, or over a patch.
 pub struct InputVector {
-    /// Mode shapes at the place, `[mode]`.
+    /// Mode shapes at the point, `[mode]`.
     pub(super) shape: Row,
     /// `b` times the shape.
     pub(super) gain_re: Row,
@@ -12,18 +12,18 @@ pub struct InputVector {
 }
 
 impl InputVector {
-    /// A port with all shapes zero. Allocates.
+    /// A vector of zeros. Allocates.
     pub fn new(modes: usize) -> InputVector {
         InputVector { shape: zero_row(modes), gain_re: zero_row(modes), gain_im: zero_row(modes) }
     }
 
-    /// Mode shapes at the place, `[mode]`, relative to the modal displacement; call [`ModalBody::connect`](super::ModalBody::connect) after a
+    /// Mode shapes at the point, `[mode]`, relative to the modal displacement; call [`ModalBody::connect`](super::ModalBody::connect) after a
     /// change.
     pub fn shape_mut(&mut self) -> &mut [f32] {
         &mut self.shape
     }
 
-    /// Mode shapes at the place, `[mode]`, relative to the modal displacement, padded.
+    /// Mode shapes at the point, `[mode]`, relative to the modal displacement, padded.
     pub fn shape(&self) -> &[f32] {
         &self.shape
     }

@@ -1,4 +1,4 @@
-//! A body felt and pushed at all places around its rim at once; see [`RimHarmonics`].
+//! Displacement and forces of a body at all points around its rim at once; see [`RimHarmonics`].
 
 use super::simd::rim_harmonics::{Amplitudes, MAX_CLASSES, RimHarmonics, Spread};
 use super::{InputVector, ModalBody, RECEIVERS, ReceiverWeights};
@@ -12,7 +12,7 @@ impl ModalBody {
         self.kernels.gather_folded(folded, &self.state.im)
     }
 
-    /// Adds what forces around the rim (N), held over the sample just stepped, did.
+    /// Adds the effect of forces around the rim (N) held over the sample just stepped.
     pub fn push_folded(&mut self, folded: &RimHarmonics, forces: &Amplitudes) {
         let body = Spread {
             re: &mut self.state.re,
@@ -23,14 +23,14 @@ impl ModalBody {
         self.kernels.spread_folded(folded, forces, body);
     }
 
-    /// How far a unit force held at a port has moved the rim by the end of the sample, m/N.
+    /// One-sample compliance of the rim to a force at an input vector, m/N.
     pub fn folded_compliance(&self, folded: &RimHarmonics, from: &InputVector) -> Amplitudes {
         self.kernels.gather_folded(folded, &from.gain_im)
     }
 
-    /// Pressure at each ear at once per unit of force on each amplitude, Pa/N.
-    pub fn folded_direct(&self, folded: &RimHarmonics, pickup: &ReceiverWeights) -> [Amplitudes; RECEIVERS] {
-        pickup.ears.each_ref().map(|ear| self.kernels.gather_folded(folded, &ear.direct))
+    /// Pressure at each receiver proportional to the force, per unit force on each amplitude, Pa/N.
+    pub fn folded_direct(&self, folded: &RimHarmonics, weights: &ReceiverWeights) -> [Amplitudes; RECEIVERS] {
+        weights.receivers.each_ref().map(|receiver| self.kernels.gather_folded(folded, &receiver.direct))
     }
 
     /// One-sample compliances of the rim, m/N.
@@ -38,12 +38,12 @@ impl ModalBody {
         self.sum_classes(folded, |k| f64::from(self.coefs.hold_im[k]))
     }
 
-    /// Compliances of the rim to a steady force, m/N.
+    /// Static compliances of the rim, m/N.
     pub fn static_compliances(&self, folded: &RimHarmonics) -> ClassCompliances {
         self.sum_classes(folded, |k| self.steady_compliance(k))
     }
 
-    /// `1 / (M omega^2)`, m/N; of a silent mode 0.
+    /// `1 / (M omega^2)`, m/N; 0 for a silent mode.
     fn steady_compliance(&self, k: usize) -> f64 {
         let mode = &self.modes[k];
         if self.coefs.hold_im[k] == 0.0 { 0.0 } else { 1.0 / (mode.mass * mode.omega * mode.omega) }
@@ -52,18 +52,18 @@ impl ModalBody {
     fn sum_classes(&self, folded: &RimHarmonics, of_mode: impl Fn(usize) -> f64) -> ClassCompliances {
         let mut out = ClassCompliances::default();
         for (k, class, share) in folded.shares() {
-            let yields = of_mode(k);
+            let compliance = of_mode(k);
             for i in 0..2 {
                 for j in 0..2 {
-                    out[class][i][j] += yields * share[i] * share[j];
+                    out[class][i][j] += compliance * share[i] * share[j];
                 }
             }
         }
         out
     }
 
-    /// Sum over all modes of how far each can be from rest, weighted by its largest share of the rim, m:
-    /// no place on the rim is farther.
+    /// Upper bound of the displacement of any point on the rim, m: the sum of the modes' amplitudes, each times its largest
+    /// share of the rim.
     pub fn folded_reach(&self, folded: &RimHarmonics) -> f64 {
         let far = |k: usize| self.state.re[k] * self.state.re[k] + self.state.im[k] * self.state.im[k];
         f64::from(folded.sizes().map(|(k, square)| (square * far(k)).sqrt()).sum::<f32>())

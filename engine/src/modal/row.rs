@@ -1,4 +1,4 @@
-//! Rows of numbers about modes, as the kernels want them.
+//! Rows of one number per mode, aligned and padded for the kernels.
 
 use aligned_vec::{AVec, ConstAlign};
 

@@ -1,13 +1,13 @@
-//! The kernels of a modal body: every loop over modes there is.
+//! The kernels of a modal body: all loops over modes.
 //!
 //! One generic form each, compiled for the baseline of the architecture and for what `pulp` can
 //! select at run time (AVX2 + FMA, AVX-512, NEON). Rows are whole multiples of [`LANES`] long.
-//! Within one level results are bit-equal whatever way a stretch of samples is cut; across levels
-//! they differ by rounding.
+//! On one instruction set the results are bit-equal for any division of the samples into runs. Across instruction sets they
+//! differ by rounding.
 
 //!
 //! [`dispatch`] chooses the instruction set; [`primitives`] are loops over rows, [`ring`] many samples at once, and
-//! the others what single callers need.
+//! the others serve single callers.
 
 pub mod blocks;
 pub mod dispatch;

@@ -6,10 +6,10 @@ use super::*;
 fn single(frequency_hz: f64, sigma: f64, mass: f64, rate: f64) -> (ModalBody, InputVector) {
     let mode = Mode { omega: TAU * frequency_hz, sigma, mass };
     let body = ModalBody::new(vec![mode], rate);
-    let mut port = InputVector::new(1);
-    port.shape_mut()[0] = 1.0;
-    body.connect(&mut port);
-    (body, port)
+    let mut input = InputVector::new(1);
+    input.shape_mut()[0] = 1.0;
+    body.connect(&mut input);
+    (body, input)
 }
 
 /// Phase of the state, rad, and its size.
@@ -68,10 +68,10 @@ fn a_held_force_bends_every_mode_by_its_static_deflection() {
         for frequency in [10.0, 100.0, 3000.0, 0.3 * rate, 0.449 * rate] {
             // Damped enough to settle within the test.
             let sigma = 0.02 * TAU * frequency;
-            let (mut body, port) = single(frequency, sigma, 0.2, rate);
+            let (mut body, input) = single(frequency, sigma, 0.2, rate);
             for _ in 0..(20.0 / sigma * rate) as usize + 100 {
                 body.step();
-                body.push(&port, 3.0);
+                body.push(&input, 3.0);
             }
             let exact = 3.0 / (0.2 * (TAU * frequency).powi(2));
             let ratio = f64::from(body.displacement(0)) / exact;
@@ -82,29 +82,29 @@ fn a_held_force_bends_every_mode_by_its_static_deflection() {
 
 #[test]
 fn the_work_of_a_held_force_is_the_energy_gained() {
-    let (mut body, port) = single(180.0, 0.0, 0.05, 44_100.0);
+    let (mut body, input) = single(180.0, 0.0, 0.05, 44_100.0);
     let mut work = 0.0;
     for sample in 0..400 {
         let force = 20.0 * (f64::from(sample) * 0.05).sin();
-        let before = body.displacement_at(&port);
+        let before = body.displacement_at(&input);
         body.step();
-        body.push(&port, force as f32);
-        work += force * (body.displacement_at(&port) - before);
+        body.push(&input, force as f32);
+        work += force * (body.displacement_at(&input) - before);
     }
     assert!((work / body.energy() - 1.0).abs() < 1e-4, "{work} against {}", body.energy());
 }
 
 #[test]
 fn a_body_bent_but_still_is_silent() {
-    let (mut body, port) = single(300.0, 60.0, 0.05, 44_100.0);
-    let mut pickup = ReceiverWeights::new(vec![[0.7, -0.4]]);
-    body.tune(&mut pickup);
-    let [direct, ..] = pickup.direct_at(&body, &port);
+    let (mut body, input) = single(300.0, 60.0, 0.05, 44_100.0);
+    let mut weights = ReceiverWeights::new(vec![[0.7, -0.4]]);
+    body.tune(&mut weights);
+    let [direct, ..] = weights.direct_at(&body, &input);
     let mut loudest = 0.0_f32;
     for sample in 0..44_100 {
         body.step();
-        body.push(&port, 5.0);
-        let pressure = body.listen(&pickup)[0] + 5.0 * direct;
+        body.push(&input, 5.0);
+        let pressure = body.listen(&weights)[0] + 5.0 * direct;
         loudest = loudest.max(pressure.abs());
         if sample > 22_050 {
             assert!(pressure.abs() < 1e-5 * loudest, "{pressure} of {loudest}");
@@ -114,23 +114,23 @@ fn a_body_bent_but_still_is_silent() {
 
 #[test]
 fn modes_above_half_the_rate_are_silent() {
-    let (mut body, port) = single(23_000.0, 1.0, 0.1, 44_100.0);
-    assert_eq!(body.compliance(&port, &port), 0.0);
-    body.push(&port, 10.0);
+    let (mut body, input) = single(23_000.0, 1.0, 0.1, 44_100.0);
+    assert_eq!(body.compliance(&input, &input), 0.0);
+    body.push(&input, 10.0);
     body.step();
     assert!(body.is_still());
-    let (mut body, port) = single(21_000.0, 1.0, 0.1, 44_100.0);
-    body.push(&port, 10.0);
+    let (mut body, input) = single(21_000.0, 1.0, 0.1, 44_100.0);
+    body.push(&input, 10.0);
     body.step();
     assert!(!body.is_still());
 }
 
 #[test]
 fn retuning_keeps_displacement_and_velocity() {
-    let (mut body, port) = single(120.0, 3.0, 0.1, 48_000.0);
+    let (mut body, input) = single(120.0, 3.0, 0.1, 48_000.0);
     for _ in 0..50 {
         body.step();
-        body.push(&port, 30.0);
+        body.push(&input, 30.0);
     }
     let before = (body.displacement(0), body.velocity(0));
     body.retune(1.7);
@@ -140,7 +140,7 @@ fn retuning_keeps_displacement_and_velocity() {
     assert!((body.modes()[0].omega / (TAU * 204.0) - 1.0).abs() < 1e-12);
 }
 
-/// A body of many modes set ringing, and a pickup.
+/// A body of many ringing modes, and its receiver weights.
 fn choir(kernels: Kernels) -> (ModalBody, ReceiverWeights) {
     let modes: Vec<Mode> = (0..333)
         .map(|k| Mode { omega: 200.0 * (1.0 + 1.7 * k as f64), sigma: 1.0 + 0.1 * k as f64, mass: 0.1 })
@@ -148,15 +148,15 @@ fn choir(kernels: Kernels) -> (ModalBody, ReceiverWeights) {
     let transfer = (0..modes.len()).map(|k| [(k as f64).sin(), (k as f64 * 0.3).cos()]).collect();
     let mut body = ModalBody::new(modes, 44_100.0);
     body.set_kernels(kernels);
-    let mut port = InputVector::new(body.len());
-    for (k, shape) in port.shape_mut().iter_mut().take(333).enumerate() {
+    let mut input = InputVector::new(body.len());
+    for (k, shape) in input.shape_mut().iter_mut().take(333).enumerate() {
         *shape = (0.9 * k as f32).cos();
     }
-    body.connect(&mut port);
-    let mut pickup = ReceiverWeights::new(transfer);
-    body.tune(&mut pickup);
-    body.push(&port, 50.0);
-    (body, pickup)
+    body.connect(&mut input);
+    let mut weights = ReceiverWeights::new(transfer);
+    body.tune(&mut weights);
+    body.push(&input, 50.0);
+    (body, weights)
 }
 
 /// What [`choir`] does, in `f64`, by the closed form.
@@ -184,9 +184,9 @@ fn every_kernel_follows_the_closed_form() {
     let exact = choir_by_closed_form(32 * 20);
     let peak = exact.iter().fold(0.0_f64, |peak, x| peak.max(x.abs()));
     for kernels in [Kernels::baseline(), Kernels::detect()] {
-        let (mut body, pickup) = choir(kernels);
+        let (mut body, weights) = choir(kernels);
         let mut out = vec![0.0; exact.len()];
-        out.chunks_mut(32).for_each(|block| ring(&mut body, &pickup, block));
+        out.chunks_mut(32).for_each(|block| ring(&mut body, &weights, block));
         for (got, want) in out.iter().zip(&exact) {
             assert!((f64::from(*got) - want).abs() < 2e-5 * peak, "{}: {got} {want}", kernels.name());
         }
@@ -195,17 +195,17 @@ fn every_kernel_follows_the_closed_form() {
 
 #[test]
 fn ringing_does_not_depend_on_how_time_is_cut() {
-    let (mut whole, pickup) = choir(Kernels::detect());
+    let (mut whole, weights) = choir(Kernels::detect());
     let (mut cut, _) = choir(Kernels::detect());
     let (mut stepped, _) = choir(Kernels::detect());
     let (mut a, mut b) = (vec![0.0; 96], vec![0.0; 96]);
-    a.chunks_mut(32).for_each(|block| ring(&mut whole, &pickup, block));
-    b.chunks_mut(7).for_each(|block| ring(&mut cut, &pickup, block));
+    a.chunks_mut(32).for_each(|block| ring(&mut whole, &weights, block));
+    b.chunks_mut(7).for_each(|block| ring(&mut cut, &weights, block));
     (0..96).for_each(|_| stepped.step());
     assert_eq!(a, b);
     assert_eq!(whole.state.im.as_slice(), cut.state.im.as_slice());
     assert_eq!(whole.state.im.as_slice(), stepped.state.im.as_slice());
-    assert!((stepped.listen(&pickup)[0] - a[95]).abs() < 1e-4 * a[95].abs().max(1.0));
+    assert!((stepped.listen(&weights)[0] - a[95]).abs() < 1e-4 * a[95].abs().max(1.0));
 }
 
 #[test]
@@ -221,16 +221,16 @@ fn quiet_modes_become_exactly_zero() {
 
 #[test]
 fn modes_that_sleep_early_are_missed_by_less_than_the_bound() {
-    let (mut early, pickup) = choir(Kernels::detect());
+    let (mut early, weights) = choir(Kernels::detect());
     let (mut late, _) = choir(Kernels::detect());
-    let mut faint = InaudibleModes::new(early.len());
-    early.update_thresholds(&mut faint, &pickup, 0, None);
+    let mut inaudible = InaudibleModes::new(early.len());
+    early.update_thresholds(&mut inaudible, &weights, 0, None);
     let (mut missed, mut sooner) = (0.0_f32, 0);
     for _ in 0..60_000 {
         let (mut a, mut b) = ([0.0; 32], [0.0; 32]);
-        ring(&mut early, &pickup, &mut a);
-        ring(&mut late, &pickup, &mut b);
-        early.flush_inaudible(&faint);
+        ring(&mut early, &weights, &mut a);
+        ring(&mut late, &weights, &mut b);
+        early.flush_inaudible(&inaudible);
         late.flush_quiet();
         missed = a.iter().zip(b).fold(missed, |most, (a, b)| most.max((a - b).abs()));
         sooner += usize::from(early.is_still() && !late.is_still());
@@ -240,11 +240,11 @@ fn modes_that_sleep_early_are_missed_by_less_than_the_bound() {
     assert!(late.is_still());
 }
 
-/// What the near ear hears.
-fn ring(body: &mut ModalBody, pickup: &ReceiverWeights, out: &mut [f32]) {
+/// Pressure at the near receiver.
+fn ring(body: &mut ModalBody, weights: &ReceiverWeights, out: &mut [f32]) {
     let mut others = [[0.0; simd::MAX_RUN]; 2];
     let [far, few] = others.each_mut().map(|row| &mut row[..out.len()]);
-    body.ring(0, pickup, [out, far, few]);
+    body.ring(0, weights, [out, far, few]);
 }
 
 #[test]
@@ -252,9 +252,9 @@ fn the_energies_of_the_octaves_are_the_energy() {
     use crate::snapshot::{FIRST_OCTAVE, OCTAVES};
     for octave in [0, 4, OCTAVES - 1] {
         let hertz = 1.4 * FIRST_OCTAVE * f64::from(1 << octave);
-        let (mut body, port) = single(hertz, 1.0, 0.2, 96_000.0);
+        let (mut body, input) = single(hertz, 1.0, 0.2, 96_000.0);
         (0..20).for_each(|_| {
-            body.push(&port, 3.0);
+            body.push(&input, 3.0);
             body.step();
         });
         let octaves = body.energy_by_octave();

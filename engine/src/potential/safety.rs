@@ -1,49 +1,49 @@
-//! What keeps a nonlinear force from running away, and a plate from staying inside out.
+//! Guards of a nonlinear force: against divergence, and against a plate that stays inside out.
 
 use super::schedule::Window;
 
-/// Error of the energy held, over the kinetic energy, from which it is evaluated three times as often, and the
-/// time in which one is forgotten, s. *Converged*: a crash at 6 m/s stays below, evaluated seven times a period; a
-/// stick at 25 m/s on a splash goes from three times this to a runaway within half a millisecond.
+/// Error of the energy, over the kinetic energy, from which the potential is evaluated three times as often, and the time
+/// constant in which an error is forgotten, s. *Converged*: a crash at 6 m/s stays below, evaluated seven times a period. A
+/// stick at 25 m/s on a splash goes from three times this to divergence within half a millisecond.
 const ASTRAY: f64 = 0.01;
 const CALM_TIME: f64 = 0.005;
 
-/// Error from which `psi` is lost, and what share of its velocity the plate keeps then, at each evaluation, until
-/// so little of the depth that it yields at is held that it may be found anew. *Derived*: nothing below abuse
-/// comes near a tenth.
+/// Error from which `psi` is lost. The plate then keeps the share `COLLAPSING` of its velocity at each evaluation, until the
+/// potential has fallen below the share `FOUND` of the largest depth, where `psi` is set anew. *Derived*: ordinary strokes do
+/// not reach a tenth.
 const LOST: f64 = 0.5;
 const COLLAPSING: f32 = 0.7;
 const FOUND: f64 = 1e-3;
 
-/// Depth beyond which the body yields, J/kg, and what share of its velocity it keeps at each evaluation then.
-/// *Derived*: a hundred strokes at 25 m/s within a second would turn a cymbal inside out, where a true
-/// one would crack; the hardest single stroke, a beater of 34 J on a crash's centre, stays below.
-const YIELD: f64 = 560.0;
-const YIELDING: f32 = 0.98;
+/// Largest depth, J/kg, and the share of its velocity that a body keeps at each evaluation beyond it. *Derived*: a hundred
+/// strokes at 25 m/s within a second would turn a cymbal inside out, where a true one would crack. The hardest single stroke, a
+/// beater of 34 J on a crash's centre, stays below.
+const LARGEST_DEPTH: f64 = 560.0;
+const SLOWED: f32 = 0.98;
 
-/// Share of the depth it yields at that a body turned inside out holds at least, and what share of what it holds
-/// changes at most once it lies there. *Converged*: a splash, turned, holds nearly all of that depth, and a fourth
-/// at its lowest tuning; yielding and exchanges, which take a plate held bent for one that moves, keep 3 % trembling.
+/// Smallest share of the largest depth that a body inside out holds, and the largest share of it that changes at rest there.
+/// *Converged*: a splash inside out holds nearly all of that depth, and a fourth at its lowest tuning. Slowing and exchanges,
+/// which take its deflection for motion, keep 3 % of it moving.
 const INSIDE_OUT: f64 = 0.05;
 const LYING: f64 = 0.05;
 
-/// How far `psi` strays, and how deep the body is bent.
+/// State of the guards.
 pub(super) struct Safety {
-    /// Depth beyond which it yields, J.
-    yields_at: f64,
-    /// Largest error of the energy held of late, over the kinetic energy.
+    /// Depth beyond which the body is slowed, J.
+    largest_depth: f64,
+    /// Largest recent error of the energy, over the kinetic energy.
     astray: f64,
-    /// Lies inside out.
+    /// Whether the body rests inside out.
     inside_out: bool,
 }
 
 impl Safety {
-    /// For a body of that mass, kg.
+    /// Guards of a body of that mass, kg.
     pub(super) fn new(mass: f64) -> Safety {
-        Safety { yields_at: YIELD * mass, astray: 0.0, inside_out: false }
+        Safety { largest_depth: LARGEST_DEPTH * mass, astray: 0.0, inside_out: false }
     }
 
-    /// Whether the energy held strays so far that it must be evaluated more often.
+    /// Whether the error is so large that the potential must be evaluated more often.
     pub(super) fn is_astray(&self) -> bool {
         self.astray > ASTRAY
     }
@@ -53,35 +53,35 @@ impl Safety {
         self.astray > LOST
     }
 
-    /// Whether a potential (J) is so low that a `psi` that was lost may be found anew.
+    /// Whether a potential (J) is so low that a lost `psi` can be set anew.
     pub(super) fn is_found(&self, energy: f64) -> bool {
-        energy < FOUND * self.yields_at
+        energy < FOUND * self.largest_depth
     }
 
-    /// Share of its velocity that the body keeps at an evaluation, if not all of it; the depth in J.
+    /// Share of its velocity that the body keeps at an evaluation, if not all of it; `depth` in J.
     pub(super) fn slows(&self, depth: f64) -> Option<f32> {
         let lost = self.is_lost();
-        (lost || depth > self.yields_at).then_some(if lost { COLLAPSING } else { YIELDING })
+        (lost || depth > self.largest_depth).then_some(if lost { COLLAPSING } else { SLOWED })
     }
 
-    /// An evaluation has found an error, over the kinetic energy; the one before was a stretch of time (s) ago.
+    /// Records the error of an evaluation, over the kinetic energy; `stretch` is the time since the one before, s.
     pub(super) fn strays(&mut self, error: f64, stretch: f64) {
         let kept = (1.0 - stretch / CALM_TIME).max(0.0);
         self.astray = error.max(kept * self.astray);
     }
 
-    /// `psi` has been found anew.
+    /// `psi` has been set anew.
     pub(super) fn forget(&mut self) {
         self.astray = 0.0;
     }
 
-    /// Judges from the peaks of a window whether the body lies inside out.
+    /// Decides from the peaks of a window whether the body rests inside out.
     pub(super) fn look(&mut self, window: &Window) {
         let Window { turned, most, .. } = *window;
-        self.inside_out = turned > INSIDE_OUT * self.yields_at && turned > (1.0 - LYING) * most;
+        self.inside_out = turned > INSIDE_OUT * self.largest_depth && turned > (1.0 - LYING) * most;
     }
 
-    /// Whether the body lies inside out.
+    /// Whether the body rests inside out.
     pub(super) fn is_inside_out(&self) -> bool {
         self.inside_out
     }

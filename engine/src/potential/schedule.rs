@@ -1,6 +1,6 @@
-//! When a nonlinear force is evaluated, and whether it acts at all.
+//! Schedule of a nonlinear force: when it is evaluated, and whether it acts at all.
 
-/// Window of the peaks the rest is judged on, s: some periods of the slowest mode that stretches.
+/// Window of the peaks that decide about rest, s: some periods of the slowest coupled mode.
 const WINDOW: f64 = 0.05;
 
 /// Share of the energy under which a potential rests. *Converged* on the crash: 3e-4 moves no third
@@ -11,21 +11,21 @@ const NEGLIGIBLE: f64 = 3e-4;
 /// 0.09 dB.
 const WEAK: f64 = 0.05;
 
-/// Share of that under which it is faint. *Converged* on the crash: no third octave moves by 0.04 dB.
-const FAINT: f64 = 0.2;
+/// Share of `WEAK` under which it is very weak. *Converged* on the crash: no third octave moves by 0.04 dB.
+const VERY_WEAK: f64 = 0.2;
 
 /// Peaks over this window and the one before.
 #[derive(Debug, Clone, Copy, Default)]
 struct Peaks {
     potential: [f64; 2],
     kinetic: [f64; 2],
-    /// Least that the potential was below zero throughout.
+    /// Smallest amount by which the potential was below zero throughout, J.
     below: [f64; 2],
 }
 
-/// What the peaks of two windows say.
+/// Result of the peaks of two windows.
 pub(super) struct Window {
-    /// Least that the potential was below zero throughout, J.
+    /// Smallest amount by which the potential was below zero throughout, J.
     pub(super) turned: f64,
     /// Largest size of the potential, J.
     pub(super) most: f64,
@@ -33,7 +33,7 @@ pub(super) struct Window {
     pub(super) rests: bool,
 }
 
-/// What acts.
+/// Phase of the force.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Phase {
     /// Not evaluated until it wakes.
@@ -46,7 +46,7 @@ enum Phase {
 
 /// The clock of the evaluations.
 pub(super) struct Schedule {
-    /// Samples between evaluations while it is strong, at least 1, and now.
+    /// Samples between evaluations: while it is strong, at least 1, and at present.
     strong_stride: u32,
     stride: u32,
     /// Share of the energy under which it is weak.
@@ -54,7 +54,7 @@ pub(super) struct Schedule {
     /// Share of the energy under which it rests.
     pub(super) negligible: f64,
     phase: Phase,
-    /// Has found itself negligible; rests from the next [`takes_rest`](Self::takes_rest) on.
+    /// It has become negligible, and rests from the next [`takes_rest`](Self::takes_rest) on.
     done: bool,
     /// Samples until the next evaluation, and since the window began.
     countdown: u32,
@@ -88,7 +88,7 @@ impl Schedule {
         self.countdown = 0;
     }
 
-    /// Samples from an evaluation to the middle of the stretch it is for.
+    /// Samples from an evaluation to the middle of the interval it is used in.
     pub(super) fn ahead(&self) -> f64 {
         0.5 * f64::from(self.stride)
     }
@@ -108,7 +108,7 @@ impl Schedule {
         self.phase == Phase::Acting
     }
 
-    /// Acts from now on; whether it begins anew.
+    /// Acts from now on. Returns whether it begins anew.
     pub(super) fn wake(&mut self) -> bool {
         let anew = !self.is_active() || self.done;
         if anew {
@@ -125,17 +125,17 @@ impl Schedule {
         (self.phase, self.done) = (Phase::Resting, false);
     }
 
-    /// Whether it has found itself negligible since this was last asked.
+    /// Whether it has become negligible since the last call.
     pub(super) fn takes_rest(&mut self) -> bool {
         std::mem::take(&mut self.done)
     }
 
-    /// Whether it is time to evaluate.
+    /// Whether an evaluation is due.
     pub(super) fn is_due(&self) -> bool {
         self.countdown == 0 && !self.done
     }
 
-    /// Sets the next evaluation; whether the stride has changed.
+    /// Schedules the next evaluation. Returns whether the stride has changed.
     pub(super) fn set_out(&mut self, stiffness: f64, astray: bool) -> bool {
         let stride = self.judge(stiffness, astray);
         let changed = stride != self.stride;
@@ -158,7 +158,7 @@ impl Schedule {
         fresh
     }
 
-    /// Counts what an evaluation found, J; at the end of a window, what its peaks say.
+    /// Records the energies of an evaluation, J. Returns the result of the window at its end.
     pub(super) fn count(&mut self, potential: f64, kinetic: f64, dt: f64) -> Option<Window> {
         let Peaks { potential: p, kinetic: t, below } = &mut self.peaks;
         p[1] = p[1].max(potential.abs());
@@ -180,8 +180,8 @@ impl Schedule {
         Some(Window { turned, most, rests })
     }
 
-    /// Samples until the next evaluation: by how weak it is, judged by the windows, though a blow
-    /// counts at once; and by how far `psi` strays between two.
+    /// Samples until the next evaluation. They depend on the share of the energy over the last windows, which a stroke raises
+    /// at once, and on how far `psi` strays between two evaluations.
     fn judge(&mut self, stiffness: f64, astray: bool) -> u32 {
         let (p, t) = (self.peaks.potential[1], self.peaks.kinetic[1]);
         if p > self.weak * t {
@@ -191,7 +191,7 @@ impl Schedule {
         let strong = ((f64::from(self.strong_stride) / stiffness.max(1.0).sqrt()) as u32).max(1);
         if astray {
             (strong / 3).max(1)
-        } else if self.share < FAINT * self.weak {
+        } else if self.share < VERY_WEAK * self.weak {
             3 * strong
         } else if self.share < self.weak {
             2 * strong

@@ -1,4 +1,4 @@
-//! How a nonlinear force is heard: what follows it at once.
+//! Sound of a nonlinear force itself.
 
 use crate::modal::{InputVector, ModalBody, Pressure, ReceiverWeights};
 
@@ -9,9 +9,9 @@ const SLOW_TIME: f64 = 1.6e-3;
 /// Pressures at the receivers.
 #[derive(Default)]
 pub(super) struct Sound {
-    /// Pressure at once per unit of `psibar`, Pa.
+    /// Pressure proportional to `psibar`, per unit of it, Pa.
     direct: Pressure,
-    /// Pressure per unit rate of change of `psibar`, Pa s, and the force's slow part heard by it, Pa s.
+    /// Pressure per unit rate of change of `psibar`, Pa s, and the low-passed force times it, Pa s.
     slow: Pressure,
     lag: Pressure,
     /// Pressure of the latest exchange with the velocities, Pa, for one sample.
@@ -20,12 +20,12 @@ pub(super) struct Sound {
 
 impl Sound {
     /// Follows a new gradient.
-    pub(super) fn follow(&mut self, body: &ModalBody, pickup: &ReceiverWeights, port: &InputVector) {
-        self.direct = pickup.direct_at(body, port);
-        self.slow = pickup.slow_at(body, port);
+    pub(super) fn follow(&mut self, body: &ModalBody, weights: &ReceiverWeights, input: &InputVector) {
+        self.direct = weights.direct_at(body, input);
+        self.slow = weights.slow_at(body, input);
     }
 
-    /// The velocities were scaled: that is heard, Pa.
+    /// Adds the pressure of scaled velocities, Pa.
     pub(super) fn rescale_velocity(&mut self, heard: Pressure) {
         self.rescale_velocity
             .iter_mut()
@@ -33,17 +33,17 @@ impl Sound {
             .for_each(|(sum, rescale_velocity)| *sum += rescale_velocity);
     }
 
-    /// What is heard at once of a force held over a sample of `dt` s, Pa.
+    /// Pressure of a force held over a sample of `dt` s, Pa.
     pub(super) fn heard(&mut self, force: f32, dt: f64) -> Pressure {
-        std::array::from_fn(|ear| {
-            // The rate of the slow part: of what changes faster the velocity is right.
-            let rate = (force * self.slow[ear] - self.lag[ear]) * (1.0 / SLOW_TIME) as f32;
-            self.lag[ear] += rate * dt as f32;
-            force * self.direct[ear] + rate + std::mem::take(&mut self.rescale_velocity[ear])
+        std::array::from_fn(|receiver| {
+            // The rate of the slow part; for faster changes the velocity term is right.
+            let rate = (force * self.slow[receiver] - self.lag[receiver]) * (1.0 / SLOW_TIME) as f32;
+            self.lag[receiver] += rate * dt as f32;
+            force * self.direct[receiver] + rate + std::mem::take(&mut self.rescale_velocity[receiver])
         })
     }
 
-    /// Nothing is heard any more of what was.
+    /// Forgets the past force.
     pub(super) fn reset(&mut self) {
         (self.lag, self.rescale_velocity) = (Pressure::default(), Pressure::default());
     }

@@ -1,6 +1,6 @@
-//! A struck body by itself: modes, their shapes, how they are heard, and what acts on them beside contacts.
+//! A struck body by itself: modes, mode shapes, receiver weights, and all forces except those of contacts.
 //!
-//! Beside contacts act the nonlinear force beyond the modes and the pressure of sound from elsewhere.
+//! These are the nonlinear force and the incident pressure.
 
 use crate::modal::inaudible_modes::InaudibleModes;
 use crate::modal::simd::Kernels;
@@ -15,11 +15,11 @@ pub fn add(sum: &mut Pressure, more: Pressure) {
     sum.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
 }
 
-/// A modal body and how it is heard.
+/// A modal body and its receiver weights.
 pub struct SoundingBody {
     /// The modes and their motion.
     pub modal: ModalBody,
-    /// How they are heard.
+    /// Receiver weights of the modes.
     pub receiver: ReceiverWeights,
 }
 
@@ -42,48 +42,48 @@ impl SoundingBody {
         self.modal.tune(&mut self.receiver);
     }
 
-    /// What is heard now, Pa, without what follows a force at once.
+    /// Present pressure at each receiver, without the part proportional to forces, Pa.
     pub fn listen(&self) -> Pressure {
         self.modal.listen(&self.receiver)
     }
 }
 
-/// What a sample without contact forces has come to.
+/// Result of a sample without contact forces.
 #[derive(Debug, Clone, Copy)]
 pub struct FreeStep {
-    /// `psibar` of the [nonlinear force](crate::potential), the root of J: what multiplies the coupling of a place to give
-    /// how far the force has moved it.
+    /// `psibar` of the [nonlinear force](crate::potential), the root of J. Times the coupling of a point it is the displacement
+    /// of that point by the force.
     pub mean: f64,
-    /// Its dimensionless `2 + G`; 1 if it does not act, for then nothing is coupled with it.
+    /// Its dimensionless `2 + G`; 1 if it does not act.
     pub divisor: f64,
     /// Whether couplings with the nonlinear force have changed.
     pub recoupled: bool,
-    /// What is heard at once, Pa.
+    /// Pressure proportional to the incident pressure, Pa.
     pub heard: Pressure,
 }
 
 /// A body that can be struck.
 pub struct StruckBody {
     sound: SoundingBody,
-    /// Below what its modes may sleep.
+    /// Thresholds below which its modes are zeroed.
     inaudible: InaudibleModes,
     shapes: ShapeTable,
-    /// What it does beyond its modes.
+    /// The nonlinear force, if it has one.
     nonlinear_force: Option<NonlinearForce>,
-    /// What the surrounding air presses on.
+    /// The load of the surrounding air, if sound from elsewhere acts on it.
     air: Option<AirLoad>,
     /// Hz.
     sample_rate: f64,
 }
 
 impl StruckBody {
-    /// A body at rest without nonlinear force, out of the air; sample rate in Hz. Allocates.
+    /// A body at rest without nonlinear force and air load; sample rate in Hz. Allocates.
     pub fn new(sound: SoundingBody, shapes: ShapeTable, sample_rate: f64) -> StruckBody {
         let inaudible = InaudibleModes::new(sound.modal.len());
         StruckBody { sound, inaudible, shapes, nonlinear_force: None, air: None, sample_rate }
     }
 
-    /// The modes and how they are heard.
+    /// The modes and their receiver weights.
     pub fn sound(&self) -> &SoundingBody {
         &self.sound
     }
@@ -98,7 +98,7 @@ impl StruckBody {
         &mut self.sound.modal
     }
 
-    /// How the modes are heard.
+    /// Receiver weights of the modes.
     pub fn receiver(&self) -> &ReceiverWeights {
         &self.sound.receiver
     }
@@ -118,12 +118,12 @@ impl StruckBody {
         self.sound.modal.kernels()
     }
 
-    /// What it does beyond its modes, if it does.
+    /// The nonlinear force, if it has one.
     pub fn nonlinear_force(&self) -> Option<&NonlinearForce> {
         self.nonlinear_force.as_ref()
     }
 
-    /// What it does beyond its modes, to be set.
+    /// The nonlinear force, to be set.
     pub fn nonlinear_force_mut(&mut self) -> Option<&mut NonlinearForce> {
         self.nonlinear_force.as_mut()
     }
@@ -133,7 +133,7 @@ impl StruckBody {
         self.nonlinear_force.as_ref().filter(|force| force.is_active())
     }
 
-    /// Whether the air presses on it at all.
+    /// Whether sound from elsewhere acts on it.
     pub fn is_in_air(&self) -> bool {
         self.air.is_some()
     }
@@ -146,7 +146,7 @@ impl StruckBody {
         self.update_thresholds();
     }
 
-    /// Evaluates what the body does beyond its modes once in `stride` samples; for comparisons.
+    /// Evaluates the nonlinear force once in `stride` samples; for comparisons.
     pub(super) fn set_stride(&mut self, stride: u32) {
         if let Some(force) = &mut self.nonlinear_force {
             force.set_stride(stride);
@@ -154,20 +154,20 @@ impl StruckBody {
         }
     }
 
-    /// Lets the air press on the body, and be pressed by it. Allocates.
+    /// Adds an air load: sound from elsewhere acts on the body, and it radiates to others. Allocates.
     pub(super) fn enter_air(&mut self) {
         self.air = Some(AirLoad::new(self.sound.modal.len()));
         self.sound.receiver.attend(self.sound.modal.len());
     }
 
-    /// Volume by which each mode makes the body smaller, m2, and the share of its sound that goes all around.
+    /// Volume by which each mode compresses the body, per modal displacement, m2, and the omnidirectional share of its sound.
     pub(super) fn set_volumes(&mut self, volumes: impl Iterator<Item = (f64, f64)>) {
         if let Some(air) = &mut self.air {
             air.set_volumes(volumes);
         }
     }
 
-    /// Changes how each mode is heard from near and from far away; the modes have to be followed after.
+    /// Changes the transfers to the near and the far receiver; [`follow`](Self::follow) must be called after.
     pub(super) fn set_transfers(
         &mut self,
         near: impl Iterator<Item = [f64; 2]>,
@@ -179,14 +179,14 @@ impl StruckBody {
         self.air.iter().for_each(|air| air.send(receiver));
     }
 
-    /// Works out below what modes may sleep: those that neither the air nor what is beyond the modes drives.
+    /// Updates the thresholds of modes that neither the air nor the nonlinear force drives.
     fn update_thresholds(&mut self) {
-        let coupled = self.nonlinear_force.as_ref().map_or(0, |force| force.front().length());
+        let coupled = self.nonlinear_force.as_ref().map_or(0, |force| force.coupled_modes().length());
         let driven = self.air.as_ref().map(AirLoad::port);
         self.sound.modal.update_thresholds(&mut self.inaudible, &self.sound.receiver, coupled, driven);
     }
 
-    /// Follows a change of the modes, or of how they are heard.
+    /// Follows a change of the modes or of the transfers.
     pub(super) fn follow(&mut self) {
         self.sound.follow();
         self.update_thresholds();
@@ -195,7 +195,7 @@ impl StruckBody {
         self.air.iter_mut().for_each(|air| air.follow(modal, receiver));
     }
 
-    /// Steps under nothing but the air and what acts beyond the modes.
+    /// Steps under the air and the nonlinear force alone.
     pub(super) fn step(&mut self, sample: usize, incident: Option<IncidentPressure<'_>>) -> FreeStep {
         let SoundingBody { modal, receiver } = &mut self.sound;
         let Some(force) = self.nonlinear_force.as_mut().filter(|force| force.is_active()) else {
@@ -212,7 +212,7 @@ impl StruckBody {
         FreeStep { mean: force.free(&self.sound.modal), divisor: force.divisor(), recoupled, heard }
     }
 
-    /// Adds the pressure of a sample to the modes, just stepped; returns what is heard of it at once.
+    /// Adds the incident pressure of a sample to the modes, which have stepped. Returns the pressure proportional to it, Pa.
     fn press(&mut self, incident: Option<IncidentPressure<'_>>, sample: usize) -> Pressure {
         let pressure = incident.map_or(0.0, |incident| incident[sample]);
         match &self.air {
@@ -224,7 +224,8 @@ impl StruckBody {
         }
     }
 
-    /// Adds what is beyond the modes, given what contacts press it with; what is heard of it at once, Pa.
+    /// Applies the nonlinear force; `pressed` is the sum of the contact forces times their couplings. Returns the pressure
+    /// proportional to the force, Pa.
     pub(super) fn finish(&mut self, pressed: f64) -> Pressure {
         match self.nonlinear_force.as_mut().filter(|force| force.is_active()) {
             Some(force) => force.finish(&mut self.sound.modal, pressed),
@@ -232,7 +233,7 @@ impl StruckBody {
         }
     }
 
-    /// Renders while nothing touches, from sample `from` of what arrives on.
+    /// Renders while nothing touches, from sample `from` of the incident pressure on.
     pub(super) fn ring(
         &mut self,
         mut out: [&mut [f32]; RECEIVERS],
@@ -244,7 +245,7 @@ impl StruckBody {
         let drive = pressed.and_then(|(air, incident)| air.drive(incident, from));
         match &mut self.nonlinear_force {
             Some(force) if force.is_active() => {
-                let first = force.front().length();
+                let first = force.coupled_modes().length();
                 modal.ring_driven(first, drive.into_iter(), receiver, out.each_mut().map(|out| &mut **out));
                 force.ring(modal, receiver, drive, &mut out);
             }
@@ -257,28 +258,27 @@ impl StruckBody {
         }
     }
 
-    /// Coupling of a place with the nonlinear force; 0 without one.
+    /// Coupling of an input vector with the nonlinear force; 0 without one.
     pub(super) fn coupling(&self, port: &InputVector) -> f64 {
         self.nonlinear_force.as_ref().map_or(0.0, |force| force.coupling(&self.sound.modal, port))
     }
 
-    /// Energy of the modes and beyond them, J.
+    /// Energy of the modes and the nonlinear force, J.
     pub(super) fn energy(&self) -> f64 {
         self.sound.modal.energy() + self.nonlinear_force.as_ref().map_or(0.0, NonlinearForce::energy)
     }
 
-    /// Energy of the motion, J; what the nonlinear force holds counts as motion.
+    /// Energy of the motion, J; that of the nonlinear force counts as motion.
     pub(super) fn motion(&self) -> f64 {
         self.sound.modal.motion() + self.nonlinear_force.as_ref().map_or(0.0, |force| force.energy().abs())
     }
 
-    /// True energy beyond the modes, J, and the relative error of the variable that stands for it.
+    /// True energy of the nonlinear force, J, and the relative error of its scalar variable.
     pub(super) fn true_potential(&mut self) -> (f64, f64) {
         self.nonlinear_force.as_mut().map_or((0.0, 0.0), |force| force.true_energy(&self.sound.modal))
     }
 
-    /// Zeroes what has decayed: modes that nobody hears, if nothing but the air drives them, else only what is next to
-    /// nothing.
+    /// Zeroes modes that have decayed: inaudible ones if only the air drives the body, else only those that are nearly zero.
     pub(super) fn settle(&mut self, left_alone: bool) {
         match left_alone {
             true => self.sound.modal.flush_inaudible(&self.inaudible),
@@ -287,7 +287,7 @@ impl StruckBody {
         self.nonlinear_force.iter_mut().for_each(NonlinearForce::settle);
     }
 
-    /// Whether it has come to lie inside out.
+    /// Whether it rests inside out.
     pub(super) fn is_inside_out(&self) -> bool {
         self.nonlinear_force.as_ref().is_some_and(NonlinearForce::is_inside_out)
     }

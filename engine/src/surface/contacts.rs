@@ -1,8 +1,8 @@
-//! The contact system of a struck body: what touches it, where, and the forces that all agree on.
+//! The contact system of a struck body: exciters, contact points, and their forces.
 //!
-//! Whatever touches is an [exciter](Exciter), a few oscillators with one or two points. Both exciters and modes integrate
-//! a force held over the sample exactly, so a contact is one scalar equation, and several at once a small system of
-//! them, which the [solver] solves.
+//! An [exciter](Exciter) consists of a few oscillators with one or two contact points. Exciters and modes integrate a force held
+//! over the sample exactly. A contact is therefore one scalar equation, and several contacts are a small system of such
+//! equations, which the [solver] solves.
 //!
 //! Strikers come first; exciters of attachments follow, with one point each.
 
@@ -14,7 +14,7 @@ use crate::modal::simd::Kernels;
 use super::body::{FreeStep, StruckBody};
 use super::exciter::{ContactPoint, Exciter, Ground};
 
-/// Strikers that can be about one body at a time; the one that has been away longest gives way.
+/// Strikers that one body can have at a time; the one that has been away longest is replaced.
 pub const MAX_STRIKERS: usize = 4;
 
 /// Points a striker has: its tip and its shaft.
@@ -23,10 +23,10 @@ pub(super) const STRIKER_POINTS: usize = 2;
 /// Points of all strikers, which come before all others.
 pub const STRIKER_PLACES: usize = STRIKER_POINTS * MAX_STRIKERS;
 
-/// Points there are at most.
+/// Most points.
 const MAX_POINTS: usize = solver::MAX_CONTACTS;
 
-/// Whose point it is.
+/// The exciter of a point.
 pub(super) const fn owner(point: usize) -> usize {
     if point < STRIKER_PLACES { point / STRIKER_POINTS } else { MAX_STRIKERS + point - STRIKER_PLACES }
 }
@@ -41,7 +41,7 @@ pub(super) const fn points_of(exciter: usize) -> std::ops::Range<usize> {
     }
 }
 
-/// All that touches one body.
+/// All contacts of one body.
 pub struct Contacts {
     /// Strikers, then those of attachments.
     pub(super) exciters: Vec<Exciter>,
@@ -50,20 +50,20 @@ pub struct Contacts {
     /// Points present.
     present: [usize; MAX_POINTS],
     count: usize,
-    /// Between present points: one-sample compliance of the modes and of what touches, m/N.
+    /// One-sample compliance between present points, of the modes and the exciters, m/N.
     pub(super) compliance: Compliances,
     /// Each point's coupling with the nonlinear force.
     pub(super) coupling: [f64; MAX_POINTS],
-    /// The compliance the points meet: the modes', stiffened by the nonlinear force, m/N.
+    /// The same, stiffened by the nonlinear force, m/N.
     stiffened: Compliances,
-    /// Whether contacts give back all they take.
+    /// Whether all contacts are lossless.
     lossless: bool,
     /// Length of a sample, s.
     dt: f64,
 }
 
 impl Contacts {
-    /// Nothing touches a body of so many modes; a sample lasts `dt` s. Allocates.
+    /// No contacts yet, on a body of so many modes; a sample lasts `dt` s. Allocates.
     pub fn new(modes: usize, lossless: bool, dt: f64) -> Contacts {
         Contacts {
             exciters: (0..MAX_STRIKERS).map(|_| Exciter::absent(dt)).collect(),
@@ -78,7 +78,7 @@ impl Contacts {
         }
     }
 
-    /// Whether contacts give back all they take.
+    /// Whether all contacts are lossless.
     pub fn is_lossless(&self) -> bool {
         self.lossless
     }
@@ -88,7 +88,7 @@ impl Contacts {
         self.dt
     }
 
-    /// Adds an exciter with a point of its own; returns the point's place. Allocates.
+    /// Adds an exciter with a point of its own; returns the index of the point. Allocates.
     ///
     /// # Panics
     /// If there are as many points as the solver takes (debug builds).
@@ -99,7 +99,7 @@ impl Contacts {
         self.points.len() - 1
     }
 
-    /// Lets the shafts of strikers meet another body, of so many modes. Allocates.
+    /// Sets the number of modes of the body that the shafts of strikers meet. Allocates.
     pub fn set_shaft_modes(&mut self, modes: usize) {
         for shaft in self.points[..STRIKER_PLACES].iter_mut().skip(1).step_by(STRIKER_POINTS) {
             *shaft = ContactPoint::absent(modes, self.dt);
@@ -111,7 +111,7 @@ impl Contacts {
         &self.present[..self.count]
     }
 
-    /// Whether nothing touches or is about.
+    /// Whether no point is present.
     pub fn is_empty(&self) -> bool {
         self.count == 0
     }
@@ -157,12 +157,12 @@ impl Contacts {
         self.coupling[i]
     }
 
-    /// Whether strikers are about.
+    /// Whether strikers are present.
     pub fn is_struck(&self) -> bool {
         self.exciters[..MAX_STRIKERS].iter().any(|striker| striker.present)
     }
 
-    /// Speed (m/s) with which the fastest of the strikers about has come, if there are any.
+    /// Speed of arrival of the fastest striker present, m/s.
     pub fn fastest_striker(&self) -> Option<f64> {
         let about = self.exciters[..MAX_STRIKERS].iter().filter(|striker| striker.present);
         self.is_struck().then(|| about.map(|striker| striker.speed).fold(0.0, f64::max))
@@ -174,12 +174,12 @@ impl Contacts {
         self.exciters[exciter].energy() + points.map(ContactPoint::energy).sum::<f64>()
     }
 
-    /// Energy of those exciters that are there and of their contacts, J.
+    /// Energy of those exciters that are present and of their contacts, J.
     pub(super) fn energy(&self, which: std::ops::Range<usize>) -> f64 {
         which.filter(|&i| self.exciters[i].present).map(|i| self.energy_of(i)).sum()
     }
 
-    /// Energy of the motion of those exciters that are there, J.
+    /// Energy of the motion of those exciters that are present, J.
     pub(super) fn motion(&self, which: std::ops::Range<usize>) -> f64 {
         self.exciters[which].iter().filter(|exciter| exciter.present).map(Exciter::motion).sum()
     }
@@ -192,7 +192,7 @@ impl Contacts {
     /// Removes all.
     pub(super) fn reset(&mut self) {
         for exciter in &mut self.exciters {
-            // Which place the next stroke takes hangs on all of these.
+            // The exciter that the next stroke takes depends on all of these.
             (exciter.present, exciter.age) = (false, 0);
         }
         for point in &mut self.points {
@@ -201,7 +201,7 @@ impl Contacts {
         self.list();
     }
 
-    /// Works out what compliance the points meet in a sample: the nonlinear force takes a matrix of rank one away.
+    /// Updates the stiffened compliance of a sample: the nonlinear force subtracts a matrix of rank one.
     pub(super) fn stiffen(&mut self, body: &StruckBody, free: &FreeStep) {
         if self.count == 0 {
             return;
@@ -228,7 +228,7 @@ impl Contacts {
         self.exciters.iter_mut().filter(|exciter| exciter.present).for_each(Exciter::step);
     }
 
-    /// How far the forces of all other points have brought point `i` out of the body, m.
+    /// Displacement of point `i` out of the body by the forces of all other points, m.
     pub(super) fn moved_by_others(&self, i: usize) -> f64 {
         let others = self.present().iter().filter(|&&j| j != i);
         others.map(|&j| self.stiffened[i][j] * self.points[j].pressing()).sum()

@@ -1,12 +1,12 @@
-//! Something that touches a struck body: what moves it, and the points it touches with.
+//! Exciters of a struck body: their masses and springs, and their points of contact.
 //!
 //! A striker is a free mass behind a tip, a stick also bends and may meet the rim with its shaft; a
 //! group of snare wires is a mass on a spring that a preload presses on. All are a few
 //! [oscillators](super::oscillator), of which every point feels a weighted sum, and all meet the
 //! surface by the one [contact law](crate::contact).
 //!
-//! Preloaded points are measured from where the preload alone holds them: displacements are those
-//! beyond this equilibrium, and only what a force is beyond the preload acts.
+//! Preloaded points are measured from their static equilibrium under the preload. Only the difference of a force from the
+//! preload acts.
 
 use crate::contact::{ContactLaw, ContactStep, Material};
 use crate::modal::{InputVector, Pressure};
@@ -34,21 +34,21 @@ pub enum Ground {
 pub struct ContactPoint {
     /// Whether there is one.
     pub present: bool,
-    /// What it presses on.
+    /// The body it presses on.
     pub ground: Ground,
     /// By which law.
     pub law: ContactLaw,
     /// Where it touches.
     pub port: InputVector,
-    /// Pressure at the pickup at once per unit force, Pa/N.
+    /// Pressure at each receiver proportional to the force, per unit force, Pa/N.
     pub direct: Pressure,
-    /// How much it feels of each part of its exciter: shares.
+    /// Weights of each part of its exciter.
     pub weights: [f64; PARTS],
-    /// The head right under it, so many bands of it.
+    /// Bands of the head's local compliance.
     pub bands: [Oscillator; BANDS],
     /// Bands in use.
     pub band_count: usize,
-    /// Where it would be if the surface were at rest, against its exciter's parts, m.
+    /// Displacement of its exciter at which it touches a surface at rest, m.
     pub origin: f64,
     /// Force that holds it in equilibrium, N.
     pub preload: f64,
@@ -106,13 +106,13 @@ impl ContactPoint {
         self.band_count = 0;
     }
 
-    /// Force beyond the preload, N.
+    /// Force less the preload, N.
     pub fn pressing(&self) -> f64 {
         self.force - self.preload
     }
 
-    /// Prepares the sample's contact. `apart` is how far (m) the exciter would be in the surface, both left
-    /// alone, measured from equilibrium; `compliance` that of the surface's modes and the exciter.
+    /// Prepares the sample's contact. `apart` is the overlap (m) of exciter and surface without contact forces, measured from
+    /// equilibrium; `compliance` that of the surface's modes and the exciter.
     pub fn free_flight(&mut self, apart: f64, compliance: f64, dt: f64) {
         let mut compliance = compliance;
         let mut gap = apart;
@@ -121,7 +121,7 @@ impl ContactPoint {
             gap -= band.q;
             compliance += band.compliance();
         }
-        // The law wants the whole force: what the preload does is put back.
+        // The law gives the whole force, so the effect of the preload is added.
         let free = self.static_compression + gap + compliance * self.preload;
         if !self.touching && free > 0.0 {
             self.lambda = self.law.lambda((free - self.compression) / dt);
@@ -129,7 +129,7 @@ impl ContactPoint {
         self.step = ContactStep { before: self.compression, free, compliance, lambda: self.lambda, dt };
     }
 
-    /// Applies the force of the sample; `others` is how far those of all other points have parted the two, m.
+    /// Applies the force of the sample; `others` is the displacement by the forces of all other points, m.
     pub fn finish(&mut self, others: f64) {
         self.compression = self.step.free - others - self.step.compliance * self.force;
         self.touched = std::mem::replace(&mut self.touching, self.compression > 0.0);
@@ -139,12 +139,12 @@ impl ContactPoint {
         }
     }
 
-    /// How far the head right under it is bent, m.
+    /// Deflection of the head's local compliance, m.
     pub fn bands_bent(&self) -> f64 {
         self.bands[..self.band_count].iter().map(|band| band.q).sum()
     }
 
-    /// Energy held in the contact and right under it beyond that of equilibrium, J.
+    /// Energy of the contact and the local compliance above that of equilibrium, J.
     pub fn energy(&self) -> f64 {
         let bands: f64 = self.bands[..self.band_count].iter().map(Oscillator::energy).sum();
         let held = self.law.potential(self.compression) - self.law.potential(self.static_compression);
@@ -152,11 +152,11 @@ impl ContactPoint {
     }
 }
 
-/// Something with one or two points of contact.
+/// A striker or a group of wires, with one or two points of contact.
 pub struct Exciter {
     /// Whether there is one.
     pub present: bool,
-    /// What moves.
+    /// Its oscillators.
     pub parts: [Oscillator; PARTS],
     /// Parts in use.
     pub part_count: usize,

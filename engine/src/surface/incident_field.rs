@@ -1,16 +1,15 @@
-//! Sound from elsewhere that presses on a drum.
+//! Incident field: the sound of other pieces that acts on a drum.
 //!
-//! Model: the wave is longer than the drum, so that the pressure is the same all around it; a mode feels it times the
-//! volume by which it makes the drum smaller, held over the sample like every force, so that the work done is exact.
+//! Model: the wavelength is larger than the drum, so the pressure is the same all around it. The force on a mode is the pressure
+//! times the volume by which the mode compresses the drum. It is held over the sample like every force, so the work is exact.
 //!
-//! The volume is that of the point in free air that loses as much by radiation as the mode does: what a
-//! mode feels of sound from all around is what it sends out all around (reciprocity). Of such a mode other pieces hear
-//! the pressure of that volume's acceleration `a` at a metre, `rho a / (4 pi)`, over the same way as it hears
-//! them. So drums that hear each other only lose energy. Of modes that do not feel (they have nodal
-//! diameters, or waves shorter than the drum) others hear what goes far away; nothing comes back to those.
+//! The volume is that of the point source in free air with the radiation loss of the mode: a mode receives as it radiates
+//! (reciprocity). Other pieces receive the pressure of that volume's acceleration `a` at a metre, `rho a / (4 pi)`, over the same
+//! path. Coupled drums therefore only lose energy. Modes with nodal diameters, or with waves shorter than the drum, receive
+//! nothing. Others receive their far field.
 //!
-//! Neglected: what the drum's own body adds to the pressure on it (up to 6 dB where it is large against the
-//! wave), modes that change no volume, and that the wave reaches one head before the other.
+//! Neglected: scattering by the drum (up to 6 dB where it is large against the wavelength), modes that change no volume, and the
+//! delay between both heads.
 
 use std::f64::consts::PI;
 
@@ -20,26 +19,26 @@ use crate::modal::{InputVector, ModalBody, Pressure, RECEIVERS, ReceiverWeights}
 /// Pressure over the samples of a run, Pa.
 pub type IncidentPressure<'a> = &'a [f32];
 
-/// Pressure above which sound is heard by what sleeps, Pa.
+/// Incident pressure above which a sleeping piece wakes, Pa.
 pub const AUDIBLE: f32 = 0.02;
 
-/// What the air presses on, and what follows from it.
+/// Load of the air on a drum.
 pub(super) struct AirLoad {
     port: InputVector,
-    /// Share of each mode's sound that goes all around.
+    /// Omnidirectional share of each mode's sound.
     shares: Vec<f32>,
-    /// Pressure heard at once per unit of pressure felt.
+    /// Pressure at each receiver proportional to the incident pressure, per unit of it.
     direct: Pressure,
 }
 
 impl AirLoad {
-    /// For so many modes, none of which the air presses on yet. Allocates.
+    /// A load of zero on so many modes. Allocates.
     pub(super) fn new(modes: usize) -> AirLoad {
         AirLoad { port: InputVector::new(modes), shares: vec![0.0; modes], direct: [0.0; RECEIVERS] }
     }
 
-    /// Volume by which each mode makes the drum smaller, per modal displacement, m2, and the share of its sound that goes
-    /// all around by that, `[mode]`.
+    /// Volume by which each mode compresses the drum, per modal displacement, m2, and the omnidirectional share of its sound,
+    /// `[mode]`.
     pub(super) fn set_volumes(&mut self, volumes: impl Iterator<Item = (f64, f64)>) {
         let rows = self.port.shape_mut().iter_mut().zip(&mut self.shares);
         for ((shape, share), (volume, all_around)) in rows.zip(volumes) {
@@ -47,7 +46,7 @@ impl AirLoad {
         }
     }
 
-    /// Works out what other pieces hear.
+    /// Updates the transfers to other pieces.
     pub(super) fn send(&self, receiver: &mut ReceiverWeights) {
         for (k, share) in self.shares.iter().enumerate() {
             let far = receiver.transfer_mut(1)[k];
@@ -63,12 +62,12 @@ impl AirLoad {
         self.direct = receiver.direct_at(body, &self.port);
     }
 
-    /// Where the air presses.
+    /// The input vector of the incident pressure.
     pub(super) fn port(&self) -> &InputVector {
         &self.port
     }
 
-    /// The port with its pressures, if there is any from sample `from` of the run on.
+    /// The input vector with the pressures from sample `from` of the run on, unless all are zero.
     pub(super) fn drive<'a>(
         &'a self,
         incident: IncidentPressure<'a>,
@@ -78,7 +77,7 @@ impl AirLoad {
         pressures.iter().any(|&p| p != 0.0).then_some((&self.port, pressures))
     }
 
-    /// What is heard at once of a pressure.
+    /// Pressure at each receiver proportional to an incident pressure, Pa.
     pub(super) fn echo(&self, pressure: f32) -> Pressure {
         self.direct.map(|direct| direct * pressure)
     }

@@ -1,46 +1,45 @@
-//! A head right under a tip: what the modes above a drum's set do for a contact.
+//! Local compliance of a head under a tip: the modes above a drum's set, as a contact feels them.
 //!
-//! A head is soft where it is touched. A set of modes cut off at some frequency is not: to what happens
-//! faster it is a small rigid mass, off which a stick's bead would bounce several times before the head
-//! begins to give. The modes left out yield too, all the more the smaller the tip, and they
-//! carry what they take away for good.
+//! A head is soft at the point of contact. A set of modes that ends at some frequency is not: to faster motion it is a small
+//! rigid mass, off which a stick's bead would bounce several times before the head begins to move. The modes above the set are
+//! compliant too, the more the smaller the tip. The energy they take is carried away and lost.
 //!
-//! Model: a membrane of tension `T` and area density `s` has, on average over the place, `A omega /
-//! (2 pi c^2)` modes per rad/s, `c^2 = T / s`, each of mass `s A` and unit mean square. All of a band together
-//! move one point as a single oscillator of mass `s A / count` would,
+//! Model: a membrane of tension `T` and area density `s` has, averaged over all positions, `A omega / (2 pi c^2)` modes per
+//! rad/s, `c^2 = T / s`, each of mass `s A` and unit mean square. The modes of a band together move one point as a single
+//! oscillator of mass `s A / count`,
 //!
 //! ```text
 //! M_b = 4 pi c^2 s / ((omega_2^2 - omega_1^2) P^2 E)
 //! ```
 //!
 //! with `P = 2 J_1(k b) / (k b)` of a tip that presses on a disc of radius `b`, and `E = 1 - J_0(2 k d)` at
-//! the distance `d` from the rim. Its modes part within the inverse of its width: the band decays at half of it.
-//! Without `P` the compliance would grow without bound, as that of a point on a membrane does.
+//! the distance `d` from the rim. The modes of a band dephase within the inverse of its width, so the band decays at half its
+//! width. Without `P` the compliance would be infinite, as that of a point on a membrane is.
 //!
-//! How large the disc is, follows from the head if it [wraps](LocalHeadCompliance::patch_grows) itself around the tip. Stiffness against
-//! bending, `D`, alone lets a point press no less than a disc of
+//! The radius of the disc follows from the head if the [contact patch grows](LocalHeadCompliance::patch_grows). Flexural
+//! rigidity `D` alone spreads the force of a point like a disc of
 //!
 //! ```text
 //! b_bend = 2 exp(1/4 - gamma) sqrt(D / T),   gamma = 0.5772
 //! ```
 //!
-//! (the two give way alike: `ln(r / b) + 1/4` against `ln(r / 2 l) + gamma` with `l^2 = D / T`, both times
-//! `F / (2 pi T)`). A head without stiffness lies against a sphere of radius `R` where it presses with `2 T / R`, as far as
-//! `sqrt(F R / (2 pi T))`. Together (as squares, right within a tenth), the force being the largest of a mass `m` that runs
-//! at `v` into the head's static stiffness,
+//! (both deflections are equal: `ln(r / b) + 1/4` and `ln(r / 2 l) + gamma` with `l^2 = D / T`, both times
+//! `F / (2 pi T)`). A head without rigidity touches a sphere of radius `R` under the pressure `2 T / R`, up to the radius
+//! `sqrt(F R / (2 pi T))`. The squares of both radii add, within a tenth. The force is the largest of a mass `m` that meets the
+//! head's static stiffness at the speed `v`:
 //!
 //! ```text
 //! b^2 = b_bend^2 + F R / (2 pi T)      F = v sqrt(2 pi T m / (ln(a / b) + 1/4))
 //! ```
 //!
-//! The disc is as large as that from the first touch on, which is why beaters keep their own: around a ball of some
-//! centimetres a head wraps itself only in the course of its long contact. A hard stroke so meets a stiffer head than a
-//! soft one and is shorter and brighter.
+//! The disc has this radius from the first touch on. Beaters therefore keep their own: a head wraps around a ball of some
+//! centimetres only in the course of a long contact. A hard stroke meets a stiffer head than a soft one, and is shorter and
+//! brighter.
 //!
-//! Neglected: that film about a hard stroke's dent stretches more than the whole head does, which would stiffen it more. At
-//! rest, by Foeppl's equations about a point on an endless film, a dent under `F` is as stiff as a disc of
-//! `0.45 F sqrt(E h / 2) / (2 pi T^1.5)`: 13 mm on a rack tom under a stroke of 3 m/s, where this law has 4.3. And that the
-//! tip of a stick laid across a rim does not come as fast as its shaft.
+//! Neglected: the additional stretch of the film around a hard stroke's dent, which would stiffen it more. By Foeppl's
+//! equations for a point on an infinite film, a static dent under `F` is as stiff as a disc of
+//! `0.45 F sqrt(E h / 2) / (2 pi T^1.5)`: 13 mm on a rack tom under a stroke of 3 m/s, where this law has 4.3 mm. Also neglected:
+//! the tip of a stick across a rim is slower than its shaft.
 //!
 //! Source: static deflections of membrane and stiff membrane under a point as in Timoshenko & Woinowsky-Krieger, Theory of
 //! Plates and Shells; the radii are derived here.
@@ -56,7 +55,7 @@ use super::oscillator::Oscillator;
 /// Bands above a set, at most; each half an octave.
 pub const BANDS: usize = 6;
 
-/// A head as its surroundings see it from near.
+/// Constants of a head for its local compliance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LocalHeadCompliance {
     /// Radius, m.
@@ -67,23 +66,23 @@ pub struct LocalHeadCompliance {
     pub density: f64,
     /// Flexural rigidity under a tip, N m.
     pub rigidity: f64,
-    /// Angular frequency the modes of the body reach, rad/s.
+    /// Highest angular frequency of the body's modes, rad/s.
     pub reached: f64,
-    /// Whether it wraps itself around a stick's tip; else every tip presses on [its own disc](StrikerSpec::patch).
+    /// Whether the contact patch grows with the force; otherwise every tip presses on [its own disc](StrikerSpec::patch).
     pub patch_grows: bool,
 }
 
-/// `2 exp(1/4 - gamma)`, dimensionless: a point on a stiff head gives way like a disc of so many `sqrt(D / T)`.
+/// `2 exp(1/4 - gamma)`, dimensionless: a point force on a stiff head acts like a disc of so many `sqrt(D / T)`.
 const SPREAD: f64 = 1.441_856;
 
-/// First zero of `J_1`: what is finer than this, a tip does not feel.
+/// First zero of `J_1`: a tip averages out shorter waves.
 const FINEST: f64 = 3.832;
 
-/// Rounds in which patch and force settle: each is moved little by the other.
+/// Iterations of patch and force; each changes the other little.
 const ROUNDS: usize = 4;
 
 impl LocalHeadCompliance {
-    /// Radius of the disc that a stroke at `speed` (m/s) presses, m.
+    /// Radius of the contact patch of a stroke at `speed` (m/s), m.
     ///
     /// # Real-time
     /// No allocation; some logarithms.
@@ -99,15 +98,15 @@ impl LocalHeadCompliance {
         })
     }
 
-    /// Largest force (N) of a mass (kg) that runs at a speed (m/s) into the middle of the head's static stiffness under
-    /// a disc (m).
+    /// Largest force (N) of a mass (kg) that meets the middle of the head at a speed (m/s), from the static stiffness under a
+    /// disc of radius `patch` (m).
     pub(super) fn largest_force(&self, mass: f64, speed: f64, patch: f64) -> f64 {
         let stiffness = 2.0 * PI * self.tension / ((self.radius / patch).ln().max(0.0) + 0.25);
         speed * (mass * stiffness).sqrt()
     }
 
-    /// The bands above the set, at `place` (share of the radius) under a tip of radius `tip` (m). How
-    /// many there are is returned; without `lossy` they keep what they take.
+    /// The bands above the set, at `place` (share of the radius) under a tip of radius `tip` (m), and their number. Without
+    /// `lossy` they do not decay.
     ///
     /// # Real-time
     /// No allocation; a few Bessel functions.
@@ -157,7 +156,7 @@ mod tests {
         // Static: sum over all modes above of P^2 / (M omega^2) = ln-like integral / (2 pi T).
         let (bands, count) = HEAD.bands(0.3, 0.002, false, 1.0);
         assert!(count >= 4);
-        // With a hold far longer than their periods only the mean deflection is left; sum it directly.
+        // A force held far longer than the periods leaves only the mean deflection. Sum it directly.
         let c = (HEAD.tension / HEAD.density).sqrt();
         let (mut exact, mut omega) = (0.0, HEAD.reached);
         while omega * 0.002 / c < FINEST && omega < HEAD.reached * 8.0 {
@@ -181,8 +180,8 @@ mod tests {
         assert_eq!(bands.len(), BANDS);
     }
 
-    /// `T` times the deflection, per unit force, that waves from `from` to `to` (1/m) add under a disc, with stiffness or
-    /// without: what the modes of a large head add up to.
+    /// `T` times the deflection per unit force by waves from `from` to `to` (1/m) under a disc, with or without rigidity: the
+    /// sum over the modes of a large head.
     fn gives(disc: f64, stiffness_length: f64, [from, to]: [f64; 2]) -> f64 {
         let steps = 200_000;
         let ratio = (to / from).ln() / f64::from(steps);

@@ -1,8 +1,8 @@
-//! What hears the forces of contacts without being felt by them: the [high bands](HighBand) of heads.
+//! Observers of contact forces, which do not act back: the [high bands](HighBand) of heads.
 
 use crate::high_band::HighBand;
 
-/// A high band and the first of the contact points whose forces it is given.
+/// A high band and the first contact point whose force it observes.
 struct Observer {
     first: usize,
     band: HighBand,
@@ -38,14 +38,14 @@ impl ForceObservers {
         })
     }
 
-    /// A point lies somewhere now; see [`HighBand::put`]: share of the radius, rad, m.
+    /// Sets the position of a point; see [`HighBand::put`]: share of the radius, rad, m.
     pub fn put(&mut self, point: usize, radius: f64, angle: f64, patch: f64) {
         if let Some((band, place)) = self.of(point) {
             band.put(place, radius, angle, patch);
         }
     }
 
-    /// What the body's own pressure is at once per unit force at a point, Pa/N; see [`HighBand::complete`].
+    /// Sets the body's own pressure proportional to a force at a point, Pa/N; see [`HighBand::complete`].
     pub fn complete(&mut self, point: usize, direct: f32) {
         if let Some((band, place)) = self.of(point) {
             band.complete(place, direct);

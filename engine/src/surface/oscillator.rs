@@ -1,4 +1,4 @@
-//! One coordinate of something small that touches a surface: a mass, free or on a spring.
+//! One coordinate of an exciter: a mass, free or on a spring.
 //!
 //! Model: `M (q'' + 2 sigma q' + omega^2 q) = F`. A force held over the sample is integrated exactly,
 //! as in a [modal body](crate::modal), so that its work in the sample is exactly `F (q_after - q_before)`;
@@ -15,7 +15,7 @@ pub struct Oscillator {
     omega: f64,
     /// A sample without force: `[q, v] <- [[a, b], [c, d]] [q, v]`.
     turn: [[f64; 2]; 2],
-    /// What a unit force held for one sample adds to `q` and `v`.
+    /// Effect of a unit force held for one sample on `q` and `v`.
     hold: [f64; 2],
 }
 
@@ -41,7 +41,7 @@ impl Oscillator {
         Oscillator { q: 0.0, v: 0.0, mass, omega, turn, hold }
     }
 
-    /// How far a unit force held over a sample has moved it by the end, m/N.
+    /// One-sample compliance: displacement at the end of a sample by a unit force held over it, m/N.
     pub fn compliance(&self) -> f64 {
         self.hold[0]
     }
@@ -53,7 +53,7 @@ impl Oscillator {
         self.v = self.turn[1][0] * q + self.turn[1][1] * v;
     }
 
-    /// Adds what a force (N), held over the sample just stepped, did.
+    /// Adds the effect of a force (N) held over the sample just stepped.
     pub fn push(&mut self, force: f64) {
         self.q += self.hold[0] * force;
         self.v += self.hold[1] * force;

@@ -1,4 +1,4 @@
-//! One sample with something touching: everything steps freely, then all forces are found together.
+//! One sample with contacts: everything steps without contact forces, then all forces are solved together.
 
 use crate::modal::Pressure;
 
@@ -9,7 +9,7 @@ use super::contacts::{STRIKER_PLACES, owner};
 use super::exciter::Ground;
 use super::incident_field::IncidentPressure;
 
-/// The body that points on this ground press.
+/// The body under points on this ground.
 fn ground_of<'a>(
     ground: Ground,
     body: &'a StruckBody,
@@ -34,7 +34,7 @@ impl Surface {
         }
     }
 
-    /// Works out what the body tells point `i` and the others of each other.
+    /// Updates the compliances between point `i` and the others.
     pub(super) fn connect(&mut self, i: usize) {
         let Surface { body, contacts, attachments, observers, .. } = self;
         let ground = contacts.points[i].ground;
@@ -72,7 +72,7 @@ impl Surface {
         }
     }
 
-    /// One sample with something about; which of the run, and what arrives over it.
+    /// Renders sample `sample` of a run with contacts, under the incident pressure of the run. Returns the pressure, Pa.
     pub(super) fn step(&mut self, sample: usize, incident: Option<IncidentPressure<'_>>) -> Pressure {
         let free = self.body.step(sample, incident);
         self.contacts.stiffen(&self.body, &free);
@@ -92,7 +92,7 @@ impl Surface {
         self.finish(&free, direct)
     }
 
-    /// Prepares every contact from where body and exciters are without forces.
+    /// Prepares every contact from the displacements of body and exciters without forces.
     fn fly(&mut self, free: &FreeStep) {
         let Surface { body, contacts, attachments, .. } = self;
         let dt = contacts.dt();
@@ -114,7 +114,7 @@ impl Surface {
         }
     }
 
-    /// Applies the forces that were found; what is heard at once, Pa, `direct` included.
+    /// Applies the forces that were found. Returns the pressure proportional to them plus `direct`, Pa.
     fn push(&mut self, sample: usize, mut direct: Pressure) -> Pressure {
         let Surface { body, contacts, attachments, observers, .. } = self;
         let mut pressed = 0.0;
@@ -151,7 +151,7 @@ impl Surface {
         direct
     }
 
-    /// Ends the sample; what is heard, Pa.
+    /// Ends the sample. Returns the pressure at each receiver, Pa.
     fn finish(&mut self, free: &FreeStep, direct: Pressure) -> Pressure {
         let Surface { contacts, attachments, .. } = self;
         for n in 0..contacts.present().len() {

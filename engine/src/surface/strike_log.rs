@@ -1,22 +1,22 @@
-//! What strikers have done to a body: energies brought and taken away, and what the latest stroke's contacts measured.
+//! Record of strokes: energies of arriving and leaving strikers, and measurements of the latest stroke's contacts.
 
 use crate::snapshot::StrikeSnapshot;
 
 use super::exciter::{ContactPoint, Exciter};
 
-/// What strikers have done.
+/// Record of strokes.
 #[derive(Default)]
 pub(super) struct StrikeLog {
-    /// Energy that strikers have come with, and taken with them, J.
+    /// Energy of arriving and of leaving strikers, J.
     pub(super) brought: f64,
     pub(super) departed: f64,
     pub(super) last: StrikeSnapshot,
-    /// Strikers that had to make room for others before they had left.
+    /// Strikers that were removed before they had left.
     pub(super) hurried: u32,
 }
 
 impl StrikeLog {
-    /// Adds this sample to what the latest stroke's contacts have measured.
+    /// Adds this sample to the measurements of the latest stroke's contacts.
     pub(super) fn report(&mut self, striker: &Exciter, points: &[ContactPoint], dt: f64) {
         let last = &mut self.last;
         let mut force = 0.0;

@@ -1,7 +1,7 @@
-//! Strikers about a surface: how they arrive, what is reported of them, how they leave.
+//! Strikers of a surface: arrival, report, departure.
 //!
-//! The hand is what keeps a stick that has come off from falling back: a striker that is far enough off, or that
-//! has been about for long, is gone.
+//! The hand keeps a stick that has rebounded from falling back: a striker that is far enough away, or has been present for long,
+//! is removed.
 
 use std::any::Any;
 
@@ -17,7 +17,7 @@ use super::contacts::{Contacts, MAX_STRIKERS, points_of};
 use super::exciter::{Ground, PARTS};
 use super::rim::AttachedRim;
 
-/// A striker farther off than this has left for good, m. *By ear*: no head comes up so far.
+/// A striker farther away than this has left, m. *By ear*: no head comes up so far.
 const AWAY: f64 = fitted::STRIKER_AWAY;
 
 /// A striker that does not leave is lifted after this, s; after twice as long also if it still touches. *By ear*.
@@ -86,8 +86,8 @@ impl Surface {
         }
     }
 
-    /// Lets a stick come down on head and rim, from the player's side; returns what its tip feels of it. Without a rim
-    /// there is nothing to come down on.
+    /// Lets a stick strike head and rim, from the player's side. Returns the weights of its parts at the tip, or `None` without
+    /// a rim.
     fn lay_across(
         &mut self,
         i: usize,
@@ -122,8 +122,8 @@ impl Surface {
         Some(tip)
     }
 
-    /// An empty place, or that of the striker which has been about longest without touching, or,
-    /// if all touch, of the oldest.
+    /// An unused exciter, or that of the striker which has been present longest without touching, or, if all touch, the
+    /// oldest.
     fn free_place(&self) -> usize {
         let rank = |&i: &usize| {
             let striker = &self.contacts.exciters[i];
@@ -134,14 +134,14 @@ impl Surface {
         (0..MAX_STRIKERS).min_by_key(rank).unwrap_or(0)
     }
 
-    /// A striker leaves with what it holds.
+    /// Removes a striker and counts its energy.
     fn leave(&mut self, i: usize) {
         self.log.departed += self.contacts.energy_of(i);
         self.contacts.exciters[i].present = false;
         self.contacts.points[points_of(i)].iter_mut().for_each(|point| point.present = false);
     }
 
-    /// Reports on the strikers, and lets go those that have left.
+    /// Updates the report of the strikers, and removes those that have left.
     pub(super) fn watch_strikers(&mut self) {
         let (dt, mut left) = (self.contacts.dt(), false);
         for i in 0..MAX_STRIKERS {
@@ -191,8 +191,8 @@ mod tests {
                 drum.strike(&Strike { speed, radius: 0.3, angle: 0.0, striker: Striker::Stick });
                 let mut out = [[0.0; 32]; RECEIVERS];
                 (0..32).for_each(|_| {
-                    let ears = out.each_mut().map(|ear| &mut ear[..]);
-                    drum.surface_mut().render_in_air(ears, None);
+                    let receivers = out.each_mut().map(|receiver| &mut receiver[..]);
+                    drum.surface_mut().render_in_air(receivers, None);
                 });
                 let film = drum.surface().local_compliance.unwrap();
                 let thought = film.largest_force(stick.mass, speed, film.patch(&stick, speed));

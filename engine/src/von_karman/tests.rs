@@ -152,14 +152,14 @@ fn both_schemes(size: f64, seconds: f64, rate: f64, stride: u32) -> (Vec<f64>, V
     let body_modes: Vec<Mode> =
         omegas.iter().map(|&omega| Mode { omega, sigma: 0.0, mass: plate.spec.mass }).collect();
     let mut body = ModalBody::new(body_modes, rate);
-    let mut pickup = ReceiverWeights::new(vec![[0.0; 2]; modes]);
-    body.tune(&mut pickup);
+    let mut weights = ReceiverWeights::new(vec![[0.0; 2]; modes]);
+    body.tune(&mut weights);
     let potential = Box::new(VonKarman::new(&plate, &tables, &pairs));
-    let mut force = NonlinearForce::new(potential, modes, stride, (&body, &pickup), rate);
+    let mut force = NonlinearForce::new(potential, modes, stride, (&body, &weights), rate);
     body.set_displacements(&to_body(&plate, &pairs, &start, modes));
     force.wake();
     for _ in 0..(seconds * rate).round() as usize {
-        force.begin(&mut body, &pickup);
+        force.begin(&mut body, &weights);
         body.step();
         force.free(&body);
         force.finish(&mut body, 0.0);

@@ -20,11 +20,11 @@ pub struct Report {
     pub sample_rate_hz: f64,
     /// Speeds of the strokes, m/s.
     pub speeds_m_s: Vec<f64>,
-    /// `[piece, ear]`: each piece at its close microphone, then in the mix.
+    /// `[piece, recording chain]`: each piece at its close microphone, then in the mix.
     pub pieces: Vec<PieceReport>,
 }
 
-/// One piece as one ear hears it.
+/// One piece through one recording chain.
 #[derive(Debug, Clone, Serialize)]
 pub struct PieceReport {
     /// Name of the piece.
@@ -182,7 +182,7 @@ impl PieceReport {
 }
 
 impl Report {
-    /// Sorts strokes, in the order of the request's subjects, speeds and places, by subject and ear.
+    /// Sorts strokes, in the order of the request's subjects, speeds and places, by subject and recording chain.
     ///
     /// # Errors
     /// [`BadInput`](crate::error::BadInput) if the kit has no piece of a subject's name.
@@ -192,17 +192,18 @@ impl Report {
             let striker = subject.strike(&request.kit, subject.slot(&request.kit)?).striker;
             let (own, others) = rest.split_at(rest.len().min(speeds.len() * subject.places.len()));
             rest = others;
-            for (ear, heard) in RecordingChain::ALL.into_iter().enumerate() {
+            for (which, chain) in RecordingChain::ALL.into_iter().enumerate() {
                 let by_speed = own.chunks(subject.places.len());
-                let heard_so = |places: &[[Stroke; 2]]| places.iter().map(|both| both[ear].clone()).collect();
+                let heard_so =
+                    |places: &[[Stroke; 2]]| places.iter().map(|both| both[which].clone()).collect();
                 let strokes: Vec<Vec<Stroke>> = by_speed.map(heard_so).collect();
-                pieces.push(PieceReport::new((subject, striker), heard, speeds, &strokes));
+                pieces.push(PieceReport::new((subject, striker), chain, speeds, &strokes));
             }
         }
         Ok(Report { sample_rate_hz: f64::from(sample_rate_hz), speeds_m_s: speeds.clone(), pieces })
     }
 
-    /// Sum of a count over all pieces as one ear hears them.
+    /// Sum of a count over all pieces through one recording chain.
     pub fn all(&self, heard: RecordingChain, count: fn(&PieceReport) -> Count) -> Count {
         let pieces = self.pieces.iter().filter(|piece| piece.heard == heard);
         pieces.map(count).fold(Count::default(), Count::add)

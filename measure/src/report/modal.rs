@@ -127,20 +127,20 @@ fn tuning(frequencies: &[f64]) -> Vec<(f64, f64)> {
             phases.iter_mut().for_each(|phase| phase.look(&body, sample as f64 / RATE));
         }
     }
-    phases.iter().map(|phase| (phase.hz, phase.rung.off.abs().max(1e-6))).collect()
+    phases.iter().map(|phase| (phase.hz, phase.motion.off.abs().max(1e-6))).collect()
 }
 
 /// Samples between two looks: often enough that a mode half a cent off is followed without losing a turn.
 const LOOK: usize = 2048;
 
-/// One mode of a piece left to ring, against what the piece says of it.
+/// Motion of a ringing mode, compared with the data of the mode.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct ModeAtPitch {
+pub struct ModeMotion {
     /// Frequency error, cents.
     pub off: f64,
     /// Error of the decay rate, 1/s.
     pub sigma: f64,
-    /// Turns it was followed for, periods being the unit.
+    /// Periods over which it was followed, dimensionless.
     pub turns: f64,
 }
 
@@ -150,23 +150,23 @@ struct Phase {
     hz: f64,
     start: (f64, f64),
     gained: f64,
-    rung: ModeAtPitch,
+    motion: ModeMotion,
 }
 
 impl Phase {
-    /// From now on; nothing for a mode at rest.
+    /// Follows a mode from now on; `None` for a mode at rest.
     fn new(body: &ModalBody, mode: usize, hz: f64) -> Option<Phase> {
-        state(body, mode).map(|start| Phase { mode, hz, start, gained: 0.0, rung: ModeAtPitch::default() })
+        state(body, mode).map(|start| Phase { mode, hz, start, gained: 0.0, motion: ModeMotion::default() })
     }
 
-    /// Where it is after `time` s.
+    /// Updates the phase after `time` s.
     fn look(&mut self, body: &ModalBody, time: f64) {
         let (p0, q0) = self.start;
         let Some((p, q)) = state(body, self.mode) else { return };
         let angle = TAU * self.hz * time;
         let off = q.atan2(p) - q0.atan2(p0) - angle - self.gained;
         self.gained += off - TAU * (off / TAU).round();
-        self.rung = ModeAtPitch {
+        self.motion = ModeMotion {
             off: cents(1.0 + self.gained / angle, 1.0),
             sigma: (p0.hypot(q0) / p.hypot(q)).ln() / time,
             turns: angle / TAU,
@@ -174,7 +174,7 @@ impl Phase {
     }
 }
 
-/// `(q' + sigma q) / omega_d` and `q` of a mode, or nothing at rest.
+/// `(q' + sigma q) / omega_d` and `q` of a mode; `None` at rest.
 fn state(body: &ModalBody, k: usize) -> Option<(f64, f64)> {
     let (mode, q) = (body.modes()[k], f64::from(body.displacement(k)));
     let p = (body.velocity(k) + mode.sigma * q) / mode.omega_d();
@@ -184,22 +184,22 @@ fn state(body: &ModalBody, k: usize) -> Option<(f64, f64)> {
 /// Sets every mode in motion, about equally strongly.
 fn push_all(body: &mut ModalBody) {
     let count = body.len();
-    let mut port = InputVector::new(count);
-    port.shape_mut()[..count].fill(1.0);
-    body.connect(&mut port);
-    body.push(&port, 100.0);
+    let mut input = InputVector::new(count);
+    input.shape_mut()[..count].fill(1.0);
+    body.connect(&mut input);
+    body.push(&input, 100.0);
 }
 
-/// What a piece says of the modes of its body; what it does above them is heard, not followed, and a rim is
-/// a body of its own, and so is a hi-hat's lower cymbal.
+/// Modes of a piece's struck body. Left out are the sampled modes above them, and the modes of other bodies: a rim, a
+/// hi-hat's lower cymbal.
 pub fn body_modes(piece: &Piece) -> Vec<ModeInfo> {
     let of_body = |mode: &ModeInfo| mode.kind != ModeKind::Sampled && !["rim", "bottom"].contains(&mode.body);
     piece.modes().into_iter().filter(of_body).collect()
 }
 
-/// Strikes every mode of a piece and follows its phase and size while the piece renders for `seconds`:
-/// each mode that moved, and what it did.
-pub fn follow(piece: &mut Piece, seconds: f64) -> Vec<(ModeInfo, ModeAtPitch)> {
+/// Strikes every mode of a piece and follows its phase and amplitude while the piece renders for `seconds`. Returns the modes
+/// that moved, with their motion.
+pub fn follow(piece: &mut Piece, seconds: f64) -> Vec<(ModeInfo, ModeMotion)> {
     let modes = body_modes(piece);
     let body = piece.surface_mut().body_mut();
     push_all(body);
@@ -212,25 +212,25 @@ pub fn follow(piece: &mut Piece, seconds: f64) -> Vec<(ModeInfo, ModeAtPitch)> {
         let body = piece.surface_mut().body();
         phases.iter_mut().for_each(|phase| phase.look(body, time));
     }
-    phases.into_iter().map(|phase| (modes[phase.mode], phase.rung)).collect()
+    phases.into_iter().map(|phase| (modes[phase.mode], phase.motion)).collect()
 }
 
-/// Worst of all modes of all pieces: cents off, and share by which a decay is off.
+/// Largest errors of all modes of all pieces: of the frequency, cents, and of the decay rate, relative.
 fn worst_ringing() -> (f64, f64) {
     let mut worst = (0.0_f64, 0.0_f64);
     for name in names() {
-        for (mode, rung) in follow(&mut piece(&name, RATE), SECONDS) {
+        for (mode, motion) in follow(&mut piece(&name, RATE), SECONDS) {
             if mode.frequency_hz < 0.5 * RATE {
-                worst = (worst.0.max(rung.off.abs()), worst.1.max(decay_error(&mode, &rung).abs()));
+                worst = (worst.0.max(motion.off.abs()), worst.1.max(decay_error(&mode, &motion).abs()));
             }
         }
     }
     worst
 }
 
-/// Share by which a mode decayed faster than it was said to.
-pub fn decay_error(mode: &ModeInfo, rung: &ModeAtPitch) -> f64 {
-    rung.sigma * mode.t60 / 1000.0_f64.ln() - 1.0
+/// Relative error of a mode's decay rate.
+pub fn decay_error(mode: &ModeInfo, motion: &ModeMotion) -> f64 {
+    motion.sigma * mode.t60 / 1000.0_f64.ln() - 1.0
 }
 
 /// Holds 3 N on a piece and tells by what share its deflection there, or one of a mode's, is off at most.
@@ -271,6 +271,7 @@ fn ideal_head() -> Surface {
         plies: 1,
         material: Material::FILM,
         loss: LossLaw::NONE,
+        edge: None,
     };
     let tension = vacuum_tension(&spec, ZEROS[0], 100.0);
     let range = ModeRange { reference_tension: tension, limit_hz: 1500.0 };

@@ -163,7 +163,7 @@ impl Delivery {
 
 /// Something in a queue to the audio thread.
 pub(super) trait Passing {
-    /// Whether nobody wants it any more once something newer is there.
+    /// Whether it is obsolete once something newer is there.
     fn is_superseded_by(&self, newer: &Self) -> bool;
 }
 

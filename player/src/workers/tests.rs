@@ -57,19 +57,19 @@ fn on_a_worker() -> bool {
 fn a_worker_that_sleeps_is_waited_for_until_the_deadline_once_and_then_not_again() {
     static CLAIMED: AtomicUsize = AtomicUsize::new(0);
     static RELEASED: AtomicBool = AtomicBool::new(false);
-    let sleepy = |post: &mut RenderJob| {
+    let sleepy = |job: &mut RenderJob| {
         if on_a_worker() {
             CLAIMED.fetch_add(1, Ordering::SeqCst);
             while !RELEASED.load(Ordering::SeqCst) {
                 thread::sleep(Duration::from_millis(1));
             }
-        } else if post.is_busy() {
+        } else if job.is_busy() {
             // The audio thread lets the worker have one of the two.
             while CLAIMED.load(Ordering::SeqCst) == 0 {
                 thread::yield_now();
             }
         }
-        post.render();
+        job.render();
     };
     let clock = Arc::new(Counting { asked: AtomicU64::new(0), allowed: 1_000 });
     let workers = Workers::new(1, Patience::RealTime, sleepy).unwrap().until(clock.clone());
@@ -118,16 +118,16 @@ fn a_deadline_that_has_passed_changes_no_bit_if_every_job_is_back() {
 #[test]
 fn whoever_renders_a_file_has_no_deadline() {
     static RENDERED: AtomicUsize = AtomicUsize::new(0);
-    let slow = |post: &mut RenderJob| {
+    let slow = |job: &mut RenderJob| {
         if on_a_worker() {
             RENDERED.fetch_add(1, Ordering::SeqCst);
             thread::sleep(Duration::from_millis(20));
-        } else if post.is_busy() {
+        } else if job.is_busy() {
             while RENDERED.load(Ordering::SeqCst) == 0 {
                 thread::yield_now();
             }
         }
-        post.render();
+        job.render();
     };
     let clock = Arc::new(Counting { asked: AtomicU64::new(0), allowed: 1 });
     let workers = Workers::new(1, Patience::Offline, slow).unwrap().until(clock.clone());

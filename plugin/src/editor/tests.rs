@@ -16,6 +16,7 @@ use overhear_player::strokes::Stroke;
 
 mod kits;
 mod pages;
+mod panics;
 
 struct Window {
     context: egui::Context,

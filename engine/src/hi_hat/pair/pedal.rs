@@ -1,22 +1,22 @@
-//! The pedal under a pair of cymbals: the foot on it, and the balance that follows its rod.
+//! The pedal under a pair of cymbals: the foot, and the static equilibrium that follows its rod.
 
 use crate::hi_hat::foot::Foot;
 
 use super::rest::Rest;
 
-/// Samples in which the balance follows the rod: a block.
+/// Samples over which the equilibrium follows the rod: a block.
 const FOLLOWING: u32 = 32;
 
-/// The foot, and where the pair rests.
+/// The foot, and the equilibrium of the pair.
 pub(crate) struct Pedal {
     pub(crate) foot: Foot,
-    /// Where the pair rests, where it will once the pedal has stopped, and what of the way is left, in samples.
+    /// Present equilibrium, the one it moves to, and the samples left until then.
     pub(crate) rest: Rest,
     pub(crate) goal: Rest,
     pub(crate) way: u32,
-    /// Place of the rod that the goal is for, m.
+    /// Position of the rod that the goal belongs to, m.
     pub(crate) goal_place: f64,
-    /// Of the present sample: force of the clutch's damper, N, and where the upper cymbal was, m.
+    /// Of the present sample: force of the clutch's damper, N, and position of the upper cymbal at its start, m.
     pub(crate) damper: f64,
     pub(crate) from: f64,
     /// Since the last reset, J.
@@ -38,22 +38,22 @@ impl Pedal {
         }
     }
 
-    /// Whether rod or balance move.
+    /// Whether the rod or the equilibrium moves.
     pub(crate) fn moves(&self) -> bool {
         self.foot.moves() || self.way > 0
     }
 
-    /// Sets out for the balance that belongs to the present place of the rod.
+    /// Starts to move to the equilibrium of the present position of the rod.
     pub(crate) fn set_out(&mut self, goal: Rest) {
         (self.goal, self.goal_place, self.way) = (goal, self.foot.place(), FOLLOWING);
     }
 
-    /// Is there: `rest` belongs to the present place of the rod.
+    /// Takes the equilibrium of the present position of the rod at once.
     pub(crate) fn arrive(&mut self, rest: Rest) {
         (self.rest, self.goal, self.goal_place, self.way) = (rest, rest, self.foot.place(), 0);
     }
 
-    /// A sample passes for the balance; false if it has stayed.
+    /// Advances the equilibrium by a sample; false if it did not move.
     pub(crate) fn lead(&mut self) -> bool {
         if self.way == 0 {
             return false;

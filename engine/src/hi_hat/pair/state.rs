@@ -1,4 +1,4 @@
-//! What a pair of cymbals knows from sample to sample: its compliances, and the contacts at the rims.
+//! State of a pair of cymbals: its compliances, and the contacts at the rims.
 
 use crate::contact::ContactLaw;
 use crate::contact::solver::Compliances;
@@ -7,31 +7,31 @@ use crate::hi_hat::rim_points::{self, POINTS};
 use crate::modal::simd::rim_harmonics::{Amplitudes, RimHarmonics};
 use crate::modal::{ModalBody, RECEIVERS, ReceiverWeights};
 
-/// What the pair knows of a striker's point.
+/// Compliances of a striker's point.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct StrikerPlace {
     pub(crate) weights: Weights,
-    /// Compliance of the upper shell, and of the upper cymbal in all, between it and the rim's places, m/N.
+    /// Compliance between it and the rim points, of the upper shell and of the whole upper cymbal, m/N.
     pub(crate) shell: [f64; POINTS],
     pub(crate) whole: [f64; POINTS],
 }
 
-/// What a force held over a sample does.
+/// Response to forces held over a sample.
 #[derive(Default)]
 pub(crate) struct Dynamics {
-    /// Compliance of shells, and of shells and mounts, between the places, m/N.
+    /// Compliance between the rim points, of the shells and of shells and mounts, m/N.
     shells: Compliances<POINTS>,
     pub(crate) whole: Compliances<POINTS>,
     /// `shells` times the preloads, m.
     pub(crate) preload_offset: [f64; POINTS],
-    /// Pressure at each ear at once per force amplitude, of both, Pa/N.
+    /// Pressure at each receiver proportional to the force, per force amplitude, of both cymbals, Pa/N.
     pub(crate) direct: [[Amplitudes; RECEIVERS]; 2],
-    /// Coupling of the places with the force beyond the upper cymbal's modes, into it as a place presses.
+    /// Coupling of the rim points with the upper cymbal's nonlinear force, positive as a point presses.
     pub(crate) coupling: [f64; POINTS],
 }
 
 impl Dynamics {
-    /// Follows the modes of the upper and the lower cymbal, and how they are heard.
+    /// Updates the response after a change of the modes or receiver weights of both cymbals.
     pub(crate) fn follow(
         &mut self,
         bodies: [(&ModalBody, &ReceiverWeights); 2],
@@ -53,15 +53,15 @@ impl Dynamics {
         self.direct = [top.folded_direct(&folded[0], near), bottom.folded_direct(&folded[1], far)];
     }
 
-    /// Works out what hangs on the preloads (N).
-    pub(crate) fn ease(&mut self, preload: &[f64; POINTS]) {
+    /// Updates the offset of the preloads (N).
+    pub(crate) fn update_offset(&mut self, preload: &[f64; POINTS]) {
         self.preload_offset = self.shells.map(|row| row.iter().zip(preload).map(|(y, p)| y * p).sum());
     }
 }
 
-/// The contacts at the rims, `[place]`.
+/// The contacts at the rims, `[point]`.
 pub(crate) struct RimState {
-    /// The law of every place.
+    /// The law of every point.
     pub(crate) law: ContactLaw,
     /// Loss of a touch that lasts, s/m.
     pub(crate) lasting_loss: f64,
@@ -73,7 +73,7 @@ pub(crate) struct RimState {
     /// Loss of the present touch, s/m.
     pub(crate) lambda: [f64; POINTS],
     pub(crate) touching: [bool; POINTS],
-    /// Since the latest stroke: landings, when a place last lifted off, samples.
+    /// Since the latest stroke: landings, sample of the last lift.
     pub(crate) landings: u32,
     pub(crate) last_lift: u64,
     pub(crate) age: u64,
@@ -96,12 +96,12 @@ impl RimState {
         }
     }
 
-    /// Counts anew from a stroke on.
+    /// Restarts the counts at a stroke.
     pub(crate) fn begin_count(&mut self) {
         (self.landings, self.last_lift, self.age) = (0, 0, 0);
     }
 
-    /// Places whose compression the sample has changed count as landings or lifts.
+    /// Counts landings and lifts of this sample.
     pub(crate) fn count(&mut self) {
         for (touching, compression) in self.touching.iter_mut().zip(&self.compression) {
             let touches = *compression > 0.0;

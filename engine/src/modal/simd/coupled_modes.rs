@@ -1,4 +1,4 @@
-//! One sample of the first modes of a body in two passes: what they do freely, and what forces do to them.
+//! One sample of the coupled modes in two passes: the free step, and the effect of forces.
 
 use pulp::Simd;
 
@@ -6,13 +6,13 @@ use super::dispatch::{Kernel, Kernels};
 use super::primitives::turn;
 use super::ring::RECEIVERS;
 
-/// Forces that act in one sample, at most.
+/// Most forces in a sample.
 pub const FORCES: usize = 2;
 
-/// A force and what it leaves when held for a sample, `[mode]`, real and imaginary part.
+/// A force, and the effect of a unit force held for a sample, `[mode]`, real and imaginary part.
 pub type HeldForce<'a> = (f32, [&'a [f32]; 2]);
 
-/// What [`Kernels::rotate_along`] works on; all rows `[mode]`, of one length.
+/// Operands of [`Kernels::rotate_along`]; all rows `[mode]`, of one length.
 pub struct Along<'a> {
     /// State.
     pub re: &'a mut [f32],
@@ -26,25 +26,25 @@ pub struct Along<'a> {
     pub shape: &'a [f32],
 }
 
-/// What [`Kernels::push_and_hear`] works on; all rows `[mode]`.
+/// Operands of [`Kernels::push_and_hear`]; all rows `[mode]`.
 pub struct PushAndHear<'a> {
     /// State.
     pub re: &'a mut [f32],
     /// State.
     pub im: &'a mut [f32],
-    /// What acts, as long as the state or longer.
+    /// Forces; their rows are as long as the state or longer.
     pub forces: [HeldForce<'a>; FORCES],
-    /// What of the state each ear hears, real and imaginary part; what is missing is not heard.
+    /// Weights of the state at each receiver, real and imaginary part. Missing weights are zero.
     pub weights: [[&'a [f32]; 2]; RECEIVERS],
 }
 
 impl Kernels {
-    /// [`rotate`](Self::rotate), and how far the imaginary parts have moved along a direction.
+    /// [`rotate`](Self::rotate) that returns the movement of the imaginary parts along a direction.
     pub fn rotate_along(&self, along: Along<'_>) -> f32 {
         self.run(along)
     }
 
-    /// Adds what forces leave to the state, and listens to it.
+    /// Adds the effect of forces to the state, and returns the pressure at each receiver.
     pub fn push_and_hear(&self, work: PushAndHear<'_>) -> [f32; RECEIVERS] {
         self.run(work)
     }
@@ -81,8 +81,8 @@ impl Kernel for PushAndHear<'_> {
         let [(first, first_gains), (second, second_gains)] = self.forces;
         let held = [simd.splat_f32s(first), simd.splat_f32s(second)];
         let gains = [first_gains, second_gains].map(|gains| gains.map(|row| S::as_simd_f32s(row).0));
-        let weights = self.weights.map(|ear| ear.map(|row| S::as_simd_f32s(row).0));
-        // The last ear hears the first modes alone.
+        let weights = self.weights.map(|receiver| receiver.map(|row| S::as_simd_f32s(row).0));
+        // The last receiver takes the first modes only.
         let reached = weights[RECEIVERS - 1][0].len().min(groups);
         let mut sums = [[simd.splat_f32s(0.0); 2]; RECEIVERS];
         for i in 0..groups {
@@ -94,9 +94,10 @@ impl Kernel for PushAndHear<'_> {
                 z_im = fma(gains[1][1][i], held[1], z_im);
             }
             (re[i], im[i]) = (z_re, z_im);
-            for ear in 0..RECEIVERS - 1 {
-                let [w_re, w_im] = weights[ear];
-                sums[ear] = [fma(w_re[i], z_re, sums[ear][0]), fma(w_im[i], z_im, sums[ear][1])];
+            for receiver in 0..RECEIVERS - 1 {
+                let [w_re, w_im] = weights[receiver];
+                sums[receiver] =
+                    [fma(w_re[i], z_re, sums[receiver][0]), fma(w_im[i], z_im, sums[receiver][1])];
             }
             if i < reached {
                 let [w_re, w_im] = weights[RECEIVERS - 1];

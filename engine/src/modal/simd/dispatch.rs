@@ -1,4 +1,4 @@
-//! Which instruction set the kernels run on.
+//! Dispatch of the kernels to an instruction set.
 
 use pulp::{Arch, Scalar128b, Simd, WithSimd};
 
@@ -62,7 +62,7 @@ impl Kernels {
     }
 }
 
-/// A kernel, generic over the registers; `fma` multiplies and adds in the way the machine does fast.
+/// A kernel, generic over the registers; `fma` is the fastest multiply-add of the machine.
 pub(super) trait Kernel {
     type Output;
     fn with<S: Simd>(

@@ -1,4 +1,4 @@
-//! Modes whose state has decayed to nothing, set to exactly nothing.
+//! Zeroing of modes whose state has decayed.
 
 use pulp::Simd;
 

@@ -1,8 +1,8 @@
-//! Modes of a round body at a few places spaced evenly around its rim.
+//! Modes of a round body at a few evenly spaced points around its rim.
 //!
-//! Of `2 (c - 1)` places nothing can tell an order `m` from the lowest order of the same remainder: each mode
-//! belongs to one of `c` classes, and all places together see of all modes only two amplitudes a class, one of the
-//! cosine and one of the sine. Reading every place thus costs what reading two would.
+//! At `2 (c - 1)` points an order `m` is the same as the lowest order of the same remainder (aliasing). Each mode therefore
+//! belongs to one of `c` classes, and each class has two amplitudes, of the cosine and of the sine. Reading all points costs as
+//! much as reading two.
 
 use pulp::Simd;
 
@@ -15,11 +15,11 @@ pub const MAX_CLASSES: usize = 9;
 /// Amplitude of the cosine and of the sine, `[class]`.
 pub type Amplitudes = [[f32; 2]; MAX_CLASSES];
 
-/// Which modes make up each amplitude.
+/// The modes of each amplitude.
 pub struct RimHarmonics {
     /// Groups of lanes with modes of a class in them, class by class.
     groups: Vec<Group>,
-    /// What a mode adds to its class's cosine and sine, [`LANES`] values for every group.
+    /// Shares of a mode in its class's cosine and sine, [`LANES`] values for every group.
     cos: Row,
     sin: Row,
 }
@@ -85,15 +85,15 @@ struct Gather<'a> {
     x: &'a [f32],
 }
 
-/// What [`Kernels::spread_folded`] works on; rows `[mode]`.
+/// Operands of [`Kernels::spread_folded`]; rows `[mode]`.
 pub struct Spread<'a> {
     /// State.
     pub re: &'a mut [f32],
     /// State.
     pub im: &'a mut [f32],
-    /// What a unit force held for a sample leaves.
+    /// Effect of a unit force held for a sample.
     pub hold_re: &'a [f32],
-    /// What a unit force held for a sample leaves.
+    /// Effect of a unit force held for a sample.
     pub hold_im: &'a [f32],
 }
 
@@ -109,7 +109,7 @@ impl Kernels {
         self.run(Gather { folded, x })
     }
 
-    /// Adds to a body's state what forces on the amplitudes do in a sample.
+    /// Adds the effect of forces on the amplitudes, held for a sample, to a body's state.
     pub fn spread_folded(&self, folded: &RimHarmonics, forces: &Amplitudes, body: Spread<'_>) {
         self.run(SpreadAll { folded, forces, body });
     }
@@ -131,7 +131,7 @@ impl Kernel for Gather<'_> {
                 continue;
             }
             if group.class != class {
-                // Written out: within a closure the sum would be a call without the machine's instructions.
+                // A loop, as a closure would be compiled without the machine's instructions.
                 out[class] = [simd.reduce_sum_f32s(sums[0]), simd.reduce_sum_f32s(sums[1])];
                 (class, sums) = (group.class, [zero; 2]);
             }

@@ -1,28 +1,28 @@
-//! Many samples of a body at once, its state in registers throughout, heard after each; forces may drive it.
+//! Rendering of a run: many samples of a body at once, with its state in registers, with or without forces.
 
 use pulp::Simd;
 
 use super::dispatch::{Kernel, Kernels, LANES};
 use super::primitives::turn;
 
-/// Longest stretch of samples [`Kernels::ring`] takes.
+/// Longest run of [`Kernels::ring`], samples.
 pub const MAX_RUN: usize = 32;
 
-/// Forces that drive one run, at most.
+/// Most forces in a run.
 pub const MAX_DRIVES: usize = 16;
 
-/// A force at a place over a run of samples.
+/// A force at an input vector over a run.
 #[derive(Debug, Clone, Copy)]
 pub struct Drive<'a> {
-    /// What a unit force held for a sample leaves, `[mode]`.
+    /// Effect of a unit force held for a sample, `[mode]`.
     pub gain_re: &'a [f32],
-    /// What a unit force held for a sample leaves, `[mode]`.
+    /// Effect of a unit force held for a sample, `[mode]`.
     pub gain_im: &'a [f32],
     /// `[sample]`, N.
     pub forces: &'a [f32],
 }
 
-/// What [`Kernels::ring`] works on; all rows `[mode]`.
+/// Operands of [`Kernels::ring`]; all rows `[mode]`.
 pub struct Ring<'a> {
     /// State.
     pub re: &'a mut [f32],
@@ -32,32 +32,32 @@ pub struct Ring<'a> {
     pub turn_re: &'a [f32],
     /// Rotation.
     pub turn_im: &'a [f32],
-    /// Where it is heard; all `out` of one length.
+    /// Receivers; all `out` of one length.
     pub heard: [PressureSum<'a>; RECEIVERS],
 }
 
-/// Points at which a body is heard at once: two that hear all of it, near and far, and one that hears its first modes
-/// alone, as few as its weights are long.
+/// Receivers of a body: a near and a far one that take all modes, and one that takes the first modes only, as many as it has
+/// weights.
 pub const RECEIVERS: usize = 3;
 
-/// Ears that hear all modes.
+/// Receivers that take all modes.
 const FULL: usize = 2;
 
-/// A row that is shorter than others ends in so many zeros, the modes that are advanced together at most.
+/// Zeros at the end of a row that is shorter than others: the largest number of modes that are advanced together.
 pub const REST: usize = GROUPS * LANES;
 
-/// One point at which a body is heard.
+/// One receiver.
 pub struct PressureSum<'a> {
-    /// What of the state is heard, `[mode]`.
+    /// Weights of the state, `[mode]`.
     pub weight_re: &'a [f32],
-    /// What of the state is heard, `[mode]`.
+    /// Weights of the state, `[mode]`.
     pub weight_im: &'a [f32],
     /// Receives the sum after each sample.
     pub out: &'a mut [f32],
 }
 
 impl Ring<'_> {
-    /// Samples asked for.
+    /// Samples of the run.
     fn samples(&self) -> usize {
         self.heard[0].out.len()
     }
@@ -79,7 +79,7 @@ struct Driven<'a, 'b> {
 }
 
 impl Kernels {
-    /// Many samples of [`rotate`](Self::rotate), listening after each.
+    /// Many samples of [`rotate`](Self::rotate), with the pressure after each.
     ///
     /// # Panics
     /// If `out` is longer than [`MAX_RUN`].
@@ -139,7 +139,7 @@ fn ring_all<S: Simd>(
     write_sums(simd, sums, &mut ring.heard);
 }
 
-/// Advances `G` groups, unless they are still and nothing drives them; as many ears as reach them listen.
+/// Advances `G` groups, unless they are still and nothing drives them; and listens at the receivers that reach them.
 #[inline(always)]
 fn ring_some<S: Simd, const G: usize>(
     simd: S,
@@ -167,11 +167,11 @@ fn ring_some<S: Simd, const G: usize>(
 fn any<S: Simd>(simd: S, row: &[S::f32s]) -> bool {
     let largest =
         row.iter().fold(simd.splat_f32s(0.0), |largest, &x| simd.max_f32s(largest, simd.abs_f32s(x)));
-    // A NaN may pass for nothing here: whoever looks whether all is finite finds it.
+    // A NaN may count as zero here: the check for finite values finds it.
     simd.reduce_max_f32s(largest) != 0.0
 }
 
-/// The rows a ring reads.
+/// The rows of a run.
 struct RingRows<'a, S: Simd> {
     turn: [&'a [S::f32s]; 2],
     heard: [[&'a [S::f32s]; 2]; RECEIVERS],
@@ -179,7 +179,7 @@ struct RingRows<'a, S: Simd> {
     driven: usize,
 }
 
-/// What a unit force leaves, real and imaginary part, and the forces.
+/// Effect of a unit force, real and imaginary part, and the forces.
 type DriveRows<'a, S> = (&'a [<S as Simd>::f32s], &'a [<S as Simd>::f32s], &'a [f32]);
 
 impl<'a, S: Simd> RingRows<'a, S> {
@@ -209,7 +209,7 @@ impl<'a, S: Simd> RingRows<'a, S> {
         self.drives[..self.driven].iter()
     }
 
-    /// Whether every ear hears groups up to there.
+    /// Whether every receiver takes groups up to there.
     #[inline(always)]
     fn reach_all(&self, groups: usize) -> bool {
         groups <= self.heard[RECEIVERS - 1][0].len()
@@ -219,14 +219,14 @@ impl<'a, S: Simd> RingRows<'a, S> {
 /// Adds up the lanes of every sample's sums.
 #[inline(always)]
 fn write_sums<S: Simd>(simd: S, sums: &[[S::f32s; RECEIVERS]], heard: &mut [PressureSum<'_>; RECEIVERS]) {
-    for (ear, heard) in heard.iter_mut().enumerate() {
+    for (receiver, heard) in heard.iter_mut().enumerate() {
         for (out, sum) in heard.out.iter_mut().zip(sums) {
-            *out = simd.reduce_sum_f32s(sum[ear]);
+            *out = simd.reduce_sum_f32s(sum[receiver]);
         }
     }
 }
 
-/// Advances `G` groups of modes through every sample, their state in registers throughout; the first `E` ears hear
+/// Advances `G` groups of modes through every sample, their state in registers throughout; the first `E` receivers hear
 /// them, and drives act on them if they are `DRIVEN`.
 #[inline(always)]
 fn ring_groups<S: Simd, const G: usize, const E: usize, const DRIVEN: bool>(
@@ -243,7 +243,7 @@ fn ring_groups<S: Simd, const G: usize, const E: usize, const DRIVEN: bool>(
     };
     let (mut z_re, mut z_im) = (load(re), load(im));
     let [t_re, t_im] = rows.turn.map(load);
-    let weights: [_; E] = std::array::from_fn(|ear| rows.heard[ear].map(load));
+    let weights: [_; E] = std::array::from_fn(|receiver| rows.heard[receiver].map(load));
     for (sample, sum) in sums.iter_mut().enumerate() {
         for i in 0..G {
             (z_re[i], z_im[i]) = turn(simd, fma, (z_re[i], z_im[i]), (t_re[i], t_im[i]));

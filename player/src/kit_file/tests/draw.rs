@@ -15,19 +15,16 @@ use overhear_engine::strike::Striker;
 use crate::kit_document::KitDocument;
 use crate::midi_map::{Foot, Meaning, NoteTable, Row, Stroke};
 
-/// Draws by chance (xorshift); the same seed draws the same.
-pub struct Draw(u64);
+/// A random generator; the same seed draws the same.
+pub struct Draw(fastrand::Rng);
 
 impl Draw {
     pub fn new(seed: u64) -> Draw {
-        Draw(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1)
+        Draw(fastrand::Rng::with_seed(seed))
     }
 
     pub fn below(&mut self, end: usize) -> usize {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as usize % end.max(1)
+        self.0.usize(..end.max(1))
     }
 
     /// From 0 to 1.
@@ -85,6 +82,7 @@ pub fn document(seed: u64) -> KitDocument {
         *x += draw.unit();
     }
     kit.room.time = draw.number(&(0.05..=5.0));
+    kit.room.octaves[draw.below(9)] = draw.number(&(0.1..=4.0));
     kit.room.corners[1][draw.below(3)] += draw.unit();
     kit.room.reflected[draw.below(3)][draw.below(2)] = draw.number(&(0.0..=0.99));
     let notes = notes(draw, &kit);
@@ -126,7 +124,7 @@ fn parts(draw: &mut Draw, piece: &mut PieceSpec) {
     piece.ideal = Idealization { lossless: yes(), linear: yes(), round: yes() };
     match &mut piece.instrument {
         InstrumentSpec::Drum(drum) => {
-            let pillow = Muffler::Pillow { sigma: 20.0, flow: 100.0 };
+            let pillow = Muffler::Pillow { sigma: 20.0, corner_hz: 120.0, flow: 100.0 };
             drum.muffler = draw.of(&[Muffler::GEL, Muffler::RING, pillow]);
             drum.evenness.seed = draw.of(&[0, 7, u32::MAX]);
             drum.contact = draw.of(&[HeadContact::Wraps, HeadContact::FixedDisc]);

@@ -37,6 +37,10 @@ fn every_error_names_the_line_the_field_and_what_is_accepted() {
             "format = 1\n[room]\nreverberation_ms = 9000",
             "3: room.reverberation_ms is 9000, accepted: 50 to 5000",
         ),
+        (
+            "format = 1\n[room]\noctaves = [1, 1, 1, 1, 1, 1, 1, 9, 1]",
+            "3: room.octaves is 9, accepted: 0.1 to 4",
+        ),
         // What the file does not say is told where its table stands.
         ("format = 1\n[pieces.snare]\nlowest_pitch_hz = 300\n", "2: pieces.snare.pitch_hz is "),
         // Wrong types.

@@ -115,7 +115,7 @@ fn found_of(found: &Unexpected<'_>) -> String {
     }
 }
 
-/// What Serde expects, in the words of whoever writes a file.
+/// What Serde expects, in the words of a kit file.
 fn accepted_of(expected: &dyn Expected) -> String {
     let expected = expected.to_string();
     match &*expected {

@@ -101,7 +101,7 @@ impl IPluginFactory3Trait for Factory {
 }
 
 #[unsafe(no_mangle)]
-extern "system" fn GetPluginFactory() -> *mut c_void {
+pub(super) extern "system" fn GetPluginFactory() -> *mut c_void {
     caught("GetPluginFactory", std::ptr::null_mut(), || {
         let factory = ComWrapper::new(Factory::new()).to_com_ptr::<IPluginFactory>();
         factory.map_or(std::ptr::null_mut(), |factory| factory.into_raw().cast())
@@ -109,7 +109,7 @@ extern "system" fn GetPluginFactory() -> *mut c_void {
 }
 
 /// What every system's entry does.
-fn loaded() -> bool {
+pub(super) fn loaded() -> bool {
     caught("module entry", false, || {
         setup_logger::<Overhear>();
         true

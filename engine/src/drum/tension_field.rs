@@ -1,0 +1,203 @@
+//! How a head misses being evenly stretched: a field of relative tension over its area.
+//!
+//! Model: the tension is `T (1 + tau)` with a random field `tau` of mean square `rms^2`, whose components fall with
+//! their wavenumber `kappa` as `exp(-(kappa l)^2 / 4)` (in amplitude), `l` the correlation length. The field is a sum of
+//! the shapes `chi = J_l(kappa r) cos/sin(l theta)` whose slope is zero at the rim, so that it may be uneven there, where the lugs
+//! pull. An even part is removed so that the mode `(0, 1)` keeps its pitch: that is what a drummer tunes.
+//!
+//! Matrix elements: for two shapes of a clamped head with wavenumbers `k_i`, `k_j`,
+//!
+//! ```text
+//! int tau grad(i) grad(j) dA = 1/2 int [tau (k_i^2 + k_j^2) + laplace(tau)] i j dA
+//! ```
+//!
+//! exactly, by Green's identity, since both shapes are zero at the rim; and `laplace(chi) = -kappa^2 chi`.
+//!
+//! Limits: a field of wave speed, not a state of stress in equilibrium: it stands for uneven film as well. The film's own
+//! stiffness and the air stay even.
+//!
+//! Source: Morse & Ingard, Theoretical Acoustics, ch. 5 (perturbed membranes); Worland, J. Acoust. Soc. Am. 127, 2010
+//! (drum heads of uneven tension).
+
+use std::f64::consts::TAU;
+
+use serde::{Deserialize, Serialize};
+
+use crate::math::bessel;
+use crate::numbers::{Numbers, Visitor};
+use crate::split::hash;
+
+/// How uneven the tension of a drum's heads is.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TensionFieldSpec {
+    /// Root mean square of the relative tension over the head, 0 to 0.2.
+    pub rms: f64,
+    /// Correlation length, share of the radius, 0.1 to 2.
+    pub correlation: f64,
+    /// Tells the unevenness of one drum from another's.
+    pub seed: u32,
+}
+
+impl Numbers for TensionFieldSpec {
+    fn visit(&mut self, visitor: &mut dyn Visitor) {
+        visitor.number("rms", &mut self.rms, 0.0..=0.2);
+        visitor.number("correlation", &mut self.correlation, 0.1..=2.0);
+    }
+}
+
+/// Components weaker than this, over the strongest possible one, are left out.
+const WEAKEST: f64 = 0.02;
+
+/// One shape of the field, `J_l(kappa r) (cos part cos(l theta) + sin part sin(l theta))`, `r` a share of the radius.
+#[derive(Debug, Clone, Copy)]
+struct Component {
+    l: u32,
+    kappa: f64,
+    parts: [f64; 2],
+}
+
+/// The field along the radius, for one number of periods around.
+#[derive(Debug, Clone)]
+pub struct Harmonic {
+    /// `[cosine, sine][radius]`: relative tension.
+    pub tension: [Vec<f64>; 2],
+    /// `[cosine, sine][radius]`: its negative Laplacian, over the radius squared.
+    pub curvature: [Vec<f64>; 2],
+}
+
+/// The field at given radii, by its number of periods around.
+#[derive(Debug, Clone)]
+pub struct TensionField {
+    /// `[periods around]`.
+    pub harmonics: Vec<Harmonic>,
+}
+
+impl TensionField {
+    /// Draws the field of one head (`head` tells the heads of a drum apart) at radii with weights such that
+    /// `sum weight f = int f 2 r dr`. Allocates.
+    pub fn new(spec: &TensionFieldSpec, head: u32, radii: &[f64], weights: &[f64]) -> TensionField {
+        let mut components = components(spec, head);
+        components.push(Component { l: 0, kappa: 0.0, parts: [-pull(&components, radii, weights), 0.0] });
+        let most = components.iter().map(|component| component.l).max().unwrap_or(0);
+        let empty = || [vec![0.0; radii.len()], vec![0.0; radii.len()]];
+        let mut harmonics: Vec<Harmonic> =
+            (0..=most).map(|_| Harmonic { tension: empty(), curvature: empty() }).collect();
+        for Component { l, kappa, parts } in components {
+            let Harmonic { tension, curvature } = &mut harmonics[l as usize];
+            for (i, &r) in radii.iter().enumerate() {
+                let shape = bessel::j(l, kappa * r);
+                for (part, strength) in parts.into_iter().enumerate() {
+                    tension[part][i] += strength * shape;
+                    curvature[part][i] += kappa * kappa * strength * shape;
+                }
+            }
+        }
+        TensionField { harmonics }
+    }
+
+    /// Relative tension at a radius of those given and a direction (rad).
+    #[cfg(test)]
+    fn at(&self, radius: usize, angle: f64) -> f64 {
+        let harmonics = self.harmonics.iter().enumerate();
+        harmonics
+            .map(|(l, harmonic)| {
+                let (sin, cos) = (l as f64 * angle).sin_cos();
+                harmonic.tension[0][radius] * cos + harmonic.tension[1][radius] * sin
+            })
+            .sum()
+    }
+}
+
+/// Draws the components.
+fn components(spec: &TensionFieldSpec, head: u32) -> Vec<Component> {
+    let fall = |kappa: f64| (-0.25 * (kappa * spec.correlation).powi(2)).exp();
+    let highest = 2.0 * (-WEAKEST.ln()).sqrt() / spec.correlation;
+    let mut components = Vec::new();
+    let mut square = 0.0;
+    for l in 0.. {
+        let zeros = bessel::zeros_prime(l, 2 + (highest / 2.8) as u32);
+        let Some(first) = zeros.first().filter(|&&first| first <= highest || l == 0) else { break };
+        debug_assert!(*first > 0.0);
+        for (s, kappa) in zeros.into_iter().filter(|&kappa| kappa <= highest).enumerate() {
+            // Mean square of J_l(kappa r) over the disc.
+            let mean = (1.0 - (f64::from(l) / kappa).powi(2)) * bessel::j(l, kappa).powi(2);
+            let around = if l == 0 { 1.0 } else { 0.5 };
+            let draw = normal(spec.seed, l, s as u32, head);
+            let parts = draw.map(|draw| draw * fall(kappa) / (mean * around).sqrt());
+            let parts = if l == 0 { [parts[0], 0.0] } else { parts };
+            square += parts.map(|part| part * part * mean * around).iter().sum::<f64>();
+            components.push(Component { l, kappa, parts });
+        }
+    }
+    // The rms is of this head, not of all that could be drawn.
+    let scale = if square > 0.0 { spec.rms / square.sqrt() } else { 0.0 };
+    for component in &mut components {
+        component.parts = component.parts.map(|part| scale * part);
+    }
+    components
+}
+
+/// Relative tension that the mode `(0, 1)` feels.
+fn pull(components: &[Component], radii: &[f64], weights: &[f64]) -> f64 {
+    let zero = bessel::zero(0, 1);
+    let norm = bessel::j(1, zero).powi(-2);
+    let felt = |component: &Component| {
+        let share = 1.0 - 0.5 * (component.kappa / zero).powi(2);
+        let product = |r: f64| bessel::j(0, component.kappa * r) * bessel::j(0, zero * r).powi(2);
+        let mean: f64 = radii.iter().zip(weights).map(|(&r, weight)| weight * product(r)).sum();
+        component.parts[0] * share * norm * mean
+    };
+    components.iter().filter(|component| component.l == 0).map(felt).sum()
+}
+
+/// Two independent draws from a normal distribution (Box & Muller).
+fn normal(seed: u32, l: u32, s: u32, head: u32) -> [f64; 2] {
+    let [u, v] = [10, 11].map(|what| hash(seed, l, s, what + 16 * head));
+    let (sin, cos) = (TAU * v).sin_cos();
+    let size = (-2.0 * (1.0 - u).ln()).sqrt();
+    [size * cos, size * sin]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::quadrature::GaussLegendre;
+
+    fn rule(n: usize) -> (Vec<f64>, Vec<f64>) {
+        let rule = GaussLegendre::unit(n);
+        let weights = rule.nodes.iter().zip(&rule.weights).map(|(r, weight)| 2.0 * r * weight).collect();
+        (rule.nodes, weights)
+    }
+
+    #[test]
+    fn the_field_has_the_rms_that_is_asked_for() {
+        let (radii, weights) = rule(40);
+        for seed in 0..8 {
+            let spec = TensionFieldSpec { rms: 0.04, correlation: 0.3, seed };
+            let field = TensionField::new(&spec, 0, &radii, &weights);
+            let (mut mean, mut square) = (0.0, 0.0);
+            for (i, weight) in weights.iter().enumerate() {
+                for step in 0..120 {
+                    let value = field.at(i, TAU * f64::from(step) / 120.0);
+                    mean += weight * value / 120.0;
+                    square += weight * value * value / 120.0;
+                }
+            }
+            // All but the even part, which keeps the pitch.
+            let rms = (square - mean * mean).sqrt();
+            assert!((rms / 0.04 - 1.0).abs() < 1e-3, "seed {seed}: {rms}");
+            assert!(mean.abs() < 0.04, "seed {seed}: {mean}");
+        }
+    }
+
+    #[test]
+    fn a_shorter_correlation_has_more_components() {
+        let (radii, weights) = rule(40);
+        let orders = |correlation| {
+            let spec = TensionFieldSpec { rms: 0.04, correlation, seed: 1 };
+            TensionField::new(&spec, 0, &radii, &weights).harmonics.len()
+        };
+        assert!(orders(0.2) > orders(0.4) && orders(0.4) > orders(1.0), "{}", orders(1.0));
+    }
+}

@@ -1,0 +1,122 @@
+//! Modes that are mixtures of simpler ones: the matrix that takes anything given per simple mode to the mixed ones.
+//!
+//! Mixed modes are made of simple modes of nearby frequency, so that each is a short run of coefficients over simple
+//! modes in order of frequency.
+
+use serde::{Deserialize, Serialize};
+
+/// The run of coefficients of one mixed mode.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+struct Run {
+    /// First simple mode.
+    first: u32,
+    /// Where its coefficients begin and how many there are.
+    start: u32,
+    length: u32,
+}
+
+/// Simple modes before `kept` stay as they are; each further mode is a mixture.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ModeMixture {
+    kept: usize,
+    runs: Vec<Run>,
+    coefs: Vec<f32>,
+}
+
+/// Modes that a mixture can have.
+pub const MAX_MIXED: usize = 4096;
+
+impl ModeMixture {
+    /// From rows of coefficients, each with the first simple mode it speaks of.
+    ///
+    /// # Panics
+    /// If there are more than [`MAX_MIXED`] modes.
+    pub fn new(kept: usize, rows: &[(usize, Vec<f64>)]) -> ModeMixture {
+        assert!(kept + rows.len() <= MAX_MIXED, "{} modes", kept + rows.len());
+        let (mut runs, mut coefs) = (Vec::new(), Vec::new());
+        for (first, row) in rows {
+            runs.push(Run { first: *first as u32, start: coefs.len() as u32, length: row.len() as u32 });
+            coefs.extend(row.iter().map(|&coef| coef as f32));
+        }
+        ModeMixture { kept, runs, coefs }
+    }
+
+    /// Number of modes, kept and mixed; there are as many simple ones.
+    pub fn modes(&self) -> usize {
+        self.kept + self.runs.len()
+    }
+
+    /// Number of modes that are not mixed.
+    pub fn kept(&self) -> usize {
+        self.kept
+    }
+
+    /// The simple modes of a mixed one (counted from the first mixed) and its share of each.
+    pub fn parts(&self, mixed: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let Run { first, start, length } = self.runs[mixed];
+        let coefs = &self.coefs[start as usize..][..length as usize];
+        coefs.iter().enumerate().map(move |(i, &coef)| (first as usize + i, f64::from(coef)))
+    }
+
+    /// Takes values of the simple modes to the mixed ones.
+    ///
+    /// # Real-time
+    /// No allocation; linear in the number of coefficients.
+    pub fn apply(&self, simple: &[f32], mixed: &mut [f32]) {
+        mixed[..self.kept].copy_from_slice(&simple[..self.kept]);
+        for (out, run) in mixed[self.kept..].iter_mut().zip(&self.runs) {
+            let coefs = &self.coefs[run.start as usize..][..run.length as usize];
+            *out = sum_of_products(coefs, &simple[run.first as usize..][..run.length as usize]);
+        }
+    }
+
+    /// Takes several values of each simple mode to the mixed ones at once.
+    ///
+    /// # Real-time
+    /// As [`apply`](Self::apply).
+    pub fn apply_rows<const N: usize>(&self, simple: &[[f32; N]], mixed: &mut [[f32; N]]) {
+        mixed[..self.kept].copy_from_slice(&simple[..self.kept]);
+        for (out, run) in mixed[self.kept..].iter_mut().zip(&self.runs) {
+            let coefs = &self.coefs[run.start as usize..][..run.length as usize];
+            *out = [0.0; N];
+            for (coef, row) in coefs.iter().zip(&simple[run.first as usize..]) {
+                for i in 0..N {
+                    out[i] += coef * row[i];
+                }
+            }
+        }
+    }
+}
+
+/// `sum a b` in eight partial sums, which the compiler keeps in vector registers.
+fn sum_of_products(a: &[f32], b: &[f32]) -> f32 {
+    let mut sums = [0.0_f32; 8];
+    let (a, a_rest) = a.as_chunks::<8>();
+    let (b, b_rest) = b.as_chunks::<8>();
+    for (a, b) in a.iter().zip(b) {
+        for i in 0..8 {
+            sums[i] += a[i] * b[i];
+        }
+    }
+    let rest: f32 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
+    sums.iter().sum::<f32>() + rest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn kept_modes_stay_and_mixed_ones_are_sums() {
+        let rows = [(1, vec![0.5, 0.25]), (2, vec![2.0])];
+        let mixture = ModeMixture::new(1, &rows);
+        let mut out = [0.0; 3];
+        mixture.apply(&[7.0, 4.0, 8.0], &mut out);
+        assert_eq!(out, [7.0, 4.0, 16.0]);
+        let mut rows = [[0.0; 2]; 3];
+        mixture.apply_rows(&[[7.0, 1.0], [4.0, 2.0], [8.0, 4.0]], &mut rows);
+        assert_eq!(rows, [[7.0, 1.0], [4.0, 2.0], [16.0, 8.0]]);
+        assert_eq!(mixture.parts(0).collect::<Vec<_>>(), [(1, 0.5), (2, 0.25)]);
+        assert_eq!((mixture.modes(), mixture.kept()), (3, 1));
+    }
+}
