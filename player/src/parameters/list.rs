@@ -6,7 +6,6 @@ use std::sync::LazyLock;
 use overhear_engine::kit_spec::KitSpec;
 use overhear_engine::slot::{SLOTS, Slot};
 
-use super::host_id;
 use super::parameter::{Parameter, SlotParameter};
 use super::table::{GLOBALS, TABLE};
 
@@ -40,6 +39,13 @@ pub const fn slot_index(slot: Slot, what: SlotParameter) -> usize {
 pub fn slot_parameter(index: usize) -> Option<(Slot, SlotParameter)> {
     let slot = Slot::new(index / SlotParameter::ALL.len())?;
     Some((slot, SlotParameter::ALL[index % SlotParameter::ALL.len()]))
+}
+
+/// Number by which hosts know a parameter's id: the hash of the framework.
+pub fn host_id(id: &str) -> u32 {
+    let hash = id.bytes().fold(0_u32, |hash, byte| hash.wrapping_mul(31).wrapping_add(u32::from(byte)));
+    // The highest bit belongs to the host in VST3.
+    hash & !(1 << 31)
 }
 
 /// [Steps](Parameter::steps) of the parameter that hosts know by a number.

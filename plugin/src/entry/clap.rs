@@ -20,7 +20,7 @@ use clap_sys::ext::tail::{CLAP_EXT_TAIL, clap_plugin_tail};
 use clap_sys::factory::plugin_factory::{CLAP_PLUGIN_FACTORY_ID, clap_plugin_factory};
 use clap_sys::host::clap_host;
 use clap_sys::plugin::{clap_plugin, clap_plugin_descriptor};
-use clap_sys::process::{CLAP_PROCESS_ERROR, clap_process, clap_process_status};
+use clap_sys::process::{CLAP_PROCESS_CONTINUE, CLAP_PROCESS_ERROR, clap_process, clap_process_status};
 use clap_sys::version::CLAP_VERSION;
 use nice_plug::prelude::*;
 use nice_plug::wrapper::clap::{PluginDescriptor, Wrapper};
@@ -279,7 +279,8 @@ unsafe extern "C" fn process(plugin: *const clap_plugin, call: *const clap_proce
         if written.is_some() {
             input.finish(output, frames);
         }
-        status
+        // A host may put a quiet instrument to sleep, but not one whose notes wait for a sample.
+        if status != CLAP_PROCESS_ERROR && input.is_waiting() { CLAP_PROCESS_CONTINUE } else { status }
     }
 }
 

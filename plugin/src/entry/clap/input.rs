@@ -201,6 +201,11 @@ impl Input {
         self.waiting.push(words);
     }
 
+    /// Whether events wait for the next buffer.
+    pub fn is_waiting(&self) -> bool {
+        !self.waiting.is_empty()
+    }
+
     /// Tells the host what has moved, at the end of a buffer, and forgets what has been played.
     ///
     /// # Safety
