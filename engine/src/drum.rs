@@ -68,13 +68,30 @@ struct Controls {
     preload: Glide,
 }
 
+/// What becomes of the modes of even heads.
+struct Mixing {
+    modes: Shared<MixedModes>,
+    /// What is heard of the even modes and of the body's: pressure near and far (real, imaginary), volume, and the share of
+    /// the sound that goes all around.
+    even: Vec<[f32; 6]>,
+    heard: Vec<[f32; 6]>,
+}
+
+impl Mixing {
+    fn new(modes: Shared<MixedModes>) -> Mixing {
+        let count = modes.mixture.modes();
+        Mixing { modes, even: vec![[0.0; 6]; count], heard: vec![[0.0; 6]; count] }
+    }
+}
+
 /// Where the kept pairs and then the mixed modes ring at a pitch.
 fn at_pitch<'a>(
     built: &'a DrumModes,
     mixed: Option<&'a MixedModes>,
     place: &'a PitchPosition,
 ) -> impl Iterator<Item = ModeAtPitch> + 'a {
-    let kept = built.modes[..built.kept].iter().map(|mode| mode.at(place));
+    let kept = mixed.map_or(built.modes.len(), |_| built.kept);
+    let kept = built.modes[..kept].iter().map(|mode| mode.at(place));
     kept.chain(mixed.into_iter().flat_map(|mixed| (0..mixed.len()).map(|k| mixed.at(k, place))))
 }
 
@@ -82,7 +99,7 @@ fn at_pitch<'a>(
 pub struct Drum {
     surface: Surface,
     built: Shared<DrumModes>,
-    mixed: Option<Shared<MixedModes>>,
+    mixing: Option<Mixing>,
     /// From near and from far.
     hearing: Shared<[ModeTransfer; 2]>,
     far_distance: f64,
@@ -100,10 +117,6 @@ pub struct Drum {
     shapes_stale: bool,
     /// `[kept pair, then mixed mode]`: where each rings now.
     at_pitch: Vec<ModeAtPitch>,
-    /// What is heard of the even modes and of the body's: pressure near and far (real, imaginary), volume, and the share of
-    /// the sound that goes all around.
-    even: Vec<[f32; 6]>,
-    heard: Vec<[f32; 6]>,
 }
 
 impl Drum {
@@ -115,7 +128,6 @@ impl Drum {
         spec.check()?;
         let BuildContext { options, receivers, ideal } = context;
         let field = spec.tension_field.filter(|field| !ideal.round && field.rms > 0.0);
-        let spec = &DrumSpec { tension_field: field, ..*spec };
         let [low, pitch, high] = spec.pitches();
         let built = MODES.get(&modes_key(spec), || DrumModes::new(spec))?;
         let place = built.heads.scale.place(pitch);
@@ -123,7 +135,7 @@ impl Drum {
             .map(|field| {
                 let axis = |m| spec.evenness.axis(m, 0);
                 let make = || Ok::<_, SpecError>(MixedModes::new(&built, &field, axis));
-                MIXED.get(&(modes_key(spec), field, spec.evenness), make)
+                MIXED.get(&(modes_key(spec), field, spec.evenness.seed), make)
             })
             .transpose()?;
         let modes = body::assemble(spec, &built, mixed.as_deref(), ideal.round);
@@ -157,10 +169,8 @@ impl Drum {
                 .wires
                 .and_then(|_| built.resonant_shapes(spec.evenness))
                 .map(|shapes| shapes.with_mixture(mixture())),
-            even: vec![[0.0; 6]; modes.len()],
-            heard: vec![[0.0; 6]; modes.len()],
             built,
-            mixed,
+            mixing: mixed.map(Mixing::new),
             hearing,
             far_distance: receivers.far.distance,
             modes,
@@ -194,15 +204,20 @@ impl Drum {
         drum.follow_shapes();
         if !ideal.linear {
             let (stretch, modes) =
-                Stretch::new(&spec.membrane(&spec.batter), &drum.built, drum.mixed.as_deref(), pitch);
+                Stretch::new(&spec.membrane(&spec.batter), &drum.built, drum.mixed(), pitch);
             drum.surface.set_potential(Box::new(stretch), modes, stretch::stride(options.sample_rate));
         }
         Ok(drum)
     }
 
+    /// Its mixed modes, if its heads are uneven.
+    fn mixed(&self) -> Option<&MixedModes> {
+        self.mixing.as_ref().map(|mixing| &*mixing.modes)
+    }
+
     /// Brings what is heard of the modes to where the pitch is.
     fn follow_pressures(&mut self, place: &PitchPosition) {
-        let Drum { surface, hearing, built, mixed, controls, far_distance, even, heard, at_pitch, .. } = self;
+        let Drum { surface, hearing, built, mixing, controls, far_distance, at_pitch, .. } = self;
         let volumes = built.modes.iter().flat_map(|tuned| {
             let share = all_around(built, tuned, place);
             let volume = share * if share > 0.0 { built.volume(tuned, place) } else { 0.0 };
@@ -211,7 +226,7 @@ impl Drum {
         let pitch = controls.pitch.value();
         let [near, far] = hearing.each_ref().map(|hearing| hearing.transfers(&built.modes, place, pitch));
         let far = far.map(|transfer| transfer.map(|h| h * *far_distance));
-        let Some(mixed) = mixed else {
+        let Some(Mixing { modes: mixed, even, heard }) = mixing else {
             surface.set_volumes(volumes);
             surface.set_transfers(near, far);
             return;
@@ -311,7 +326,7 @@ impl Instrument for Drum {
         }
         self.shapes_stale = true;
         let place = self.built.heads.scale.place(self.controls.pitch.value());
-        let now = at_pitch(&self.built, self.mixed.as_deref(), &place);
+        let now = at_pitch(&self.built, self.mixing.as_ref().map(|mixing| &*mixing.modes), &place);
         self.at_pitch.iter_mut().zip(now).for_each(|(row, now)| *row = now);
         let amount = self.controls.muffling.value();
         let (modes, at_pitch, muffler, built) = (&self.modes, &self.at_pitch, &self.muffler, &self.built);

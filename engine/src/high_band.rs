@@ -1,6 +1,6 @@
 //! What a head does above its complete set of modes, where they crowd too closely to be told apart.
 //!
-//! Model: from the top of the complete set on, each slice of 1/40 octave is one mode that stands for the
+//! Model: from the top of the complete set on, each slice of 1/300 octave is one mode that stands for the
 //! `count` real ones in it: a random plane wave and its mirror image at the rim, as a diffuse field at a clamped edge
 //! is made of; their difference has unit mean square and is zero at the rim. It weighs `M / count`, so that
 //! a force sets going as much energy as it would in all of them, and is heard by `sqrt(count)` less than
@@ -11,7 +11,7 @@
 //!
 //! ```text
 //! omega^2 (s + 2 Re z) = T k^2 + D k^4      z = rho / sqrt(k^2 - (omega/c)^2 - i eta)
-//! sigma = film(omega) + omega Im z / (2 (s + 2 Re z))      eta = 4 omega / (pi c a)
+//! sigma = film(omega) + edge(omega) + omega Im z / (2 (s + 2 Re z))      eta = 4 omega / (pi c a)
 //! ```
 //!
 //! `z` is that of an endless head; `eta` gives it what a head of radius `a` radiates by its rim (below),

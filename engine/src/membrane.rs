@@ -383,4 +383,26 @@ mod tests {
             assert!((frequency(&membrane, 1, 1, tension) / pitch - 1.0).abs() < 1e-9);
         }
     }
+
+    #[test]
+    fn an_edge_takes_the_same_from_every_mode_above_its_corner() {
+        let edge = EdgeSpec { resistance: 400.0, corner_hz: 200.0 };
+        let spec = MembraneSpec { thickness: 0.02e-3, edge: Some(edge), ..timpani() };
+        let membrane = Membrane::new(spec, Surroundings::Vacuum, &range(2729.0)).unwrap();
+        for mode in membrane.modes() {
+            let ringing = membrane.ringing(mode, 2729.0);
+            // sigma = T Re Y / a, but for the little that the film's stiffness adds to the frequency.
+            let law = 2729.0 * edge.mobility(ringing.omega) / spec.radius;
+            assert!((ringing.sigma / law - 1.0).abs() < 1e-3, "({}, {}): {ringing:?} {law}", mode.m, mode.n);
+            // Rellich: the mean square slope around the rim is k^2.
+            let around = if mode.m == 0 { 1.0 } else { 0.5 };
+            let k = mode.zero / spec.radius;
+            assert!((around * membrane.rim_slope(mode).powi(2) / (k * k) - 1.0).abs() < 1e-12);
+            let step = 1e-5;
+            let shape = membrane.radial_shapes(&[1.0 - step]);
+            let at = membrane.modes().iter().position(|other| other == mode).unwrap();
+            let slope = -shape[at] / (step * spec.radius);
+            assert!((slope / membrane.rim_slope(mode) - 1.0).abs() < 1e-2, "{slope}");
+        }
+    }
 }

@@ -75,6 +75,12 @@ pub trait Potential: Send {
     /// # Real-time
     /// Must not allocate, lock or fail.
     fn evaluate(&mut self, displacement: &[f32], gradient: &mut [f32]) -> Evaluation;
+
+    /// Whether the energy is never negative and rises from rest in every direction. The error of the energy then counts
+    /// against all the energy there is: a head that sticks hold down hardly moves, however much it is stretched.
+    fn is_convex(&self) -> bool {
+        false
+    }
 }
 
 /// Share of the error of `psi` that each evaluation corrects. *Converged*: fast enough that a roll of hard strokes leaves no
@@ -388,7 +394,8 @@ impl NonlinearForce {
             self.find_anew(body, psi - ahead, kinetic);
         } else {
             let held = self.scalar.psi * self.scalar.psi;
-            let error = 0.5 * (held - (psi - ahead).powi(2)).abs() / kinetic.max(f64::MIN_POSITIVE);
+            let whole = if self.potential.is_convex() { kinetic + energy } else { kinetic };
+            let error = 0.5 * (held - (psi - ahead).powi(2)).abs() / whole.max(f64::MIN_POSITIVE);
             self.safety.strays(error, stretch);
             self.exchange(body, psi - ahead, kinetic);
         }

@@ -8,10 +8,12 @@ pub mod density;
 pub mod envelope;
 pub mod glide;
 pub mod level;
+pub mod lines;
 pub mod one_shot;
 pub mod partials;
 
 pub use decay::{OCTAVES, broadband_decays, octave_decays};
 pub use glide::{Motion, glide_cents};
 pub use level::{mean, peak, rms, to_dbfs};
+pub use lines::line_share;
 pub use one_shot::OneShot;

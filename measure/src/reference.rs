@@ -57,9 +57,15 @@ pub fn cap_hi_hat() -> PieceSpec {
 }
 
 /// A drum as published contacts, landings and glides have it: every stroke presses on its striker's own disc; it is
-/// heard from half a metre, without muffling.
+/// heard from half a metre, without muffling. Its rim does not yield, and its heads are evenly stretched.
 fn fixed_disc(of: &str, change: impl FnOnce(DrumSpec) -> DrumSpec) -> PieceSpec {
-    let piece = altered(spec(of), |drum| change(DrumSpec { contact: HeadContact::FixedDisc, ..drum }));
+    let plain = |drum: DrumSpec| DrumSpec {
+        contact: HeadContact::FixedDisc,
+        edge: None,
+        tension_field: None,
+        ..drum
+    };
+    let piece = altered(spec(of), |drum| change(plain(drum)));
     let half_a_metre = ReceiverPosition { distance: 0.5, inclination: 0.6, azimuth: 0.4 };
     PieceSpec {
         name: format!("fixed-disc-{of}"),
@@ -80,9 +86,9 @@ pub fn fixed_disc_snare() -> PieceSpec {
     PieceSpec { defaults: Defaults { preload: Some(0.15), ..piece.defaults }, ..piece }
 }
 
-/// The rack tom with a fixed disc.
+/// The rack tom with a fixed disc, of 140 Hz.
 pub fn fixed_disc_rack_tom() -> PieceSpec {
-    fixed_disc("rack-tom", |drum| drum)
+    fixed_disc("rack-tom", |drum| DrumSpec { pitch_hz: 140.0, ..drum })
 }
 
 /// The floor tom with a fixed disc, of 82 Hz.

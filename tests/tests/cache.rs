@@ -125,13 +125,13 @@ fn what_is_kept_is_found_by_what_it_follows_from_and_by_nothing_else() {
     let resonant = |drum: DrumSpec, pitch_ratio: f64| {
         drum.resonant.map(|resonant| ResonantSpec { pitch_ratio, ..resonant })
     };
-    // The modes, and how they are heard.
+    // The modes, how they mix, and how they are heard.
     for (what, other) in [
         ("size", drum(|drum| DrumSpec { diameter: 1.001 * drum.diameter, ..drum })),
         ("other head", drum(|drum| DrumSpec { resonant: resonant(drum, 1.3), ..drum })),
         ("pitch", drum(|drum| DrumSpec { pitch_hz: 1.001 * drum.pitch_hz, ..drum })),
     ] {
-        assert_eq!(worked_out(&other, &options), 2, "{what}");
+        assert_eq!(worked_out(&other, &options), 3, "{what}");
     }
     // How they are heard.
     let uneven = drum(|drum| {
@@ -185,23 +185,23 @@ fn another_version_of_the_equations_or_of_a_library_finds_nothing_of_this_one() 
 }
 
 /// The number in [`SCHEMA`] of which [`FIGURES`] are.
-const FIGURES_OF: &str = "2";
+const FIGURES_OF: &str = "3";
 
 /// What the standard kit's rack tom and splash come to at 48 kHz. A change of these is a change of what caches hold.
 #[rustfmt::skip]
 const FIGURES: [(&str, f64); 24] = [
-    ("rack-tom (0,1) Hz", 1.547129170e2),
-    ("rack-tom (0,1) s", 1.243710936e0),
-    ("rack-tom (0,1) kg", 4.505454466e-2),
-    ("rack-tom (0,1) m2", 1.948641770e-2),
-    ("rack-tom (0,1) near Pa", 5.945706984e0),
-    ("rack-tom (0,1) far Pa", 6.219873911e-1),
-    ("rack-tom (1,1) Hz", 2.442684423e2),
-    ("rack-tom (1,1) s", 1.242555842e0),
-    ("rack-tom (1,1) near Pa", 3.909660073e0),
-    ("rack-tom (1,1) far Pa", 2.242472037e-1),
-    ("rack-tom (2,1) Hz", 3.423128097e2),
-    ("rack-tom (2,1) s", 1.471976091e0),
+    ("rack-tom (0,1) Hz", 1.276231412e2),
+    ("rack-tom (0,1) s", 1.338248232e0),
+    ("rack-tom (0,1) kg", 4.451378865e-2),
+    ("rack-tom (0,1) m2", 1.936964315e-2),
+    ("rack-tom (0,1) near Pa", 4.732013605e0),
+    ("rack-tom (0,1) far Pa", 4.353843547e-1),
+    ("rack-tom (1,1) Hz", 2.015434615e2),
+    ("rack-tom (1,1) s", 9.791882144e-1),
+    ("rack-tom (1,1) near Pa", 2.841547803e0),
+    ("rack-tom (1,1) far Pa", 1.420469810e-1),
+    ("rack-tom (2,1) Hz", 2.796230794e2),
+    ("rack-tom (2,1) s", 8.010286243e-1),
     ("splash (0,1) Hz", 3.373644649e2),
     ("splash (0,1) s", 3.308431270e0),
     ("splash (0,1) kg", 2.500000000e-1),

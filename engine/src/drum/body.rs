@@ -38,7 +38,8 @@ pub fn assemble(spec: &DrumSpec, drum: &DrumModes, mixed: Option<&MixedModes>, r
         Muffler::Pillow { .. } | Muffler::Ring { .. } => 0.0,
     };
     let mut modes = Vec::new();
-    for (pair, mode) in drum.modes[..drum.kept].iter().enumerate() {
+    let kept = mixed.map_or(drum.modes.len(), |_| drum.kept);
+    for (pair, mode) in drum.modes[..kept].iter().enumerate() {
         let turn = f64::from(mode.m) * (angle - spec.evenness.axis(mode.m, 0));
         let (body, n, _) = describe(drum, mode);
         // A pair is split by what it is, not by where it stands, so that a rebuild splits it alike.

@@ -6,7 +6,7 @@
 //! known of the even modes goes through the same mixture: shapes, losses, pressures, so that the drum stays reciprocal and
 //! passive.
 //!
-//! Scheme: modes from [`MIXED_FROM`] times the drum's pitch on are mixed, in order of frequency, in blocks of
+//! Scheme: modes from [`MIXED_FROM`](super::tension_field::MIXED_FROM) times the drum's pitch on are mixed, in order of frequency, in blocks of
 //! [`BLOCK`], then once more in blocks that lie half a block further. Both passes are rotations, so no energy is gained, and
 //! what remains between modes is weaker than their distance. The mixture is worked out in the middle of the range of pitches and
 //! kept at all of them: tension moves all modes of a head alike. Frequencies, losses and masses follow the even modes' at every pitch.
@@ -27,10 +27,6 @@ use crate::math::{eigen, quadrature};
 use crate::mode::Member;
 use crate::mode_mixture::ModeMixture;
 use crate::split::Splitting;
-
-/// Modes are mixed from so many times the pitch on, in the middle of the range. *Judgement*: below, a head has so few modes
-/// that they lie far apart and only the two of a pair meet, which are [split](crate::split) instead.
-pub const MIXED_FROM: f64 = 2.2;
 
 /// Modes in a block.
 const BLOCK: usize = 128;
@@ -406,3 +402,6 @@ fn named(rows: &[(usize, Vec<f64>)]) -> Vec<usize> {
     let mut free = (0..rows.len()).filter(|&part| !taken[part]).collect::<Vec<_>>().into_iter();
     names.into_iter().map(|name| name.or_else(|| free.next()).unwrap_or(0)).collect()
 }
+
+#[cfg(test)]
+mod tests;

@@ -83,7 +83,8 @@ impl Stretch {
         // Modes with their shares times the wavenumbers, by order.
         let mut sorted: BTreeMap<u32, Vec<BentMode>> = BTreeMap::new();
         let mut count = 0;
-        for mode in drum.modes[..drum.kept].iter().take_while(|mode| mode.at(&place).omega < limit) {
+        let kept = mixed.map_or(drum.modes.len(), |_| drum.kept);
+        for mode in drum.modes[..kept].iter().take_while(|mode| mode.at(&place).omega < limit) {
             let (first, heads) = drum.heads.batter.order(mode.m);
             let wave = |i: usize| drum.heads.batter.membrane.modes()[first + i].zero / spec.radius;
             let bent: Vec<f64> = (0..heads).map(|i| wave(i) * mode.share(i, &place)).collect();
@@ -187,6 +188,10 @@ impl Potential for Stretch {
         let rest = gradient[self.rows.len()..].iter_mut();
         rest.zip(&*self.mixed_product).for_each(|(gradient, product)| *gradient = factor * product);
         Evaluation { energy, depth: 0.0 }
+    }
+
+    fn is_convex(&self) -> bool {
+        true
     }
 }
 

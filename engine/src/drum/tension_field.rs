@@ -46,6 +46,10 @@ impl Numbers for TensionFieldSpec {
     }
 }
 
+/// Modes are mixed from so many times the pitch on, in the middle of the range of pitches, dimensionless. *Judgement*: below, a head has so few modes
+/// that they lie far apart and only the two of a pair meet, which are [split](crate::split) instead.
+pub const MIXED_FROM: f64 = 2.2;
+
 /// Components weaker than this, over the strongest possible one, are left out.
 const WEAKEST: f64 = 0.02;
 

@@ -12,7 +12,8 @@ use crate::modal::Mode;
 use crate::receiver::ReceiverPosition;
 use crate::split::hash;
 
-/// Slices in an octave.
+/// Slices in an octave. *Judgement*: a sum of modes that lose 60 dB in 0.2 s is heard as noise from some 0.1 modes per hertz
+/// on, which these have at 4 kHz; a head has four times as many.
 const SLICES: f64 = 300.0;
 
 /// Highest frequency, Hz, and its largest share of the sample rate.

@@ -2,7 +2,7 @@
 
 use super::schedule::Window;
 
-/// Error of the energy, over the kinetic energy, from which the potential is evaluated three times as often, and the time
+/// Error of the energy, over the kinetic energy (of a head, over all its energy), from which the potential is evaluated three times as often, and the time
 /// constant in which an error is forgotten, s. *Converged*: a crash at 6 m/s stays below, evaluated seven times a period. A
 /// stick at 25 m/s on a splash goes from three times this to divergence within half a millisecond.
 const ASTRAY: f64 = 0.01;

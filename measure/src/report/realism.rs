@@ -12,6 +12,7 @@ use super::page::bodies::PLAYED;
 use super::page::sources::GOAL;
 use super::page::{Claim, Page, Sheet};
 use super::plot::{Axis, Curve, Plot};
+use crate::analysis::{OneShot, line_share};
 use crate::picture;
 use crate::realism::reference::SLOPE_WITHIN;
 use crate::realism::{self, Count, PieceReport, RATE, RecordingChain, Report, SPEEDS, SUBJECTS, Subject};
@@ -43,10 +44,19 @@ pub fn page() -> Result<Page> {
     };
     // Sound of the mix at the middle position, by piece and speed.
     let heard: Mutex<BTreeMap<(&str, u64), Vec<f32>>> = Mutex::default();
+    // Share of energy in lines there, by piece, recording chain and speed.
+    let lines: Mutex<LineShares> = Mutex::default();
     let report =
-        realism::run_and_show(&request(realism::subjects(&[])?, Pace::Offline), &|job, [_, mix]| {
+        realism::run_and_show(&request(realism::subjects(&[])?, Pace::Offline), &|job, [close, mix]| {
             if job.place == job.subject.places[1] {
                 let key = (job.subject.name, job.speed.to_bits());
+                for (chain, sound) in [("close", close), ("mix", mix)] {
+                    let shot = OneShot::new(sound, f64::from(RATE));
+                    if let Some(share) = shot.as_ref().and_then(line_share) {
+                        let mut lines = lines.lock().unwrap_or_else(PoisonError::into_inner);
+                        lines.insert((key.0, chain, key.1), share);
+                    }
+                }
                 heard.lock().unwrap_or_else(PoisonError::into_inner).insert(key, mix.clone());
             }
             Ok(())
@@ -60,6 +70,7 @@ pub fn page() -> Result<Page> {
     for (report, how) in [(&report, "bounced"), (&live, "played live")] {
         brightening(&mut sheet, report, how);
     }
+    in_lines(&mut sheet, &lines.into_inner().unwrap_or_else(PoisonError::into_inner));
     for heard in RecordingChain::ALL {
         let [ranges, medians] =
             [report.all(heard, |piece| piece.ranges), report.all(heard, |piece| piece.medians)];
@@ -82,6 +93,34 @@ pub fn page() -> Result<Page> {
     spectrograms(&mut sheet, &heard)?;
     report.pieces.iter().for_each(|piece| table(&mut sheet, piece, &report.speeds_m_s));
     Ok(sheet.finish())
+}
+
+/// Share of energy in lines by piece, recording chain and speed (bits of m/s).
+type LineShares = BTreeMap<(&'static str, &'static str, u64), f64>;
+
+/// More of a drum's energy from 1 to 10 kHz than this must not be in lines.
+const MOST_IN_LINES: f64 = 0.35;
+
+/// Claims: drums are noise over a few partials.
+fn in_lines(sheet: &mut Sheet, shares: &LineShares) {
+    for subject in SUBJECTS.iter().filter(|subject| is_drum(subject)) {
+        for chain in ["close", "mix"] {
+            let of = |speed: &f64| shares.get(&(subject.name, chain, speed.to_bits())).copied();
+            let Some(found) = SPEEDS.iter().map(of).collect::<Option<Vec<f64>>>() else { continue };
+            let figures: Vec<String> = found.iter().map(|share| format!("{share:.2}")).collect();
+            sheet.claim(Claim {
+                what: format!(
+                    "{}, {chain}: share of the energy from 1 to 10 kHz in lines, soft to hard",
+                    subject.name
+                ),
+                on: PLAYED,
+                figure: figures.join(", "),
+                reference: format!("below {MOST_IN_LINES} (0.17 to 0.22)"),
+                source: RECORDINGS,
+                met: Some(found.iter().all(|&share| share < MOST_IN_LINES)),
+            });
+        }
+    }
 }
 
 /// Claims: how many figures lie where recordings have them.

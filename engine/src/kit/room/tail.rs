@@ -71,7 +71,7 @@ pub(in crate::kit) struct Tail {
     short_gains: Row,
     weakening: Weakening,
     /// Where in each long line it is listened to, samples from its beginning, and how much.
-    ears: [(usize, f32); LINES],
+    receivers: [(usize, f32); LINES],
     silent: bool,
 }
 
@@ -106,7 +106,7 @@ impl Tail {
         };
         // Anywhere in a line, the longer the more.
         let all = long.iter().sum::<usize>() as f64 / LINES as f64;
-        let ears = std::array::from_fn(|i| {
+        let receivers = std::array::from_fn(|i| {
             let delay = ((GOLDEN * (i as f64 + 0.5)).fract() * long[i] as f64) as usize;
             let delay = delay.clamp(BLOCK, long[i]);
             let sign = if i / 2 % 2 == 0 { 1.0 } else { -1.0 };
@@ -119,7 +119,7 @@ impl Tail {
             short: Lines::new(short),
             short_gains: short.map(|length| left(length) as f32),
             weakening: Weakening::new(&losses, sample_rate),
-            ears,
+            receivers,
             silent: true,
         }
     }
@@ -142,7 +142,7 @@ impl Tail {
         for (line, gain) in near.iter_mut().zip(self.short_gains) {
             line.iter_mut().for_each(|x| *x *= gain);
         }
-        for (i, &(delay, gain)) in self.ears.iter().enumerate() {
+        for (i, &(delay, gain)) in self.receivers.iter().enumerate() {
             self.long.listen(i, delay, gain, if i % 2 == 0 { &mut *left } else { &mut *right });
         }
         self.weakening.render(&mut far, samples);
