@@ -4,6 +4,7 @@
 //! give the same samples, bit by bit.
 
 mod engine;
+mod role;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -15,22 +16,13 @@ use overhear::parameters::{self, COUNT, host_id, parameters};
 
 use crate::bad_input;
 use crate::host::{self, Bundle, Instance, Processor};
-use crate::settings::Setting;
 
 pub use crate::message::Message;
 pub use engine::EnginePlayer;
+pub use role::{Player, Setup};
 
 /// Longest buffer that is played.
 pub const LONGEST_BLOCK: u32 = 8192;
-
-/// Something that turns messages into sound, buffer by buffer.
-pub trait Player {
-    /// Renders one buffer with the messages in it, ordered by sample.
-    ///
-    /// # Errors
-    /// If the plugin fails.
-    fn render(&mut self, messages: &[Message], left: &mut [f32], right: &mut [f32]) -> Result<()>;
-}
 
 /// Source of the sound.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -39,17 +31,6 @@ pub enum Source {
     Engine,
     /// A CLAP bundle.
     Clap(PathBuf),
-}
-
-/// Its settings.
-#[derive(Debug, Clone)]
-pub struct Setup {
-    /// Sample rate, Hz.
-    pub rate: u32,
-    /// The kit and its notes.
-    pub kit: KitDocument,
-    /// Parameters moved before the start.
-    pub settings: Vec<Setting>,
 }
 
 impl Source {

@@ -14,7 +14,7 @@ use std::sync::Arc;
 
 use overhear_engine::error::SpecError;
 use overhear_engine::hi_hat::foot::SPEED;
-use overhear_engine::kit::{Arrangement, Control, Kit, Microphone, RenderWorkers, Routing};
+use overhear_engine::kit::{Arrangement, Control, Kit, Microphone, RenderWorkers, Routing, Stereo};
 use overhear_engine::kit_spec::Kind;
 use overhear_engine::piece::Piece;
 use overhear_engine::slot::{SLOTS, Slot};
@@ -32,7 +32,7 @@ use crate::parameters::{
 };
 use crate::presets::Program;
 
-use sounding::Silencing;
+use sounding::{Silencing, tail};
 
 pub use crate::midi::playing::velocity_from_midi;
 
@@ -394,7 +394,8 @@ impl Performer {
     /// # Real-time
     /// No allocation, no lock.
     pub fn reset(&mut self) {
-        self.forget_silence();
+        // Whatever a fade was to end is put to rest below.
+        self.silencing.end();
         if self.playing.pedal_at().is_none() {
             // Where notes have left it is forgotten, where a foot is is not.
             for slot in self.hi_hats().into_iter().flatten() {
@@ -419,6 +420,62 @@ impl Performer {
             self.started = true;
             flushed(|| self.kit.finish_controls());
         }
+    }
+
+    /// Renders both outputs, full scale 1, overwriting them. Any length, both the same; the cut
+    /// into calls does not change the samples.
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn render(&mut self, left: &mut [f32], right: &mut [f32]) {
+        self.render_outputs([left, right], &mut []);
+    }
+
+    /// [`render`](Self::render), and each slot's piece and the pairs of microphones to outputs of their own; see
+    /// [`Kit::render_routed`].
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn render_outputs(&mut self, mut main: Stereo<'_>, outputs: &mut [Stereo<'_>]) {
+        self.start();
+        let faded = self.silencing.head(&mut main, outputs, |main, outputs| {
+            flushed(|| self.kit.render_routed(self.routing, main, outputs));
+        });
+        if faded > 0 && !self.silencing.is_running() {
+            self.end_all();
+        }
+        tail(faded, main, outputs, |main, outputs| {
+            flushed(|| self.kit.render_routed(self.routing, main, outputs));
+        });
+    }
+
+    /// Says what outputs of their own are to the mix, from the next sample on: copies at first.
+    pub fn route(&mut self, routing: Routing) {
+        self.routing = routing;
+    }
+
+    /// Fades all that sounds within ten milliseconds and puts every piece to rest; feet and parameters stay where they are.
+    fn silence(&mut self) {
+        if self.started {
+            self.silencing.begin();
+        }
+    }
+
+    /// Ends a fade at once, if one runs: what is struck now must not fade.
+    fn finish_silence(&mut self) {
+        if self.silencing.end() {
+            self.end_all();
+        }
+    }
+
+    /// Puts every piece to rest.
+    fn end_all(&mut self) {
+        Slot::ALL.into_iter().for_each(|slot| self.bend_piece(slot, 0.0));
+        self.playing.let_go();
+        flushed(|| {
+            Slot::ALL.into_iter().for_each(|slot| self.kit.choke(slot, 0.0));
+            self.kit.reset();
+        });
     }
 
     /// Writes a snapshot of the kit, and restarts the peaks.

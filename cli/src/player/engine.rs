@@ -12,7 +12,7 @@ use overhear::presets::{Library, Program, Programs};
 use overhear_engine::piece::Piece;
 use overhear_engine::slot::Slot;
 
-use super::{Player, Setup};
+use super::role::{Player, Setup};
 use crate::bad_input;
 use crate::message::{Meaning, Message};
 

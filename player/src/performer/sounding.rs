@@ -1,9 +1,8 @@
-//! Rendering, and the end of everything that sounds.
+//! The end of everything that sounds.
 
-use overhear_engine::kit::{OUTPUTS, Routing, Stereo};
-use overhear_engine::slot::Slot;
+use std::slice::SliceIndex;
 
-use super::{Performer, flushed};
+use overhear_engine::kit::{OUTPUTS, Stereo};
 
 /// How long everything takes to fall silent, s. *By ear*: no click, and over before the next stroke of a roll.
 const FADE: f64 = 0.01;
@@ -23,6 +22,48 @@ impl Silencing {
         Silencing { length: ((FADE * sample_rate) as usize).max(1), rest: 0 }
     }
 
+    /// Starts a fade, unless one runs.
+    pub(super) fn begin(&mut self) {
+        if self.rest == 0 {
+            self.rest = self.length;
+        }
+    }
+
+    /// Ends a fade and says whether one ran.
+    pub(super) fn end(&mut self) -> bool {
+        std::mem::take(&mut self.rest) > 0
+    }
+
+    /// Whether a fade runs.
+    pub(super) fn is_running(&self) -> bool {
+        self.rest > 0
+    }
+
+    /// Lets `render` write what is still heard of a buffer, fades it, and says how many samples it is.
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub(super) fn head(
+        &mut self,
+        main: &mut Stereo<'_>,
+        outputs: &mut [Stereo<'_>],
+        render: impl FnOnce(Stereo<'_>, &mut [Stereo<'_>]),
+    ) -> usize {
+        let fading = self.rest.min(main[0].len()).min(main[1].len());
+        if fading == 0 {
+            return 0;
+        }
+        let count = outputs.len().min(OUTPUTS);
+        let mut heads = parts(outputs, ..fading);
+        render(main.each_mut().map(|side| &mut side[..fading]), &mut heads[..count]);
+        let sides = main.iter_mut().map(|side| &mut side[..fading]);
+        for side in sides.chain(heads.into_iter().flatten()) {
+            self.fade(side);
+        }
+        self.rest -= fading;
+        fading
+    }
+
     /// Fades samples that come next.
     fn fade(&self, samples: &mut [f32]) {
         for (sample, rest) in samples.iter_mut().zip((0..self.rest).rev()) {
@@ -31,85 +72,33 @@ impl Silencing {
     }
 }
 
-impl Performer {
-    /// Renders both outputs, full scale 1, overwriting them. Any length, both the same; the cut
-    /// into calls does not change the samples.
-    ///
-    /// # Real-time
-    /// No allocation, no lock.
-    pub fn render(&mut self, left: &mut [f32], right: &mut [f32]) {
-        self.render_outputs([left, right], &mut []);
-    }
-
-    /// [`render`](Self::render), and each slot's piece and the pairs of microphones to outputs of their own; see
-    /// [`Kit::render_routed`](overhear_engine::kit::Kit::render_routed).
-    ///
-    /// # Real-time
-    /// No allocation, no lock.
-    pub fn render_outputs(&mut self, mut main: Stereo<'_>, outputs: &mut [Stereo<'_>]) {
-        self.start();
-        let frames = main[0].len().min(main[1].len());
-        let fading = self.silencing.rest.min(frames);
-        if fading == 0 {
-            flushed(|| self.kit.render_routed(self.routing, main, outputs));
-            return;
-        }
+/// Lets `render` write what comes behind the first `skipped` samples of a buffer.
+///
+/// # Real-time
+/// No allocation, no lock.
+pub(super) fn tail(
+    skipped: usize,
+    main: Stereo<'_>,
+    outputs: &mut [Stereo<'_>],
+    render: impl FnOnce(Stereo<'_>, &mut [Stereo<'_>]),
+) {
+    if skipped == 0 {
+        render(main, outputs);
+    } else if skipped < main[0].len().min(main[1].len()) {
         let count = outputs.len().min(OUTPUTS);
-        let mut heads: [Stereo<'_>; OUTPUTS] = std::array::from_fn(|_| Stereo::default());
-        for (head, output) in heads.iter_mut().zip(&mut *outputs) {
-            *head = output.each_mut().map(|side| side.get_mut(..fading).unwrap_or_default());
-        }
-        let head = main.each_mut().map(|side| &mut side[..fading]);
-        flushed(|| self.kit.render_routed(self.routing, head, &mut heads[..count]));
-        let sides = main.iter_mut().map(|side| &mut side[..fading]);
-        for side in sides.chain(heads.into_iter().flatten()) {
-            self.silencing.fade(side);
-        }
-        self.silencing.rest -= fading;
-        if self.silencing.rest == 0 {
-            self.end_all();
-        }
-        if fading < frames {
-            let rest = main.map(|side| &mut side[fading..]);
-            let mut tails: [Stereo<'_>; OUTPUTS] = std::array::from_fn(|_| Stereo::default());
-            for (tail, output) in tails.iter_mut().zip(outputs) {
-                *tail = output.each_mut().map(|side| side.get_mut(fading..).unwrap_or_default());
-            }
-            flushed(|| self.kit.render_routed(self.routing, rest, &mut tails[..count]));
-        }
+        let mut tails = parts(outputs, skipped..);
+        render(main.map(|side| &mut side[skipped..]), &mut tails[..count]);
     }
+}
 
-    /// Says what outputs of their own are to the mix, from the next sample on: copies at first.
-    pub fn route(&mut self, routing: Routing) {
-        self.routing = routing;
+/// A part of each output, empty where it has none.
+fn parts<'a>(
+    outputs: &'a mut [Stereo<'_>],
+    part: impl SliceIndex<[f32], Output = [f32]> + Clone,
+) -> [Stereo<'a>; OUTPUTS] {
+    let mut parts: [Stereo<'a>; OUTPUTS] = std::array::from_fn(|_| Stereo::default());
+    for (to, output) in parts.iter_mut().zip(outputs) {
+        *to = output.each_mut().map(|side| side.get_mut(part.clone()).unwrap_or_default());
     }
-
-    /// Fades all that sounds within ten milliseconds and puts every piece to rest; feet and parameters stay where they are.
-    pub(super) fn silence(&mut self) {
-        if self.started && self.silencing.rest == 0 {
-            self.silencing.rest = self.silencing.length;
-        }
-    }
-
-    /// Ends a fade at once, if one runs: what is struck now must not fade.
-    pub(super) fn finish_silence(&mut self) {
-        if std::mem::take(&mut self.silencing.rest) > 0 {
-            self.end_all();
-        }
-    }
-
-    /// Puts every piece to rest.
-    fn end_all(&mut self) {
-        Slot::ALL.into_iter().for_each(|slot| self.bend_piece(slot, 0.0));
-        self.playing.let_go();
-        flushed(|| {
-            Slot::ALL.into_iter().for_each(|slot| self.kit.choke(slot, 0.0));
-            self.kit.reset();
-        });
-    }
-
-    /// No fade runs any more: whatever it was to end has been put to rest.
-    pub(super) fn forget_silence(&mut self) {
-        self.silencing.rest = 0;
-    }
+    parts
 }

@@ -26,17 +26,20 @@ use nice_plug::prelude::*;
 use nice_plug::wrapper::clap::{PluginDescriptor, Wrapper};
 use nice_plug::wrapper::setup_logger;
 
+use self::guard::{Guard, Outputs, guard};
 use self::input::Input;
 use self::steps::Telling;
 use super::TAIL;
 use super::scratch::{CHANNELS, Scratch};
 use crate::guard::caught;
-use crate::host_parameters::{self, HostParameters};
+use crate::host_parameters;
 use crate::outputs::Used;
 use crate::plugin::{Overhear, OverhearMulti};
 
+mod guard;
 mod input;
 mod steps;
+mod table;
 
 /// What hosts look up by name.
 #[allow(non_upper_case_globals, missing_docs)]
@@ -129,36 +132,6 @@ unsafe extern "C" fn create(
     })
 }
 
-/// The framework's table with the guard's functions, and what they need.
-#[repr(C)]
-struct Guard {
-    /// What the host holds: first, so that its address is the guard's.
-    table: clap_plugin,
-    /// The framework's own table.
-    framework: clap_plugin,
-    /// Lives as long as the plugin.
-    host: *const clap_host,
-    parameters: Option<Arc<HostParameters>>,
-    /// Of the latest activation, Hz: bits of a double precision number.
-    sample_rate: AtomicU64,
-    /// The framework's table of parameters, but for their values.
-    values: OnceLock<clap_plugin_params>,
-    /// Touched by `activate` and `process` only, which never overlap; the rest is read by any thread.
-    outputs: UnsafeCell<Outputs>,
-}
-
-/// Scratch and the ports made of it for one call, and the events of one.
-struct Outputs {
-    input: Input,
-    scratch: Scratch,
-    /// `[port]`, filled in for a call that needs completing.
-    ports: Vec<clap_audio_buffer>,
-    /// Whether the plugin has been activated.
-    active: bool,
-    /// Whether it has not processed since.
-    fresh: bool,
-}
-
 /// # Safety
 /// `host` is as the format says.
 unsafe fn guarded<P: ClapPlugin>(host: *const clap_host) -> *const clap_plugin {
@@ -183,13 +156,6 @@ unsafe fn guarded<P: ClapPlugin>(host: *const clap_host) -> *const clap_plugin {
     let sample_rate = AtomicU64::new(0);
     let guard = Guard { table, framework, host, parameters, sample_rate, values, outputs };
     Box::into_raw(Box::new(guard)).cast()
-}
-
-/// # Safety
-/// The host passes what [`guarded`] returned and has not destroyed it.
-unsafe fn guard<'a>(plugin: *const clap_plugin) -> &'a Guard {
-    // SAFETY: the table is the guard's first field.
-    unsafe { &*plugin.cast() }
 }
 
 unsafe extern "C" fn destroy(plugin: *const clap_plugin) {
@@ -385,7 +351,7 @@ unsafe extern "C" fn get_extension(plugin: *const clap_plugin, id: *const c_char
             return found;
         }
         let framework = &*found.cast::<clap_plugin_params>();
-        ptr::from_ref(guard.values.get_or_init(|| steps::table(framework))).cast()
+        ptr::from_ref(guard.values.get_or_init(|| table::table(framework))).cast()
     })
 }
 
