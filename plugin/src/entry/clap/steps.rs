@@ -27,7 +27,7 @@ pub fn told(id: clap_id, share: f64) -> f64 {
     of(id).map_or(share, |steps| (share * f64::from(steps)).round())
 }
 
-/// What the framework is told of a host's number.
+/// The share of the range that the framework is told of a host's number.
 pub fn asked(id: clap_id, number: f64) -> f64 {
     of(id).map_or(number, |steps| share(number, steps))
 }
