@@ -27,7 +27,7 @@ pub struct ModeMixture {
 pub const MAX_MIXED: usize = 4096;
 
 impl ModeMixture {
-    /// From rows of coefficients, each with the first simple mode it speaks of.
+    /// From rows of coefficients (dimensionless), each with the first simple mode it speaks of.
     ///
     /// # Panics
     /// If there are more than [`MAX_MIXED`] modes.
@@ -58,7 +58,7 @@ impl ModeMixture {
         coefs.iter().enumerate().map(move |(i, &coef)| (first as usize + i, f64::from(coef)))
     }
 
-    /// Takes values of the simple modes to the mixed ones.
+    /// Takes values of the simple modes, in any unit, to the mixed ones.
     ///
     /// # Real-time
     /// No allocation; linear in the number of coefficients.
@@ -70,7 +70,7 @@ impl ModeMixture {
         }
     }
 
-    /// Takes several values of each simple mode to the mixed ones at once.
+    /// Takes several values of each simple mode, in any units, to the mixed ones at once.
     ///
     /// # Real-time
     /// As [`apply`](Self::apply).

@@ -66,7 +66,7 @@ struct Component {
 pub struct Harmonic {
     /// `[cosine, sine][radius]`: relative tension.
     pub tension: [Vec<f64>; 2],
-    /// `[cosine, sine][radius]`: its negative Laplacian, over the radius squared.
+    /// `[cosine, sine][radius]`: its negative Laplacian times the squared radius of the head, dimensionless.
     pub curvature: [Vec<f64>; 2],
 }
 
@@ -78,7 +78,7 @@ pub struct TensionField {
 }
 
 impl TensionField {
-    /// Draws the field of one head (`head` tells the heads of a drum apart) at radii with weights such that
+    /// Draws the field of one head (`head` tells the heads of a drum apart) at radii (shares of the head's) with weights (dimensionless) such that
     /// `sum weight f = int f 2 r dr`. Allocates.
     pub fn new(spec: &TensionFieldSpec, head: u32, radii: &[f64], weights: &[f64]) -> TensionField {
         let mut components = components(spec, head);

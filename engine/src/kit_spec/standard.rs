@@ -271,12 +271,12 @@ fn tom(size_in: [f64; 2], pitches: [f64; 3], seed: u32) -> InstrumentSpec {
 
 /// 12 x 9 in rack tom, heard at 127 Hz, as recorded ones are. *Fitted*.
 fn rack_tom() -> InstrumentSpec {
-    tom([12.0, 9.0], [90.0, fitted::RACK_TOM_PITCH_HZ, 260.0], 3)
+    tom([12.0, 9.0], [80.0, fitted::RACK_TOM_PITCH_HZ, 225.0], 3)
 }
 
 /// 16 x 16 in floor tom, heard at 82 Hz, as recorded ones are. *Fitted*.
 fn floor_tom() -> InstrumentSpec {
-    tom([16.0, 16.0], [55.0, fitted::FLOOR_TOM_PITCH_HZ, 160.0], 4)
+    tom([16.0, 16.0], [55.0, fitted::FLOOR_TOM_PITCH_HZ, 145.0], 4)
 }
 
 /// 26 in timpani on a kettle of 0.14 m3.

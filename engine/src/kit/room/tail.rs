@@ -16,7 +16,7 @@
 //! pressure `4 rho c P / A`, `A = 0.161 V / T` (Sabine); a source heard with `p` at a metre sends out
 //! `4 pi p^2 / (rho c)`: `p_diffuse^2 = p^2 16 pi / A`. Of a short sound, that is `16 pi / A (6 ln 10 / T) 10^(-6 t / T)` per
 //! second after it was sent (Barron: from when the sound itself arrives); at `t = 0` the same for all `T`. In the network
-//! an ear's eight lines carry `8 feed^2 / t_m 10^(-6 t / T)`, `t_m` the mean time of a round (renewal).
+//! a side's eight lines carry `8 feed^2 / t_m 10^(-6 t / T)`, `t_m` the mean time of a round (renewal).
 //!
 //! Limits: the tail is the same wherever in the room the pieces and the microphones are; a room has far more modes than this
 //! tail above 100 Hz, so that a tail of more than a second could be told from one.

@@ -22,9 +22,14 @@ pub const OVERHEADS: usize = SLOTS;
 /// See [`CLOSE`].
 pub const ROOM: usize = OVERHEADS + 1;
 
-/// A kit of one piece, struck, both pairs so far (m) over its middle: every microphone's left output.
+/// Reverberation time of a room in which only direct sound counts, s.
+const DEAD: f64 = 0.05;
+
+/// A kit of one piece in a dead room, struck, both pairs so far (m) over its middle: every microphone's left output.
 fn play(piece: &PieceSpec, rate: f64, strike: &Strike, height: f64, frames: usize) -> Vec<Vec<f32>> {
-    let mut kit = kit_of(&alone(piece), rate);
+    let mut spec = alone(piece);
+    spec.room.time = DEAD;
+    let mut kit = kit_of(&spec, rate);
     let [x, y, z] = piece.place.centre;
     for pair in [Microphone::Overheads, Microphone::Room] {
         kit.place(pair, [[x, y + height, z]; 2]);

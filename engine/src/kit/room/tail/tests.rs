@@ -5,18 +5,18 @@ use crate::kit_spec::room::OCTAVE_HZ;
 
 const RATE: f64 = 44_100.0;
 
-/// What both ears hear of an impulse.
+/// What both sides hear of an impulse.
 fn impulse(room: &RoomSpec, rate: f64, seconds: f64) -> [Vec<f64>; 2] {
     let mut tail = Tail::new(room, rate);
     let mut heard = [Vec::new(), Vec::new()];
     while (heard[0].len() as f64) < seconds * rate {
         let mut sound = SILENT_RUN;
         sound[0] = f32::from(u8::from(heard[0].is_empty()));
-        let mut ears = [SILENT_RUN; 2];
-        let [left, right] = &mut ears;
+        let mut sides = [SILENT_RUN; 2];
+        let [left, right] = &mut sides;
         tail.render(&sound, [left, right]);
-        for (heard, ear) in heard.iter_mut().zip(ears) {
-            heard.extend(ear.map(f64::from));
+        for (heard, side) in heard.iter_mut().zip(sides) {
+            heard.extend(side.map(f64::from));
         }
     }
     heard
@@ -69,16 +69,16 @@ fn the_tail_is_as_long_and_as_loud_as_sabines_room_in_every_octave() {
         let unit: Vec<f64> = std::iter::once(1.0).chain(std::iter::repeat_n(0.0, 8_192)).collect();
         for (hz, time) in OCTAVE_HZ.into_iter().zip(room.times()) {
             let sabine = 16.0 * PI / (0.161 * room.volume() / time) * energy(&octave(&unit, hz, rate));
-            let ears = heard.each_ref().map(|ear| octave(ear, hz, rate));
-            let both = |measure: &dyn Fn(&[f64]) -> f64| 0.5 * (measure(&ears[0]) + measure(&ears[1]));
+            let sides = heard.each_ref().map(|side| octave(side, hz, rate));
+            let both = |measure: &dyn Fn(&[f64]) -> f64| 0.5 * (measure(&sides[0]) + measure(&sides[1]));
             let whole = 10.0 * (both(&energy) / sabine).log10();
             // From six mean free times on, as if all of it had come out at once.
             let late = 6.0 * room.mean_way() / SPEED_OF_SOUND;
             let expected = sabine * 10.0_f64.powf(-6.0 * late / time);
             let end = heard[0].len() as f64 / rate - 1e-3;
-            let late = both(&|ear| energy(between(ear, late..end, rate)));
+            let late = both(&|side| energy(between(side, late..end, rate)));
             let late = 10.0 * (late / expected).log10();
-            let measured = both(&|ear| time_of(ear, rate));
+            let measured = both(&|side| time_of(side, rate));
             println!(
                 "{rate} {hz:5} Hz: {measured:.3} s of {time:.3}, whole {whole:+.1} dB, late {late:+.1} dB"
             );
@@ -101,8 +101,8 @@ fn echo_density(sound: &[f64], at: f64) -> f64 {
 
 #[test]
 fn after_fifty_milliseconds_no_echo_is_told_from_the_next() {
-    for ear in impulse(&RoomSpec::STANDARD, RATE, 0.4) {
-        let density: Vec<f64> = (1..30).map(|k| echo_density(&ear, 0.01 * f64::from(k))).collect();
+    for side in impulse(&RoomSpec::STANDARD, RATE, 0.4) {
+        let density: Vec<f64> = (1..30).map(|k| echo_density(&side, 0.01 * f64::from(k))).collect();
         println!("{density:.2?}");
         let dense = density.iter().position(|&x| x > 0.9).unwrap();
         assert!(dense < 5 && density[dense..].iter().all(|&x| x > 0.8), "{density:?}");
@@ -159,8 +159,8 @@ fn the_tail_is_no_comb_but_as_dense_as_noise_in_every_third_octave() {
 
 #[test]
 fn no_rhythm_is_left_in_the_tail() {
-    for ear in impulse(&RoomSpec::STANDARD, RATE, 0.4) {
-        let window = between(&ear, 0.05..0.25, RATE);
+    for side in impulse(&RoomSpec::STANDARD, RATE, 0.4) {
+        let window = between(&side, 0.05..0.25, RATE);
         // As loud throughout as at its beginning.
         let window: Vec<f64> = window
             .iter()
@@ -225,10 +225,10 @@ fn the_tail_is_the_same_however_time_is_cut_and_ends_in_exact_silence() {
             let at = heard.len();
             let sound: Vec<f32> =
                 (at..at + samples).map(|i| if i < 500 { (i as f32).sin() } else { 0.0 }).collect();
-            let mut ears = [SILENT_RUN; 2];
-            let [left, right] = &mut ears;
+            let mut sides = [SILENT_RUN; 2];
+            let [left, right] = &mut sides;
             tail.render(&sound, [&mut left[..samples], &mut right[..samples]]);
-            heard.extend_from_slice(&ears[0][..samples]);
+            heard.extend_from_slice(&sides[0][..samples]);
         }
         heard.truncate(40_000);
         // Silent some time later, and then exactly.
