@@ -2,7 +2,7 @@
 //! and its tests build on. It needs no checkout of the sources.
 //!
 //! In reading order: [`commands`] says which commands there are and what they take. `render` ([`render`]) turns a MIDI file
-//! ([`song`]) into sound through a [`player`], which is either the engine itself or the built plugin in an embedded
+//! ([`song`], of [`message`]s) into sound through a [`player`], which is either the engine itself or the built plugin in an embedded
 //! [`host`], found in the [`plugin_folders`]; [`wav`] and [`output`] put it on disk. `hear` ([`hear`]) strikes one piece and
 //! measures it; `modes` ([`modes`]) lists what vibrates; [`kit`] and [`presets`] keep files of kits and presets; [`bench`](mod@bench)
 //! measures what all that costs. [`settings`] and [`stage`] read what a command moves, [`error`] says what was wrong.
@@ -14,6 +14,7 @@ pub mod error;
 pub mod hear;
 pub mod host;
 pub mod kit;
+pub mod message;
 pub mod modes;
 pub mod output;
 pub mod player;

@@ -1,49 +1,28 @@
 //! Players: the engine itself, or the built plugin in an embedded host.
 //!
-//! Both are given the same notes at the same samples and the same parameters from the start, and
+//! Both are given the same MIDI messages at the same samples and the same parameters from the start, and
 //! give the same samples, bit by bit.
+
+mod engine;
+mod role;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
-use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, ensure};
-use overhear::building::{BuildPlan, Pace};
 use overhear::kit_document::KitDocument;
 use overhear::parameters::{self, COUNT, host_id, parameters};
-use overhear::performer::{Performer, velocity_from_midi};
-use overhear_engine::piece::Piece;
-use overhear_engine::slot::Slot;
 
 use crate::bad_input;
 use crate::host::{self, Bundle, Instance, Processor};
-use crate::settings::Setting;
+
+pub use crate::message::Message;
+pub use engine::EnginePlayer;
+pub use role::{Player, Setup};
 
 /// Longest buffer that is played.
 pub const LONGEST_BLOCK: u32 = 8192;
-
-/// A note within a buffer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Hit {
-    /// Sample in the buffer (in a [`Take`]: in the whole).
-    pub sample: u64,
-    /// Channel, 0 to 15.
-    pub channel: u8,
-    /// MIDI note number.
-    pub key: u8,
-    /// Velocity, 1 to 127.
-    pub velocity: u8,
-}
-
-/// Something that turns notes into sound, buffer by buffer.
-pub trait Player {
-    /// Renders one buffer with the notes in it, ordered by sample.
-    ///
-    /// # Errors
-    /// If the plugin fails.
-    fn render(&mut self, hits: &[Hit], left: &mut [f32], right: &mut [f32]) -> Result<()>;
-}
 
 /// Source of the sound.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -52,17 +31,6 @@ pub enum Source {
     Engine,
     /// A CLAP bundle.
     Clap(PathBuf),
-}
-
-/// Its settings.
-#[derive(Debug, Clone)]
-pub struct Setup {
-    /// Sample rate, Hz.
-    pub rate: u32,
-    /// The kit and its notes.
-    pub kit: KitDocument,
-    /// Parameters moved before the start.
-    pub settings: Vec<Setting>,
 }
 
 impl Source {
@@ -105,81 +73,9 @@ fn set_up(instance: &mut Instance, setup: &Setup) -> Result<()> {
         let parameter = &parameters()[index];
         let id = host_id(parameter.id);
         ensure!(known.iter().any(|info| info.id == id), "has no parameter {}", parameters::name(index, kit));
-        Ok((id, f64::from(parameter.normalized(value))))
+        Ok((id, parameter.in_clap(value)))
     };
     instance.set_parameters(&values.into_iter().map(value).collect::<Result<Vec<_>>>()?)
-}
-
-/// The engine alone.
-pub struct EnginePlayer {
-    /// The performer that plays it.
-    pub performer: Performer,
-}
-
-impl EnginePlayer {
-    /// Builds the kit as a file is rendered.
-    ///
-    /// # Errors
-    /// [`BadInput`](crate::error::BadInput) if the kit cannot be built at the sample rate.
-    pub fn new(setup: &Setup) -> Result<EnginePlayer> {
-        EnginePlayer::at_pace(setup, Pace::Offline)
-    }
-
-    /// Builds the kit as it is played, or as a file is rendered.
-    ///
-    /// # Errors
-    /// [`BadInput`](crate::error::BadInput) if the kit cannot be built at the sample rate.
-    pub fn at_pace(setup: &Setup, pace: Pace) -> Result<EnginePlayer> {
-        let rate = f64::from(setup.rate);
-        let mut performer = Performer::new(rate, &setup.kit, Arc::default());
-        // Before the pieces, as the plugin does it: they start with these values.
-        for &(index, value) in &setup.settings {
-            performer.set_parameter(index, value);
-        }
-        let value = |index: usize| {
-            let usual = || parameters::default_value(index, &setup.kit.kit);
-            performer.parameter(index).unwrap_or_else(usual)
-        };
-        let plan = BuildPlan::of(Arc::new(setup.kit.clone()), value, pace);
-        for slot in Slot::ALL {
-            let Some(build) = plan.build(slot) else { continue };
-            let piece =
-                Piece::new(slot, &build, &plan.options(rate)).map_err(|error| bad_input!("{error}"))?;
-            performer.install(Box::new(piece));
-        }
-        performer.attach(plan.worker_plan().attach().context("the system starts no more threads")?);
-        Ok(EnginePlayer { performer })
-    }
-
-    /// Plays notes within a buffer; `render` is called for each part between them.
-    pub fn play(
-        &mut self,
-        hits: &[Hit],
-        frames: usize,
-        mut render: impl FnMut(&mut Performer, std::ops::Range<usize>),
-    ) {
-        let mut now = 0;
-        for hit in hits {
-            let at = hit.sample as usize;
-            if at > now {
-                render(&mut self.performer, now..at);
-                now = at;
-            }
-            self.performer.note_on(hit.key, velocity_from_midi(hit.velocity), hit.channel);
-        }
-        if now < frames {
-            render(&mut self.performer, now..frames);
-        }
-    }
-}
-
-impl Player for EnginePlayer {
-    fn render(&mut self, hits: &[Hit], left: &mut [f32], right: &mut [f32]) -> Result<()> {
-        self.play(hits, left.len(), |performer, part| {
-            performer.render(&mut left[part.clone()], &mut right[part]);
-        });
-        Ok(())
-    }
 }
 
 struct ClapPlayer<'a> {
@@ -188,15 +84,11 @@ struct ClapPlayer<'a> {
 }
 
 impl Player for ClapPlayer<'_> {
-    fn render(&mut self, hits: &[Hit], left: &mut [f32], right: &mut [f32]) -> Result<()> {
+    fn render(&mut self, messages: &[Message], left: &mut [f32], right: &mut [f32]) -> Result<()> {
         self.events.clear();
-        self.events.extend(hits.iter().map(|hit| host::Event {
-            offset: hit.sample as u32,
-            what: host::What::NoteOn {
-                channel: hit.channel,
-                key: hit.key,
-                velocity: velocity_from_midi(hit.velocity),
-            },
+        self.events.extend(messages.iter().map(|message| host::Event {
+            offset: message.sample as u32,
+            what: host::What::Midi(message.bytes),
         }));
         self.processor.process(&self.events, left, right)
     }
@@ -238,11 +130,11 @@ impl Blocks {
     }
 }
 
-/// Notes to play and for how long.
+/// Messages to play and for how long.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Take {
-    /// Notes by sample.
-    pub hits: Vec<Hit>,
+    /// Messages by sample.
+    pub messages: Vec<Message>,
     /// Length, samples.
     pub frames: u64,
 }
@@ -278,10 +170,11 @@ impl Take {
             if start == end {
                 break;
             }
-            let later = self.hits[next..].iter().position(|hit| hit.sample >= end);
-            let last = later.map_or(self.hits.len(), |count| next + count);
+            let later = self.messages[next..].iter().position(|message| message.sample >= end);
+            let last = later.map_or(self.messages.len(), |count| next + count);
             inside.clear();
-            inside.extend(self.hits[next..last].iter().map(|hit| Hit { sample: hit.sample - start, ..*hit }));
+            let within = |message: &Message| Message { sample: message.sample - start, ..*message };
+            inside.extend(self.messages[next..last].iter().map(within));
             let frames = (end - start) as usize;
             let (left, right) = (&mut left[..frames], &mut right[..frames]);
             let begun = Instant::now();
@@ -302,17 +195,17 @@ impl Take {
 mod tests {
     use super::*;
 
-    /// Writes the number of the sample, and 1000 more where a note is.
+    /// Writes the number of the sample, and 1000 more where a message is.
     struct Ruler(u64);
 
     impl Player for Ruler {
-        fn render(&mut self, hits: &[Hit], left: &mut [f32], right: &mut [f32]) -> Result<()> {
+        fn render(&mut self, messages: &[Message], left: &mut [f32], right: &mut [f32]) -> Result<()> {
             for sample in left.iter_mut() {
                 *sample = self.0 as f32;
                 self.0 += 1;
             }
-            for hit in hits {
-                left[hit.sample as usize] += 1000.0;
+            for message in messages {
+                left[message.sample as usize] += 1000.0;
             }
             right.copy_from_slice(left);
             Ok(())
@@ -320,8 +213,8 @@ mod tests {
     }
 
     fn ruled(blocks: Blocks) -> Vec<f32> {
-        let hit = |sample| Hit { sample, channel: 9, key: 36, velocity: 1 };
-        let take = Take { hits: [0, 16, 17, 17, 99].map(hit).to_vec(), frames: 100 };
+        let note = |sample| Message::note(sample, 9, 36, 1);
+        let take = Take { messages: [0, 16, 17, 17, 99].map(note).to_vec(), frames: 100 };
         let mut all = Vec::new();
         let played = take.play(&mut Ruler(0), blocks, |left, right| {
             assert_eq!(left, right);
@@ -333,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn every_cut_gives_every_note_its_sample() {
+    fn every_cut_gives_every_message_its_sample() {
         let whole = ruled(Blocks::Fixed(8192));
         assert_eq!(whole.len(), 100);
         assert_eq!((whole[15], whole[16], whole[17], whole[99]), (15.0, 1016.0, 2017.0, 1099.0));

@@ -14,7 +14,7 @@ use crate::bad_input;
 use crate::output::Folder;
 use crate::player::Source;
 
-pub use job::{Job, Report, decibels, takes};
+pub use job::{Job, Report, Taken, decibels, takes};
 pub use style::Style;
 
 /// A request to render.

@@ -1,4 +1,4 @@
-//! Standard MIDI Files as notes at exact times.
+//! Standard MIDI Files as channel messages at exact times.
 //!
 //! Formats 0, 1 and 2, tempo maps, running status and SMPTE time bases are read. Tempo events
 //! act on all tracks of a format 0 or 1 file, whichever track they are in; the patterns of a
@@ -6,7 +6,7 @@
 //!
 //! **Times.** A time is kept as an exact fraction of a second: whole ticks times whole
 //! microseconds over the time base. It becomes a sample only once, as the sample nearest to
-//! `time * rate`, halves up ([`Song::sample`]). Nothing accumulates, and every note lands on the
+//! `time * rate`, halves up ([`Song::sample`]). Nothing accumulates, and every message lands on the
 //! same sample whatever tempo changes, tracks or empty stretches come before it.
 
 mod chunks;
@@ -17,10 +17,20 @@ use anyhow::Result;
 use midly::{EventIter, MetaMessage, MidiMessage, Timing, TrackEventKind};
 
 use crate::bad_input;
+use crate::message::{self, Bytes, Meaning};
 use chunks::Chunks;
 
 /// Tempo until a file says otherwise, microseconds per quarter note.
 const DEFAULT_TEMPO: u32 = 500_000;
+
+/// A channel message of a song.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Event {
+    /// Time from the start of the file in units of [`Song::unit`].
+    pub time: u128,
+    /// The message.
+    pub bytes: Bytes,
+}
 
 /// A struck note.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,12 +45,12 @@ pub struct Note {
     pub velocity: u8,
 }
 
-/// The notes of a MIDI file in the order they are played.
+/// The channel messages of a MIDI file in the order they are played.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Song {
-    /// Notes by time; those at one time in the order of the tracks and of the file.
-    pub notes: Vec<Note>,
-    /// Units of [`Note::time`] per second.
+    /// Messages by time; those at one time in the order of the tracks and of the file.
+    pub events: Vec<Event>,
+    /// Units of [`Event::time`] per second.
     pub unit: u128,
 }
 
@@ -68,7 +78,7 @@ impl Song {
             .enumerate()
             .map(|(index, track)| read_track(index + 1, track))
             .collect::<Result<Vec<_>, _>>()?;
-        let mut song = Song { notes: Vec::new(), unit: base.unit };
+        let mut song = Song { events: Vec::new(), unit: base.unit };
         if sequential {
             let mut start = 0;
             for track in &tracks {
@@ -91,9 +101,7 @@ impl Song {
             tick = event.tick;
             match event.what {
                 What::Tempo(new) => tempo = new,
-                What::Note { channel, key, velocity } => {
-                    self.notes.push(Note { time, channel, key, velocity });
-                }
+                What::Message(bytes) => self.events.push(Event { time, bytes }),
                 What::End => {}
             }
         }
@@ -108,7 +116,17 @@ impl Song {
 
     /// Time of the last note, seconds; nothing in a file without notes.
     pub fn last_note(&self) -> Option<f64> {
-        self.notes.last().map(|note| note.time as f64 / self.unit as f64)
+        self.notes().last().map(|note| note.time as f64 / self.unit as f64)
+    }
+
+    /// The notes that are struck.
+    pub fn notes(&self) -> impl Iterator<Item = Note> {
+        self.events.iter().filter_map(|&Event { time, bytes }| match message::meaning(&bytes) {
+            Meaning::NoteOn { key, velocity } => {
+                Some(Note { time, channel: message::channel(&bytes), key, velocity })
+            }
+            _ => None,
+        })
     }
 }
 
@@ -151,7 +169,7 @@ struct TrackEvent {
 }
 
 enum What {
-    Note { channel: u8, key: u8, velocity: u8 },
+    Message(Bytes),
     Tempo(u32),
     End,
 }
@@ -165,10 +183,7 @@ fn read_track(number: usize, bytes: &[u8]) -> Result<Vec<TrackEvent>, String> {
         read += source.len();
         tick += u64::from(event.delta.as_int());
         let what = match event.kind {
-            // A note-on with velocity 0 ends a note.
-            TrackEventKind::Midi { channel, message: MidiMessage::NoteOn { key, vel } } if vel > 0 => {
-                What::Note { channel: channel.as_int(), key: key.as_int(), velocity: vel.as_int() }
-            }
+            TrackEventKind::Midi { channel, message } => What::Message(bytes_of(channel.as_int(), message)),
             TrackEventKind::Meta(MetaMessage::Tempo(tempo)) => What::Tempo(tempo.as_int()),
             TrackEventKind::Meta(MetaMessage::EndOfTrack) => {
                 events.push(TrackEvent { tick, what: What::End });
@@ -184,6 +199,23 @@ fn read_track(number: usize, bytes: &[u8]) -> Result<Vec<TrackEvent>, String> {
     }
     events.push(TrackEvent { tick, what: What::End });
     Ok(events)
+}
+
+/// The bytes of a message on a channel.
+fn bytes_of(channel: u8, message: MidiMessage) -> Bytes {
+    let (kind, first, second) = match message {
+        MidiMessage::NoteOff { key, vel } => (0x80, key.as_int(), vel.as_int()),
+        MidiMessage::NoteOn { key, vel } => (0x90, key.as_int(), vel.as_int()),
+        MidiMessage::Aftertouch { key, vel } => (0xA0, key.as_int(), vel.as_int()),
+        MidiMessage::Controller { controller, value } => (0xB0, controller.as_int(), value.as_int()),
+        MidiMessage::ProgramChange { program } => (0xC0, program.as_int(), 0),
+        MidiMessage::ChannelAftertouch { vel } => (0xD0, vel.as_int(), 0),
+        MidiMessage::PitchBend { bend } => {
+            let bend = bend.0.as_int();
+            (0xE0, (bend & 0x7F) as u8, (bend >> 7) as u8)
+        }
+    };
+    [kind | channel, first, second]
 }
 
 #[cfg(test)]

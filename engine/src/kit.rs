@@ -27,7 +27,7 @@ mod room;
 pub use arrangement::Arrangement;
 pub use control::{Control, Microphone};
 pub use gain::{LOUDEST_DB, SILENT_DB};
-pub use mixer::Stereo;
+pub use mixer::{Routing, Stereo};
 pub use render_job::{RenderJob, RenderWorkers};
 
 pub use crate::block::BLOCK;
@@ -229,6 +229,7 @@ impl Kit {
         into.dropped_strikes = self.dropped_strikes;
         into.missed_runs = self.missed_runs;
         into.clipped_samples = self.mixer.clipped();
+        into.limited_samples = self.mixer.limited();
         into.peak = self.mixer.take_peak();
         for (slot, (job, into)) in self.jobs.iter().zip(&mut into.pieces).enumerate() {
             into.peak = self.mixer.take_strip_peak(slot);

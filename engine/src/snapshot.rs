@@ -194,6 +194,8 @@ pub struct KitSnapshot {
     pub missed_runs: u32,
     /// Samples that the safety clip has bent.
     pub clipped_samples: u64,
+    /// Samples that the ceiling has bent since the start.
+    pub limited_samples: u64,
     /// Buffers that were ready too late. Filled in by the caller, as the engine has no clock.
     pub late_buffers: u64,
 }

@@ -21,7 +21,7 @@ mod table;
 pub use document::{about, document};
 pub use error::ParameterError;
 pub use in_kit::{default_value, find, from_text, is_live, name, parse_assignment, parse_value, range, text};
-pub use list::{COUNT, SLOT_COUNT, parameters, slot_index, slot_parameter};
+pub use list::{COUNT, SLOT_COUNT, host_id, parameters, slot_index, slot_parameter, stepped};
 pub use parameter::{Construction, Drives, Manner, Parameter, SlotParameter, Stand};
 pub use slot::number;
 
@@ -30,13 +30,6 @@ pub const BYPASS_ID: &str = "bypass";
 
 /// Group in which hosts list the bypass.
 pub const BYPASS_GROUP: &str = "Kit";
-
-/// Number by which hosts know a parameter's id: the hash of the framework.
-pub fn host_id(id: &str) -> u32 {
-    let hash = id.bytes().fold(0_u32, |hash, byte| hash.wrapping_mul(31).wrapping_add(u32::from(byte)));
-    // The highest bit belongs to the host in VST3.
-    hash & !(1 << 31)
-}
 
 #[cfg(test)]
 mod tests;

@@ -8,12 +8,13 @@
 //! a command line, hears the same samples.
 
 mod controls;
+mod sounding;
 
 use std::sync::Arc;
 
 use overhear_engine::error::SpecError;
 use overhear_engine::hi_hat::foot::SPEED;
-use overhear_engine::kit::{Arrangement, Control, Kit, Microphone, RenderWorkers, Stereo};
+use overhear_engine::kit::{Arrangement, Control, Kit, Microphone, RenderWorkers, Routing, Stereo};
 use overhear_engine::kit_spec::Kind;
 use overhear_engine::piece::Piece;
 use overhear_engine::slot::{SLOTS, Slot};
@@ -24,12 +25,14 @@ use crate::building::{BuildPlan, Pace};
 use crate::denormals::flushed;
 use crate::kit_document::KitDocument;
 use crate::midi::assignments::Assignments;
-use crate::midi::playing::{Grip, Playing};
+use crate::midi::playing::{Grip, NOTES_OFF_CONTROLLER, Playing, SOUND_OFF_CONTROLLER};
 use crate::midi_map::Foot;
 use crate::parameters::{
     COUNT, SLOT_COUNT, SlotParameter, default_value, is_live, slot_index, slot_parameter,
 };
 use crate::presets::Program;
+
+use sounding::{Silencing, tail};
 
 pub use crate::midi::playing::velocity_from_midi;
 
@@ -70,6 +73,10 @@ pub struct Performer {
     bends: [f64; SLOTS],
     /// Whether anything was played or rendered since the start or the latest reset.
     started: bool,
+    /// The fade of everything that sounds.
+    silencing: Silencing,
+    /// What outputs of their own are to the mix.
+    routing: Routing,
 }
 
 impl Performer {
@@ -88,6 +95,8 @@ impl Performer {
             own,
             bends: [0.0; SLOTS],
             started: false,
+            silencing: Silencing::new(sample_rate),
+            routing: Routing::default(),
         };
         for index in 0..COUNT {
             performer.set_parameter(index, default_value(index, &document.kit));
@@ -189,6 +198,7 @@ impl Performer {
         let Some(played) = self.playing.note_on(note, velocity, channel) else {
             return foot.is_some();
         };
+        self.finish_silence();
         self.start();
         // A bend belongs to the note that made it.
         self.bend_piece(played.slot, 0.0);
@@ -207,6 +217,7 @@ impl Performer {
     /// No allocation, no lock.
     pub fn strike(&mut self, slot: Slot, strike: &Strike) {
         let striker = self.playing.style.strikers[slot.index()].unwrap_or(strike.striker);
+        self.finish_silence();
         self.start();
         flushed(|| {
             self.kit.choke(slot, 0.0);
@@ -236,6 +247,7 @@ impl Performer {
     /// Moves a hi-hat's pedal for a note.
     fn step(&mut self, slot: Slot, foot: Foot, speed: f64) {
         if foot == Foot::Chick || foot == Foot::Splash {
+            self.finish_silence();
             self.start();
         }
         flushed(|| match foot {
@@ -271,6 +283,37 @@ impl Performer {
         self.grip(grip);
     }
 
+    /// Chokes every cymbal, whatever the rule, each until its next stroke.
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn choke_all(&mut self) {
+        for slot in Slot::ALL {
+            let grip = self.playing.grip(slot);
+            self.grip(grip);
+        }
+    }
+
+    /// Ends every note: chokes all cymbals if the rule says so.
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn notes_off(&mut self) {
+        if self.playing.chokes_at_note_off() {
+            self.choke_all();
+        }
+    }
+
+    /// A channel that is heard, 0 to 15: for whoever means any.
+    pub fn any_channel(&self) -> u8 {
+        self.playing.style.channel.unwrap_or(0)
+    }
+
+    /// Whether a channel, 0 to 15, is heard.
+    pub fn hears(&self, channel: u8) -> bool {
+        self.playing.hears(channel)
+    }
+
     /// Presses on the cymbal of a note, 0 to 1, if the rule says so.
     ///
     /// # Real-time
@@ -280,11 +323,15 @@ impl Performer {
         self.grip(grip);
     }
 
-    /// Moves a MIDI controller to a value, 0 to 1.
+    /// Moves a MIDI controller to a value, 0 to 1. All sound off and all notes off (120, 123) end whatever sounds.
     ///
     /// # Real-time
     /// No allocation, no lock.
     pub fn control_change(&mut self, controller: u8, value: f32, channel: u8) {
+        let silences = matches!(controller, SOUND_OFF_CONTROLLER | NOTES_OFF_CONTROLLER);
+        if silences && self.hears(channel) {
+            self.silence();
+        }
         self.playing.control_change(controller, value, channel);
         if let Some(pedal) = self.playing.pedal(controller, value, channel) {
             self.press_pedals(pedal);
@@ -296,6 +343,11 @@ impl Performer {
         for slot in self.hi_hats().into_iter().flatten() {
             flushed(|| self.kit.set(Control::Pedal(slot), pedal));
         }
+    }
+
+    /// Whether a program change on a channel loads a preset.
+    pub fn changes_program(&self, channel: u8) -> bool {
+        self.playing.changes_program(channel)
     }
 
     /// Loads the values and the assignments of a preset for a program change, unless the parameters or the channel say
@@ -332,26 +384,6 @@ impl Performer {
         self.values.get(index).copied()
     }
 
-    /// Renders both outputs, full scale 1, overwriting them. Any length, both the same; the cut
-    /// into calls does not change the samples.
-    ///
-    /// # Real-time
-    /// No allocation, no lock.
-    pub fn render(&mut self, left: &mut [f32], right: &mut [f32]) {
-        self.start();
-        flushed(|| self.kit.render(left, right));
-    }
-
-    /// [`render`](Self::render), and each slot's piece and the pairs of microphones to outputs of their own; see
-    /// [`Kit::render_outputs`].
-    ///
-    /// # Real-time
-    /// No allocation, no lock.
-    pub fn render_outputs(&mut self, main: Stereo<'_>, outputs: &mut [Stereo<'_>]) {
-        self.start();
-        flushed(|| self.kit.render_outputs(main, outputs));
-    }
-
     /// Whether every piece has been installed.
     pub fn is_complete(&self) -> bool {
         self.kit.is_complete()
@@ -362,6 +394,8 @@ impl Performer {
     /// # Real-time
     /// No allocation, no lock.
     pub fn reset(&mut self) {
+        // Whatever a fade was to end is put to rest below.
+        self.silencing.end();
         if self.playing.pedal_at().is_none() {
             // Where notes have left it is forgotten, where a foot is is not.
             for slot in self.hi_hats().into_iter().flatten() {
@@ -386,6 +420,62 @@ impl Performer {
             self.started = true;
             flushed(|| self.kit.finish_controls());
         }
+    }
+
+    /// Renders both outputs, full scale 1, overwriting them. Any length, both the same; the cut
+    /// into calls does not change the samples.
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn render(&mut self, left: &mut [f32], right: &mut [f32]) {
+        self.render_outputs([left, right], &mut []);
+    }
+
+    /// [`render`](Self::render), and each slot's piece and the pairs of microphones to outputs of their own; see
+    /// [`Kit::render_routed`].
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn render_outputs(&mut self, mut main: Stereo<'_>, outputs: &mut [Stereo<'_>]) {
+        self.start();
+        let faded = self.silencing.head(&mut main, outputs, |main, outputs| {
+            flushed(|| self.kit.render_routed(self.routing, main, outputs));
+        });
+        if faded > 0 && !self.silencing.is_running() {
+            self.end_all();
+        }
+        tail(faded, main, outputs, |main, outputs| {
+            flushed(|| self.kit.render_routed(self.routing, main, outputs));
+        });
+    }
+
+    /// Says what outputs of their own are to the mix, from the next sample on: copies at first.
+    pub fn route(&mut self, routing: Routing) {
+        self.routing = routing;
+    }
+
+    /// Fades all that sounds within ten milliseconds and puts every piece to rest; feet and parameters stay where they are.
+    fn silence(&mut self) {
+        if self.started {
+            self.silencing.begin();
+        }
+    }
+
+    /// Ends a fade at once, if one runs: what is struck now must not fade.
+    fn finish_silence(&mut self) {
+        if self.silencing.end() {
+            self.end_all();
+        }
+    }
+
+    /// Puts every piece to rest.
+    fn end_all(&mut self) {
+        Slot::ALL.into_iter().for_each(|slot| self.bend_piece(slot, 0.0));
+        self.playing.let_go();
+        flushed(|| {
+            Slot::ALL.into_iter().for_each(|slot| self.kit.choke(slot, 0.0));
+            self.kit.reset();
+        });
     }
 
     /// Writes a snapshot of the kit, and restarts the peaks.

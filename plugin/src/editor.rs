@@ -55,7 +55,7 @@ mod values;
 mod watch;
 mod window;
 
-use pace::Pace;
+use pace::{Pace, Pulse};
 use panels::{Hands, Inputs, Panels};
 use watch::Watch;
 use window::Farewell;
@@ -173,6 +173,7 @@ struct App {
     /// From the first frame on.
     watch: Option<Watch>,
     pace: Pace,
+    pulse: Pulse,
     /// What the thread that draws had taken when the latest frame began.
     taken: Option<Duration>,
     /// Set by a panic while it was drawn: blank from then on.
@@ -189,6 +190,7 @@ impl App {
             panels: Panels::new(Library::default(), view, document),
             watch: None,
             pace: Pace::default(),
+            pulse: Pulse::default(),
             taken: None,
             broken: false,
         }
@@ -264,7 +266,8 @@ impl App {
         self.sources.parameters.set_view(self.panels.view());
         let now = ui.input(|input| input.time);
         let sounds = snapshot.pieces.iter().any(|piece| piece.peak > AUDIBLE);
-        let moves = sounds || self.panels.moves_on(&snapshot, now);
+        let moves =
+            (sounds || self.panels.moves_on(&snapshot, now)) && self.pulse.goes_on(snapshot.clock, now);
         watch.drawn(seen, moves);
         // From frame to frame: what is painted after this function is in it.
         let taken = ThreadTime::now().as_duration();

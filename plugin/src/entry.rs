@@ -11,6 +11,9 @@
 //! never overlap.
 #![allow(unsafe_code)]
 
+/// How long it rings after the last note, s: a cymbal, a minute at most.
+const TAIL: f64 = 60.0;
+
 mod clap;
 mod scratch;
 mod vst3;

@@ -5,6 +5,7 @@
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 
 use crossbeam::atomic::AtomicCell;
@@ -13,6 +14,7 @@ use nice_plug::prelude::*;
 use overhear_engine::error::SpecError;
 
 use crate::guard::caught;
+use crate::outputs::Used;
 use crate::view::View;
 use overhear_player::deadline::Deadlines;
 use overhear_player::kit_document::KitDocument;
@@ -54,6 +56,12 @@ pub struct HostParameters {
     programs: Mutex<Option<Programs>>,
     /// No parameter, but what host, editor and audio thread share is here.
     deadlines: Arc<Deadlines>,
+    /// Whether processing goes on where it was stopped: no parameter either.
+    resumes: AtomicBool,
+    /// Which outputs the host uses in the present buffer: no parameter either.
+    used: AtomicU32,
+    /// Sample rate at which no kit can be built, Hz, as bits; 0 if there is a kit.
+    refused: AtomicU32,
 }
 
 impl Default for HostParameters {
@@ -69,6 +77,9 @@ impl Default for HostParameters {
             document,
             programs: Mutex::new(None),
             deadlines: Arc::default(),
+            resumes: AtomicBool::new(false),
+            used: AtomicU32::new(Used::ALL.0),
+            refused: AtomicU32::new(0),
         }
     }
 }
@@ -198,6 +209,42 @@ impl HostParameters {
     /// Whether buffers are ready in time.
     pub fn deadlines(&self) -> &Arc<Deadlines> {
         &self.deadlines
+    }
+
+    /// Does something in which the framework resets the instrument though what rings is to ring on.
+    pub fn resuming<T>(&self, act: impl FnOnce() -> T) -> T {
+        self.resumes.store(true, Ordering::Release);
+        let result = act();
+        self.resumes.store(false, Ordering::Release);
+        result
+    }
+
+    /// Says which outputs the host uses from now on.
+    ///
+    /// # Real-time
+    /// A store.
+    pub fn use_outputs(&self, used: Used) {
+        self.used.store(used.0, Ordering::Relaxed);
+    }
+
+    /// Which outputs the host uses; all where nobody has said.
+    pub fn used_outputs(&self) -> Used {
+        Used(self.used.load(Ordering::Relaxed))
+    }
+
+    /// Says at which sample rate (Hz) no kit can be built, if there is none.
+    pub fn refuse_rate(&self, rate: Option<f32>) {
+        self.refused.store(rate.map_or(0, f32::to_bits), Ordering::Relaxed);
+    }
+
+    /// The present sample rate, Hz, if no kit can be built at it.
+    pub fn refused_rate(&self) -> Option<f32> {
+        Some(f32::from_bits(self.refused.load(Ordering::Relaxed))).filter(|rate| *rate > 0.0)
+    }
+
+    /// Whether a reset is to change nothing.
+    pub fn resumes(&self) -> bool {
+        self.resumes.load(Ordering::Acquire)
     }
 
     /// Logical size of the editor's window.

@@ -158,8 +158,13 @@ impl Viewer {
 fn news(snapshot: &KitSnapshot) -> u64 {
     /// Steps of a pedal that are worth a picture: tenths of a millimetre.
     const PEDAL_STEPS: f32 = 1e4;
+    /// Samples after which what sounds is worth a picture by itself, as a power of two: a third of a second.
+    const BEAT: u32 = 14;
     let loud = snapshot.pieces.iter().any(|piece| piece.peak > AUDIBLE);
-    let whole = [u32::from(loud), u32::from(snapshot.clock > 0), snapshot.missed_runs];
+    let limited = snapshot.limited_samples as u32;
+    // A window rests while a host has stopped the audio in mid ring.
+    let beat = if loud { (snapshot.clock >> BEAT) as u32 } else { 0 };
+    let whole = [u32::from(loud), u32::from(snapshot.clock > 0), snapshot.missed_runs, limited, beat];
     let pieces = snapshot.pieces.iter().flat_map(|piece| {
         let pedal = (piece.rims.pedal * PEDAL_STEPS) as u32;
         [u32::from(piece.ready), piece.strike.count, piece.quarantines, pedal]

@@ -1,4 +1,7 @@
 //! The two kinds of instrument: one stereo output, or one more for each slot and each pair of microphones.
+//!
+//! All outputs that a host uses together are the mix: what has an output of its own is not at the main one, which has the
+//! rest. So a host that sums all outputs plays the mix once, and one that uses the main output alone plays it too.
 
 use std::num::NonZeroU32;
 
@@ -31,7 +34,7 @@ impl Outputs for Mix {
         AudioIOLayout { main_output_channels: NonZeroU32::new(2), ..AudioIOLayout::const_default() };
 }
 
-/// The mix and a stereo output for every slot and each pair of microphones.
+/// A stereo output for every slot and each pair of microphones, and the main one for what a host does not take there.
 pub struct Apart;
 
 impl Outputs for Apart {
@@ -70,21 +73,45 @@ const TITLES: [&str; OUTPUTS] = [
     "Room",
 ];
 
-/// The buffers of one slice: the mix, and those of the other outputs, empty where there is none.
+/// Which outputs beside the main one a host uses.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Used(pub u32);
+
+impl Used {
+    /// All of them.
+    pub const ALL: Used = Used(u32::MAX);
+
+    /// None of them.
+    pub const NONE: Used = Used(0);
+
+    /// With another one, by its place behind the main one.
+    #[must_use]
+    pub fn with(self, place: usize) -> Used {
+        Used(self.0 | (1 << place.min(31)))
+    }
+
+    /// Whether one is used, by its place behind the main one.
+    pub fn has(self, place: usize) -> bool {
+        self.0 & (1 << place.min(31)) != 0
+    }
+}
+
+/// The buffers of one slice: the main output, and those of the other outputs, empty where there is none.
 pub struct Buffers<'a> {
     main: Stereo<'a>,
     others: [Stereo<'a>; OUTPUTS],
 }
 
 impl<'a> Buffers<'a> {
-    /// The buffers that the framework hands over, full scale 1; `None` if the mix is not stereo.
+    /// The buffers that the framework hands over, full scale 1; `None` if the mix is not stereo. Outputs that the host does
+    /// not use, and that a guard has completed, are none.
     ///
     /// # Real-time
     /// No allocation.
-    pub fn new(main: &'a mut [&mut [f32]], apart: &'a mut [Buffer<'_>]) -> Option<Buffers<'a>> {
+    pub fn new(main: &'a mut [&mut [f32]], apart: &'a mut [Buffer<'_>], used: Used) -> Option<Buffers<'a>> {
         let mut others: [Stereo<'a>; OUTPUTS] = std::array::from_fn(|_| Stereo::default());
-        for (other, buffer) in others.iter_mut().zip(apart) {
-            if let [left, right] = buffer.as_slice() {
+        for (at, (other, buffer)) in others.iter_mut().zip(apart).enumerate() {
+            if let ([left, right], true) = (buffer.as_slice(), used.has(at)) {
                 *other = [left, right];
             }
         }

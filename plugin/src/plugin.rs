@@ -22,6 +22,7 @@ use crate::host_parameters::{self, HostParameters};
 use crate::monitor::{self, Publisher, Viewer};
 use crate::outputs::{Apart, Buffers, Mix, Outputs};
 use crate::state;
+use overhear_engine::kit::Routing;
 use overhear_player::builder::{Arrival, Builder, Delivery, Outcome};
 use overhear_player::building::{BuildPlan, Pace};
 use overhear_player::parameters::parameters;
@@ -117,9 +118,9 @@ impl<O: Outputs> Plugin for Instrument<O> {
     const AUDIO_IO_LAYOUTS: &'static [AudioIOLayout] = &[O::LAYOUT];
     const MIDI_INPUT: MidiConfig = MidiConfig::MidiCCs;
     const SAMPLE_ACCURATE_AUTOMATION: bool = true;
-    /// Beyond its capacity the framework allocates while it processes: room for a dense roll on
-    /// every piece and every parameter's automation in the longest of buffers.
-    const INPUT_EVENT_CAPACITY: usize = 8192;
+    /// Beyond its capacity the framework allocates while it processes: room for more than a flood of controllers in the
+    /// longest of buffers. What is not used takes no memory but addresses.
+    const INPUT_EVENT_CAPACITY: usize = 65_536;
 
     type Editor = OverhearEditor;
     type SysExMessage = ();
@@ -167,6 +168,9 @@ impl<O: Outputs> Plugin for Instrument<O> {
 
     fn reset(&mut self) {
         caught("Plugin::reset", (), || {
+            if self.parameters.resumes() {
+                return;
+            }
             self.waiting.clear();
             let bypassed = self.parameters.is_bypassed();
             if let Some(stage) = &mut self.stage {
@@ -183,7 +187,9 @@ impl<O: Outputs> Plugin for Instrument<O> {
         context: &mut impl ProcessContext<Self>,
     ) -> ProcessStatus {
         caught("Plugin::process", ProcessStatus::Error("Overhear broke"), || {
-            let Some(mut buffers) = Buffers::new(buffer.as_slice(), aux.outputs) else {
+            let Some(mut buffers) =
+                Buffers::new(buffer.as_slice(), aux.outputs, self.parameters.used_outputs())
+            else {
                 return ProcessStatus::Error("Overhear plays in stereo only");
             };
             let bypassed = self.parameters.is_bypassed();
@@ -232,7 +238,10 @@ impl<O: Outputs> Instrument<O> {
             self.follow();
             return;
         }
-        match self.builder.wait(BUILD_TIMEOUT) {
+        let outcome = self.builder.wait(BUILD_TIMEOUT);
+        let failed = matches!(outcome, Outcome::Failed(_));
+        self.parameters.refuse_rate(failed.then_some(sample_rate));
+        match outcome {
             Outcome::Finished => {}
             Outcome::Late => nice_warn!("The kit is not built yet: strokes are dropped until it is"),
             Outcome::Failed(reason) => {
@@ -242,7 +251,8 @@ impl<O: Outputs> Instrument<O> {
             }
         }
         if let Some(delivery) = ordered {
-            let performer = Performer::new(rate, &document, self.parameters.assignments());
+            let mut performer = Performer::new(rate, &document, self.parameters.assignments());
+            performer.route(Routing::Instead);
             let bypass = Bypass::new(sample_rate, self.parameters.is_bypassed());
             self.stage = Some(Stage { performer, delivery, sample_rate, bypass, broken: false });
             self.publisher.set_sample_rate(rate);

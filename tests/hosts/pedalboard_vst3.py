@@ -1,21 +1,16 @@
 """Renders one job through a VST3 bundle with pedalboard, which leaves all outputs but the main one inactive.
 
 The argument is a JSON file: plugin, name, preset (a .vstpreset to load first, or null), rate, block, frames,
-notes [[sample, key, velocity]], out. Left and then right samples are written to `out` as little-endian 32-bit floats.
+notes [[sample, key, velocity]], messages [[sample, [byte]]] (optional), out. Left and then right samples are written to `out` as little-endian 32-bit floats.
 """
 
 import json
-import re
 import sys
 
 import pedalboard
-from pedalboard import _pedalboard
 
 with open(sys.argv[1]) as file:
     job = json.load(file)
-
-# The format carries controllers as hidden parameters, each of which would be asked for all its values.
-_pedalboard.PARAMETER_NAME_REGEXES_TO_IGNORE.add(re.compile(r"MIDI Ch\. \d+ "))
 
 plugin = pedalboard.VST3Plugin(job["plugin"], plugin_name=job["name"])
 if job["preset"]:
@@ -24,6 +19,7 @@ if job["preset"]:
     plugin.raw_state = plugin.raw_state
 # Pedalboard takes seconds and cuts them to a sample: aim behind its start, not at it.
 notes = [([0x99, key, velocity], (sample + 0.25) / job["rate"]) for sample, key, velocity in job["notes"]]
+notes += [(bytes_, (sample + 0.25) / job["rate"]) for sample, bytes_ in job.get("messages", [])]
 sound = plugin(
     notes,
     duration=(job["frames"] + job["block"]) / job["rate"],

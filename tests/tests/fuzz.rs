@@ -194,7 +194,7 @@ fn ten_thousand_mutated_songs_are_read_or_refused() {
             mutate(&mut chance, &mut bytes);
         }
         match Song::parse(&bytes) {
-            Ok(song) => assert!(song.notes.iter().all(|note| note.key < 128 && note.velocity < 128)),
+            Ok(song) => assert!(song.notes().all(|note| note.key < 128 && note.velocity < 128)),
             Err(reason) => {
                 refused += 1;
                 assert!(!reason.is_empty());

@@ -22,6 +22,8 @@ mod multi;
 mod resources;
 #[path = "hosts/score.rs"]
 mod score;
+#[path = "hosts/songs.rs"]
+mod songs;
 #[path = "hosts/state.rs"]
 mod state;
 #[path = "hosts/vst3.rs"]
@@ -61,10 +63,10 @@ fn setting(text: &str) -> (usize, f32) {
     parse_assignment(text, &KitSpec::standard()).expect("a parameter and a value")
 }
 
-/// A parameter's value as hosts have it: by its number, and as a share of the range.
+/// A parameter's value as CLAP hosts have it: by its number, and as a share of the range or the number of a step.
 fn as_hosts_have_it((index, value): (usize, f32)) -> (u32, f64) {
     let parameter = &parameters()[index];
-    (host_id(parameter.id), f64::from(parameter.normalized(value)))
+    (host_id(parameter.id), parameter.in_clap(value))
 }
 
 /// One test at a time: each builds kits, and a plugin that waits too long for its kit starts

@@ -1,7 +1,7 @@
 //! The kit as a whole: its outputs, and its behaviour under overload.
 
 use overhear::kit_document::KitDocument;
-use overhear_cli::player::{EnginePlayer, Hit, Player, Setup};
+use overhear_cli::player::{EnginePlayer, Message, Player, Setup};
 use overhear_engine::kit::{Control, Kit, Microphone, OUTPUTS, Stereo};
 use overhear_engine::piece::Piece;
 use overhear_engine::slot::{SLOTS, Slot};
@@ -199,7 +199,7 @@ fn the_workers_that_a_parameter_hires_change_no_sample() {
         let setup = Setup { rate: 48_000, settings, kit };
         let mut player = EnginePlayer::new(&setup).expect("a rate");
         let (mut left, mut right) = (vec![0.0; 12_000], vec![0.0; 12_000]);
-        let hits = [36, 38, 49, 51].map(|key| Hit { sample: 100, channel: 9, key, velocity: 110 });
+        let hits = [36, 38, 49, 51].map(|key| Message::note(100, 9, key, 110));
         player.render(&hits, &mut left, &mut right).expect("an engine that plays");
         left.into_iter().chain(right).map(f32::to_bits).collect::<Vec<_>>()
     };

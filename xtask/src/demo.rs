@@ -21,7 +21,7 @@ use overhear_cli::output;
 use overhear_cli::player::{Blocks, EnginePlayer, Played, Source, Take};
 use overhear_cli::plugin_folders::user_folder;
 use overhear_cli::progress::Progress;
-use overhear_cli::render::{Style, decibels, takes};
+use overhear_cli::render::{Style, Taken, decibels, takes};
 use overhear_cli::song::Song;
 use overhear_cli::wav::{Bits, WavFile};
 use overhear_measure::picture;
@@ -49,12 +49,13 @@ pub fn run(folder: &Path) -> Result<()> {
     step(2, "playing assets/groove.mid through the CLAP plugin");
     let song = Song::read(&workspace::root().join("assets/groove.mid"))?;
     let style = style(Source::Clap(clap.clone()));
-    let (take, _) = takes(&song, &style)?;
-    let (played, left, right) = play(&take, &style, "groove")?;
+    let taken = takes(&song, &style)?;
+    let take = &taken.take;
+    let (played, left, right) = play(take, &style, "groove")?;
     ensure!(played.finite, "the plugin produced values that are not numbers");
     ensure!(played.peak > 0.0, "the plugin stayed silent");
     step(3, "playing it as a host plays it live, and striking every piece by itself");
-    let live = live_share(&take, &style)?;
+    let live = live_share(take, &style)?;
     let levels = levels::table(RATE)?;
     step(4, "writing demo.wav and drawing demo.png");
     let mut file = WavFile::create(&wav, Bits::Float32, RATE, 2, take.frames)?;
@@ -66,7 +67,7 @@ pub fn run(folder: &Path) -> Result<()> {
     // A machine that only renders needs no display; the groove does not depend on it.
     let looked = system::ensure(&[XVFB, WINDOW_LIBRARIES])
         .and_then(|()| shots::run(&shots::Aim::Glance(shots.clone()), Some(clap.clone())));
-    report(&take, [live, busy_share(&take, &played)], &played, &levels, [&wav, &png, &clap]);
+    report(&taken, [live, busy_share(take, &played)], &played, &levels, [&wav, &png, &clap]);
     match looked {
         Ok(()) => println!("editor   {}", shots.display()),
         Err(reason) => println!("editor   no pictures: {reason:#}"),
@@ -136,7 +137,7 @@ fn live_share(take: &Take, style: &Style) -> Result<f64> {
 
 /// Prints what came of it; the shares of real time are of playing live and of the file.
 fn report(
-    take: &Take,
+    taken: &Taken,
     [live, bounced]: [f64; 2],
     played: &Played,
     levels: &[Row],
@@ -147,7 +148,7 @@ fn report(
         println!("  {:<10}{}", piece, peaks.map(|peak| format!("{:8.1}", 20.0 * peak.log10())).concat());
     }
     println!("peak of the groove: {}", decibels(played.peak));
-    println!("\n{:.1} s of sound, {} notes", seconds(take), take.hits.len());
+    println!("\n{:.1} s of sound, {} notes", seconds(&taken.take), taken.notes);
     println!(
         "Playing live takes {:.0} % of one core; this file was bounced at the highest quality, which took {:.0} % of real \
          time.",

@@ -105,19 +105,19 @@ mod tests {
         let KitDocument { kit, notes } = KitDocument::standard();
         for (slot, piece) in kit.slots().filter(|(_, piece)| piece.name != "timpani") {
             let strikes = |key| notes.stroke(key).is_some_and(|stroke| stroke.slot == slot);
-            let strokes = song.notes.iter().filter(|note| strikes(note.key));
+            let strokes = song.notes().filter(|note| strikes(note.key));
             assert!(strokes.count() >= 2, "{}", piece.name);
         }
         let sounds = |key| notes.stroke(key).is_some() || notes.foot(key).is_some();
-        assert!(song.notes.iter().all(|note| sounds(note.key)));
+        assert!(song.notes().all(|note| sounds(note.key)));
     }
 
     #[test]
     fn it_has_ghost_notes_accents_and_human_timing() {
         let song = Song::parse(&file()).unwrap();
-        let snare = |note: &&overhear_cli::song::Note| note.key == 38;
-        let ghosts = song.notes.iter().filter(snare).filter(|note| note.velocity < 45).count();
-        let accents = song.notes.iter().filter(snare).filter(|note| note.velocity > 95).count();
+        let snare = |note: &overhear_cli::song::Note| note.key == 38;
+        let ghosts = song.notes().filter(snare).filter(|note| note.velocity < 45).count();
+        let accents = song.notes().filter(snare).filter(|note| note.velocity > 95).count();
         assert!(ghosts > 30 && accents > 30, "{ghosts} ghosts, {accents} accents");
         let Score { feet, hands } = Score::written();
         let off_grid = feet.iter().chain(&hands).filter(|hit| hit.tick % SIXTEENTH != 0).count();

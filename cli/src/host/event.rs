@@ -42,6 +42,8 @@ pub enum What {
         /// MIDI note number.
         key: u8,
     },
+    /// Every note on every channel is choked.
+    ChokeAll,
     /// A parameter moves.
     Parameter {
         /// Id of the parameter in the format.
@@ -77,6 +79,7 @@ impl Event {
             What::Choke { channel, key } => {
                 buffer.push(&NoteChokeEvent::new(offset, note(channel, key)));
             }
+            What::ChokeAll => buffer.push(&NoteChokeEvent::new(offset, Pckn::match_all())),
             What::Parameter { id, value } => {
                 if let Some(id) = ClapId::from_raw(id) {
                     buffer.push(&ParamValueEvent::new(offset, id, Pckn::match_all(), value));

@@ -257,6 +257,15 @@ impl Instance {
         Ok((size.width, size.height))
     }
 
+    /// Gives the open editor a size whether it takes it or not.
+    ///
+    /// # Errors
+    /// If it refuses.
+    pub fn force_editor_size(&mut self, width: u32, height: u32) -> Result<()> {
+        let gui: PluginGui = self.extension()?;
+        Ok(gui.set_size(&self.plugin.plugin_handle(), GuiSize { width, height })?)
+    }
+
     /// Closes the editor.
     ///
     /// # Errors

@@ -8,8 +8,9 @@ use anyhow::{Result, ensure};
 
 use super::stems::Stems;
 use super::style::Style;
+use crate::message::{Meaning, Message};
 use crate::output::Folder;
-use crate::player::{Hit, Played, Take};
+use crate::player::{Played, Take};
 use crate::progress::Progress;
 use crate::settings;
 use crate::song::Song;
@@ -33,33 +34,43 @@ pub struct Report {
     seconds: f64,
     played: Played,
     clipped: u64,
-    hits: usize,
+    notes: usize,
     silent: usize,
     stems: usize,
 }
 
-/// A song's notes at their samples, and how many of them strike nothing.
+/// What a song comes to.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Taken {
+    /// Its messages at their samples.
+    pub take: Take,
+    /// Its notes.
+    pub notes: usize,
+    /// How many of them strike nothing.
+    pub silent: usize,
+}
+
+/// A song's messages at their samples. It ends the style's tail after its last note.
 ///
 /// # Errors
 /// [`BadInput`](crate::error::BadInput) if the song is too long to be meant.
-pub fn takes(song: &Song, style: &Style) -> Result<(Take, usize)> {
-    let mut silent = 0;
-    let mut hits = Vec::new();
-    for note in &song.notes {
-        if style.channel.is_some_and(|channel| channel != note.channel + 1) {
+pub fn takes(song: &Song, style: &Style) -> Result<Taken> {
+    let (mut notes, mut silent, mut last) = (0, 0, 0);
+    let mut messages = Vec::new();
+    for event in &song.events {
+        let message = Message { sample: song.sample(event.time, style.rate), bytes: event.bytes };
+        if style.channel.is_some_and(|channel| channel != message.channel() + 1) {
             continue;
         }
-        silent += usize::from(settings::stroke(&style.settings, &style.kit.notes, note.key).is_none());
-        hits.push(Hit {
-            sample: song.sample(note.time, style.rate),
-            channel: note.channel,
-            key: note.key,
-            velocity: note.velocity,
-        });
+        if let Meaning::NoteOn { key, .. } = message.meaning() {
+            notes += 1;
+            silent += usize::from(settings::stroke(&style.settings, &style.kit.notes, key).is_none());
+            last = message.sample;
+        }
+        messages.push(message);
     }
     let tail = (style.tail * f64::from(style.rate)).round() as u64;
-    let last = hits.last().map_or(0, |hit| hit.sample);
-    Ok((Take { hits, frames: last.saturating_add(tail) }, silent))
+    Ok(Taken { take: Take { messages, frames: last.saturating_add(tail) }, notes, silent })
 }
 
 impl Job {
@@ -70,7 +81,7 @@ impl Job {
     /// behind then.
     pub fn run(&self, style: &Style, show: bool) -> Result<Report> {
         let song = Song::read(&self.song)?;
-        let (take, silent) = takes(&song, style)?;
+        let Taken { take, notes, silent } = takes(&song, style)?;
         let mut file = WavFile::create(&self.output, style.bits, style.rate, 2, take.frames)?;
         let _folder = self.stems.as_deref().map(Folder::new).transpose()?;
         let stems =
@@ -93,7 +104,7 @@ impl Job {
             seconds: take.frames as f64 / f64::from(style.rate),
             played,
             clipped,
-            hits: take.hits.len(),
+            notes,
             silent,
             stems,
         })
@@ -113,8 +124,8 @@ fn play(take: &Take, style: &Style, file: &mut WavFile, mut progress: Progress) 
 
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let Report { output, seconds, played, clipped, hits, silent, stems } = self;
-        write!(f, "{}: {seconds:.2} s, {hits} notes", output.display())?;
+        let Report { output, seconds, played, clipped, notes, silent, stems } = self;
+        write!(f, "{}: {seconds:.2} s, {notes} notes", output.display())?;
         if *silent > 0 {
             write!(f, " ({silent} of them play no piece of the kit)")?;
         }

@@ -13,7 +13,7 @@ use overhear_engine::slot::SLOTS;
 
 use super::style::Style;
 use crate::bad_input;
-use crate::player::{EnginePlayer, Hit, LONGEST_BLOCK, Player, Take};
+use crate::player::{EnginePlayer, LONGEST_BLOCK, Message, Player, Take};
 use crate::progress::Progress;
 use crate::wav::WavFile;
 
@@ -83,9 +83,9 @@ struct StemPlayer {
 }
 
 impl Player for StemPlayer {
-    fn render(&mut self, hits: &[Hit], left: &mut [f32], right: &mut [f32]) -> Result<()> {
+    fn render(&mut self, messages: &[Message], left: &mut [f32], right: &mut [f32]) -> Result<()> {
         let StemPlayer { engine, buffers, files, gain } = self;
-        engine.play(hits, left.len(), |performer, part| {
+        engine.play(messages, left.len(), |performer, part| {
             let mut outputs: Vec<Stereo<'_>> =
                 buffers.iter_mut().map(|pair| pair.each_mut().map(|side| &mut side[part.clone()])).collect();
             performer.render_outputs([&mut left[part.clone()], &mut right[part]], &mut outputs);

@@ -18,16 +18,37 @@ const END: [u8; 4] = [0, 0xFF, 0x2F, 0];
 
 fn samples(bytes: &[u8], rate: u32) -> Vec<(u64, u8)> {
     let song = Song::parse(bytes).unwrap();
-    song.notes.iter().map(|note| (song.sample(note.time, rate), note.key)).collect()
+    song.notes().map(|note| (song.sample(note.time, rate), note.key)).collect()
 }
 
 #[test]
 fn running_status_and_note_offs_by_velocity_are_understood() {
     let track = [&[0, 0x99, 36, 100, 48, 36, 0, 48, 38, 90][..], &END].concat();
     let song = Song::parse(&file(0, [0, 96], &[&track])).unwrap();
-    assert_eq!(song.notes.len(), 2);
-    assert_eq!((song.notes[0].channel, song.notes[0].velocity), (9, 100));
-    assert_eq!(song.sample(song.notes[1].time, 48_000), 24_000);
+    let notes: Vec<_> = song.notes().collect();
+    assert_eq!((notes.len(), song.events.len()), (2, 3));
+    assert_eq!((notes[0].channel, notes[0].velocity), (9, 100));
+    assert_eq!(song.sample(notes[1].time, 48_000), 24_000);
+}
+
+#[test]
+fn every_channel_message_is_kept_with_its_time() {
+    let messages = [
+        &[0, 0xB9, 4, 127][..],
+        &[1, 0xC9, 3],
+        &[1, 0xA9, 49, 64],
+        &[1, 0x89, 49, 2],
+        &[1, 0xD9, 5],
+        &[1, 0xE9, 1, 0x41],
+        &END,
+    ];
+    let song = Song::parse(&file(0, [0, 96], &[&messages.concat()])).unwrap();
+    let found: Vec<_> = song.events.iter().map(|event| event.bytes).collect();
+    let expected =
+        [[0xB9, 4, 127], [0xC9, 3, 0], [0xA9, 49, 64], [0x89, 49, 2], [0xD9, 5, 0], [0xE9, 1, 0x41]];
+    assert_eq!(found, expected);
+    let step = song.events[1].time;
+    assert!(song.events.iter().zip(0..).all(|(event, at)| event.time == at * step) && step > 0);
 }
 
 #[test]
@@ -55,7 +76,7 @@ fn smpte_frames_last_what_they_last() {
 
 #[test]
 fn times_round_once_to_the_nearest_sample_halves_up() {
-    let song = Song { notes: Vec::new(), unit: 4 };
+    let song = Song { events: Vec::new(), unit: 4 };
     let at = |time| song.sample(time, 2);
     assert_eq!([at(0), at(1), at(2), at(3), at(4), at(5)], [0, 1, 1, 2, 2, 3]);
 }

@@ -3,8 +3,11 @@
 //! ```text
 //! close of a piece --> level of the piece --> strip --> pan ----+--> output of the piece
 //! overheads, room: all pieces, each at its level --> strip --> balance --> output of the pair
-//!                                                               +--> master --> clip --> left, right
+//!                                                               +--> master --> clip --> ceiling --> left, right
 //! ```
+//!
+//! By [`Routing::Instead`] a strip with an output of its own leaves the mix, and goes through a master and a ceiling of the
+//! same kind on its way there.
 
 use super::control::Microphone;
 use super::gain::{Gain, GainRun, Pan, gain};
@@ -26,6 +29,20 @@ const KNEE: f32 = fitted::CLIP_KNEE as f32;
 /// Two outputs of one length: left, right; full scale is 1.
 pub type Stereo<'a> = [&'a mut [f32]; 2];
 
+/// What outputs of their own are to the mix.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Routing {
+    /// Copies, before the master: the mix has everything.
+    #[default]
+    Copies,
+    /// Instead of it, after the master: what has an output is not in the mix, and all outputs together are the whole.
+    Instead,
+}
+
+/// Full scale above which the ceiling bends, +6 dBFS, and the ceiling, +12 dBFS. *By ear*: no music comes near, and what
+/// does would hurt.
+const CEILING: (f32, f32) = (2.0, 4.0);
+
 /// One strip.
 struct Strip {
     level: f32,
@@ -46,6 +63,7 @@ pub(super) struct Mixer {
     master: Gain,
     clips: bool,
     clipped: u64,
+    limited: u64,
     peak: [f32; 2],
 }
 
@@ -76,6 +94,7 @@ impl Mixer {
             master: Gain::new(sample_rate),
             clips: false,
             clipped: 0,
+            limited: 0,
             peak: [0.0; 2],
         };
         for (slot, piece) in kit.slots() {
@@ -156,14 +175,14 @@ impl Mixer {
         self.levels.each_mut().map(|level| level.run(samples))
     }
 
-    /// Adds a strip's sound (Pa, already at the pieces' levels) to the mix, and writes it to its own output.
-    pub(super) fn add(
-        &mut self,
-        at: usize,
-        sound: [&[f32]; 2],
-        mix: &mut Stereo<'_>,
-        own: Option<Stereo<'_>>,
-    ) {
+    /// The master's gain over a run.
+    pub(super) fn master(&mut self, samples: usize) -> GainRun {
+        self.master.run(samples)
+    }
+
+    /// Sends a strip's sound (Pa, already at the pieces' levels) to the mix and to its own output.
+    pub(super) fn add(&mut self, at: usize, sound: [&[f32]; 2], bus: &mut Bus<'_>, own: Option<Stereo<'_>>) {
+        let Bus { mix, master, routing } = bus;
         let strip = &mut self.strips[at];
         let samples = mix[0].len();
         let gains = strip.gain.run(samples);
@@ -178,10 +197,19 @@ impl Mixer {
                 *share = pan * (sound * (gain / FULL_SCALE));
             }
             strip.peak = share.iter().fold(strip.peak, |peak, x| peak.max(x.abs()));
-            mix[side].iter_mut().zip(&*share).for_each(|(sum, share)| *sum += share);
-            if let Some(own) = own.as_mut().and_then(|own| own[side].as_mut()) {
-                own.copy_from_slice(share);
+            let own = own.as_mut().and_then(|own| own[side].as_mut());
+            match (own, *routing) {
+                (Some(own), Routing::Instead) => {
+                    for ((own, share), gain) in own.iter_mut().zip(&*share).zip(&*master) {
+                        *own = share * gain;
+                        self.limited = self.limited.saturating_add(u64::from(limit(own)));
+                    }
+                    continue;
+                }
+                (Some(own), Routing::Copies) => own.copy_from_slice(share),
+                (None, _) => {}
             }
+            mix[side].iter_mut().zip(&*share).for_each(|(sum, share)| *sum += share);
         }
     }
 
@@ -193,15 +221,15 @@ impl Mixer {
     }
 
     /// Brings the mix to its level.
-    pub(super) fn finish(&mut self, mix: &mut Stereo<'_>) {
-        let gains = self.master.run(mix[0].len());
-        for (side, peak) in mix.iter_mut().zip(&mut self.peak) {
-            for (sample, gain) in side.iter_mut().zip(&gains) {
+    pub(super) fn finish(&mut self, bus: &mut Bus<'_>) {
+        for (side, peak) in bus.mix.iter_mut().zip(&mut self.peak) {
+            for (sample, gain) in side.iter_mut().zip(&bus.master) {
                 *sample *= gain;
                 if self.clips && sample.abs() > KNEE {
                     *sample = clip(*sample);
                     self.clipped = self.clipped.saturating_add(1);
                 }
+                self.limited = self.limited.saturating_add(u64::from(limit(sample)));
                 *peak = peak.max(sample.abs());
             }
         }
@@ -210,6 +238,11 @@ impl Mixer {
     /// Samples that the clip has bent since the start.
     pub(super) fn clipped(&self) -> u64 {
         self.clipped
+    }
+
+    /// Samples that the ceiling has bent since the start.
+    pub(super) fn limited(&self) -> u64 {
+        self.limited
     }
 
     /// Largest samples of the outputs since the last call, and of a strip.
@@ -229,6 +262,28 @@ impl Mixer {
     }
 }
 
+/// Where the strips of one run go.
+pub(super) struct Bus<'a> {
+    /// The mix.
+    pub(super) mix: Stereo<'a>,
+    /// The master's gain.
+    pub(super) master: GainRun,
+    /// What outputs of their own are to the mix.
+    pub(super) routing: Routing,
+}
+
+/// Keeps a sample under the ceiling, and says whether it had to be bent: smooth, and no bit changes below.
+fn limit(sample: &mut f32) -> bool {
+    let (knee, top) = CEILING;
+    let magnitude = sample.abs();
+    let bends = magnitude > knee;
+    if bends {
+        let beyond = (magnitude - knee) / (top - knee);
+        *sample = sample.signum() * (top - (top - knee) / (1.0 + beyond));
+    }
+    bends
+}
+
 /// Bends what is beyond the knee toward full scale: smooth there, never past it.
 fn clip(x: f32) -> f32 {
     let beyond = (x.abs() - KNEE) / (1.0 - KNEE);
@@ -238,6 +293,21 @@ fn clip(x: f32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_ceiling_changes_no_bit_below_6_dbfs_and_lets_nothing_beyond_12() {
+        let mut before = 0.0;
+        for i in 0..100_000 {
+            let loud = 1e-3 * i as f32;
+            let (mut high, mut low) = (loud, -loud);
+            assert_eq!((limit(&mut high), limit(&mut low)), (loud > CEILING.0, loud > CEILING.0));
+            assert!(high == -low && high >= before && high <= CEILING.1, "{loud} becomes {high}");
+            assert!(loud > CEILING.0 || high.to_bits() == loud.to_bits());
+            before = high;
+        }
+        let mut endless = f32::INFINITY;
+        assert!(limit(&mut endless) && endless == CEILING.1);
+    }
 
     #[test]
     fn the_clip_is_smooth_monotone_and_never_passes_full_scale() {

@@ -5,7 +5,7 @@ use crate::kit_spec::Kind;
 use crate::slot::SLOTS;
 
 use super::Kit;
-use super::mixer::{PAIRS, Stereo};
+use super::mixer::{Bus, PAIRS, Routing, Stereo};
 
 /// Blocks between two checks for silence of the room.
 const SETTLE_BLOCKS: u64 = 128;
@@ -30,6 +30,14 @@ impl Kit {
     /// # Real-time
     /// No allocation, no lock.
     pub fn render_outputs(&mut self, main: Stereo<'_>, outputs: &mut [Stereo<'_>]) {
+        self.render_routed(Routing::Copies, main, outputs);
+    }
+
+    /// [`render_outputs`](Self::render_outputs), by a routing: what has an output of its own may leave `main` for it.
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn render_routed(&mut self, routing: Routing, main: Stereo<'_>, outputs: &mut [Stereo<'_>]) {
         let [left, right] = main;
         let frames = left.len().min(right.len());
         let longest = self.min_delay();
@@ -40,16 +48,17 @@ impl Kit {
             if phase == 0 && self.clock.is_multiple_of(SETTLE_BLOCKS * BLOCK as u64) {
                 self.air.settle();
             }
-            self.render_run([&mut left[run.clone()], &mut right[run.clone()]], outputs, run.start);
+            let mix = [&mut left[run.clone()], &mut right[run.clone()]];
+            self.render_run(routing, mix, outputs, run.start);
             self.clock += run.len() as u64;
             done = run.end;
         }
     }
 
     /// Renders within one block; outputs are written from sample `at` on.
-    fn render_run(&mut self, mut main: Stereo<'_>, outputs: &mut [Stereo<'_>], at: usize) {
-        let samples = main[0].len();
-        main.iter_mut().for_each(|side| side.fill(0.0));
+    fn render_run(&mut self, routing: Routing, mut mix: Stereo<'_>, outputs: &mut [Stereo<'_>], at: usize) {
+        let samples = mix[0].len();
+        mix.iter_mut().for_each(|side| side.fill(0.0));
         let still = self.is_asleep() && self.mixer.rests() && self.coupling.rests();
         self.render_jobs(samples);
         // Asleep before and asleep after: nothing but silence has been sent.
@@ -62,6 +71,7 @@ impl Kit {
         let Kit { jobs, air, mixer, clock, missed_runs, .. } = self;
         // Levels move even where nothing plays yet: the time at which a piece is ready must not matter.
         let levels = mixer.levels(samples);
+        let mut bus = Bus { mix, master: mixer.master(samples), routing };
         let mut outputs = outputs
             .iter_mut()
             .map(|output| output.each_mut().map(|side| side.get_mut(at..at + samples).unwrap_or_default()));
@@ -89,7 +99,7 @@ impl Kit {
             let sound = &mut sound[..samples];
             air.close(slot, *clock, sound);
             sound.iter_mut().zip(&levels[slot]).for_each(|(sound, level)| *sound *= level);
-            mixer.add(slot, [sound, sound], &mut main, outputs.next());
+            mixer.add(slot, [sound, sound], &mut bus, outputs.next());
         }
         for pair in 0..PAIRS {
             let mut heard = air.pair(pair, *clock, samples, &levels, mixer);
@@ -97,9 +107,9 @@ impl Kit {
                 air.tail(&sent[..samples], &mut heard);
             }
             let [left, right] = heard.each_ref().map(|side| &side[..samples]);
-            mixer.add(SLOTS + pair, [left, right], &mut main, outputs.next());
+            mixer.add(SLOTS + pair, [left, right], &mut bus, outputs.next());
         }
-        mixer.finish(&mut main);
+        mixer.finish(&mut bus);
     }
 
     /// Passes every piece the sound of the others and renders it.

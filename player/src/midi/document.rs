@@ -3,7 +3,9 @@
 use std::fmt::Write as _;
 
 use super::maps::NoteMap;
-use super::playing::{FINE_VELOCITY_CONTROLLER, PEDAL_CONTROLLER};
+use super::playing::{
+    FINE_VELOCITY_CONTROLLER, NOTES_OFF_CONTROLLER, PEDAL_CONTROLLER, SOUND_OFF_CONTROLLER,
+};
 use crate::kit_document::KitDocument;
 use crate::midi_map::{Meaning, POSITION_CONTROLLERS, Row};
 use crate::presets::FACTORY;
@@ -90,10 +92,15 @@ fn controllers(document: &KitDocument) -> String {
         text,
         "| CC {FINE_VELOCITY_CONTROLLER} | lower seven bits of the next note's velocity on its channel |"
     );
+    let _ = writeln!(
+        text,
+        "| CC {SOUND_OFF_CONTROLLER}, CC {NOTES_OFF_CONTROLLER} | all sound off, all notes off: everything that sounds \
+         ends within ten milliseconds, cymbals included; pedals stay where they are |"
+    );
     text.push_str(
         "| poly pressure | chokes the cymbal of that note, in proportion to the pressure, if `chokes` allows it |\n\
          | note off | chokes the cymbal until its next stroke, if `chokes` allows it |\n\
-         | choke (CLAP) | chokes the cymbal until its next stroke, always |\n\
+         | choke (CLAP) | chokes the cymbal until its next stroke, always; a choke of any note chokes every cymbal |\n\
          | brightness of a note | position of its stroke, as with the controllers above, when it comes with the note |\n\
          | tuning of a note | bends the struck piece by so many semitones, within the piece's range and until its \
          next stroke |\n\n\

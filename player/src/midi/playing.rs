@@ -35,6 +35,16 @@ const FOOT: (f64, f64) = (0.15, 2.0);
 /// Controller that carries the lower seven bits of the next note's velocity (MMA CA-031).
 pub const FINE_VELOCITY_CONTROLLER: u8 = 88;
 
+/// Silences everything at once.
+pub const SOUND_OFF_CONTROLLER: u8 = 120;
+
+/// Ends all notes; what was struck has no other end, so it does the same.
+pub const NOTES_OFF_CONTROLLER: u8 = 123;
+
+/// Every controller that acts.
+pub const CONTROLLERS: [u8; 8] =
+    [PEDAL_CONTROLLER, 16, 17, 18, 19, FINE_VELOCITY_CONTROLLER, SOUND_OFF_CONTROLLER, NOTES_OFF_CONTROLLER];
+
 /// A MIDI velocity, 0 to 127, as a share of full velocity.
 pub fn velocity_from_midi(velocity: u8) -> f32 {
     f32::from(velocity) / 127.0
@@ -288,8 +298,26 @@ impl Playing {
     /// # Real-time
     /// Table look-ups; no allocation, no lock.
     pub fn note_off(&mut self, note: u8, channel: u8) -> Option<Grip> {
-        let chokes = matches!(self.style.chokes, ChokeRule::NoteOff | ChokeRule::Both);
-        if chokes { self.choke(note, channel) } else { None }
+        if self.chokes_at_note_off() { self.choke(note, channel) } else { None }
+    }
+
+    /// Whether the end of a note chokes its cymbal.
+    pub fn chokes_at_note_off(&self) -> bool {
+        matches!(self.style.chokes, ChokeRule::NoteOff | ChokeRule::Both)
+    }
+
+    /// A hand on the cymbal of a slot until its next stroke, if one stands there.
+    pub fn grip(&mut self, slot: Slot) -> Option<Grip> {
+        if self.kind(slot)? == Kind::Drum {
+            return None;
+        }
+        self.state.gripped[slot.index()] = true;
+        Some(Grip { slot, strength: 1.0 })
+    }
+
+    /// No hand is on a cymbal any more.
+    pub fn let_go(&mut self) {
+        self.state.gripped = [false; SLOTS];
     }
 
     /// What a host's own choke of a note comes to, whatever the rule: until the next stroke.
@@ -298,8 +326,7 @@ impl Playing {
     /// Table look-ups; no allocation, no lock.
     pub fn choke(&mut self, note: u8, channel: u8) -> Option<Grip> {
         let slot = self.cymbal(note, channel)?;
-        self.state.gripped[slot.index()] = true;
-        Some(Grip { slot, strength: 1.0 })
+        self.grip(slot)
     }
 
     /// What pressure on a note (0 to 1) comes to: a hand that holds for as long as it presses.
@@ -365,7 +392,8 @@ impl Playing {
         self.document.notes.stroke(self.reference(note)?)
     }
 
-    fn hears(&self, channel: u8) -> bool {
+    /// Whether a channel, 0 to 15, is heard.
+    pub fn hears(&self, channel: u8) -> bool {
         self.style.channel.is_none_or(|only| only == channel)
     }
 

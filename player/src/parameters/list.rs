@@ -1,5 +1,6 @@
 //! All parameters, in the order that hosts see.
 
+use std::collections::HashMap;
 use std::sync::LazyLock;
 
 use overhear_engine::kit_spec::KitSpec;
@@ -38,4 +39,23 @@ pub const fn slot_index(slot: Slot, what: SlotParameter) -> usize {
 pub fn slot_parameter(index: usize) -> Option<(Slot, SlotParameter)> {
     let slot = Slot::new(index / SlotParameter::ALL.len())?;
     Some((slot, SlotParameter::ALL[index % SlotParameter::ALL.len()]))
+}
+
+/// Number by which hosts know a parameter's id: the hash of the framework.
+pub fn host_id(id: &str) -> u32 {
+    let hash = id.bytes().fold(0_u32, |hash, byte| hash.wrapping_mul(31).wrapping_add(u32::from(byte)));
+    // The highest bit belongs to the host in VST3.
+    hash & !(1 << 31)
+}
+
+/// [Steps](Parameter::steps) of the parameter that hosts know by a number.
+///
+/// # Real-time
+/// A look-up, once it has been called anywhere before.
+pub fn stepped(id: u32) -> Option<u32> {
+    static STEPS: LazyLock<HashMap<u32, u32>> = LazyLock::new(|| {
+        let steps = |parameter: &Parameter| Some((host_id(parameter.id), parameter.steps()?));
+        parameters().iter().filter_map(steps).collect()
+    });
+    STEPS.get(&id).copied()
 }

@@ -201,6 +201,19 @@ impl Parameter {
         self.choices.get(index as usize).copied()
     }
 
+    /// Steps from the smallest value to the largest, of a switch, a list or a small number: hosts step through these and
+    /// glide through all others. Each step is as wide as the others on a knob's travel.
+    pub fn steps(&self) -> Option<u32> {
+        let counts = matches!(self.drives, Drives::Building(Construction::Workers));
+        (counts || !self.choices.is_empty()).then_some((self.max - self.min) as u32)
+    }
+
+    /// What CLAP hosts have for a plain value: the number of its step from 0, or its share of the range.
+    pub fn in_clap(&self, value: f32) -> f64 {
+        let share = f64::from(self.normalized(value));
+        self.steps().map_or(share, |steps| (share * f64::from(steps)).round())
+    }
+
     /// Whether hosts may move it while it sounds: all but those that ask for pieces to be built.
     pub fn is_automatable(&self) -> bool {
         !matches!(self.drives, Drives::Building(_))

@@ -291,3 +291,71 @@ fn a_foot_stays_on_the_pedal_when_the_kit_changes() {
     heard(&mut performer, 48_000);
     assert_eq!(pedal(&mut performer), down);
 }
+
+#[test]
+fn all_sound_off_and_all_notes_off_end_everything_within_ten_milliseconds() {
+    let struck = |controller: Option<u8>, sizes: &[usize]| {
+        let mut performer = ready(&KitDocument::standard());
+        for note in [36, 38, 49, 51, 55, 46] {
+            performer.note_on(note, 0.8, 9);
+        }
+        let mut sound = heard(&mut performer, 4_800);
+        if let Some(controller) = controller {
+            performer.control_change(controller, 0.0, 9);
+        }
+        sound.clear();
+        sizes.iter().for_each(|&samples| {
+            let (mut left, mut right) = (vec![0.0; samples], vec![0.0; samples]);
+            performer.render(&mut left, &mut right);
+            sound.extend(left);
+        });
+        sound
+    };
+    let ringing = struck(None, &[4_800]);
+    for controller in [120, 123] {
+        let ended = struck(Some(controller), &[4_800]);
+        assert!(ended[..400] != ringing[..400] && ended[100] != 0.0, "it fades");
+        assert!(ended[480..].iter().all(|&sample| sample == 0.0), "something rings on");
+        let steepest =
+            |sound: &[f32]| sound.windows(2).fold(0.0_f32, |most, two| most.max((two[1] - two[0]).abs()));
+        assert!(steepest(&ended) <= 1.01 * steepest(&ringing), "it clicks");
+        assert!(struck(Some(controller), &[7, 400, 1, 71, 2, 4_319]) == ended);
+    }
+    assert!(struck(Some(7), &[4_800]) == ringing);
+}
+
+#[test]
+fn a_stroke_after_all_sound_off_sounds_whole_and_alone() {
+    let mut alone = ready(&KitDocument::standard());
+    heard(&mut alone, 64);
+    alone.reset();
+    alone.note_on(38, 0.8, 9);
+    let expected = heard(&mut alone, 4_800);
+    let mut performer = ready(&KitDocument::standard());
+    performer.note_on(49, 0.8, 9);
+    heard(&mut performer, 4_800);
+    performer.control_change(120, 0.0, 9);
+    heard(&mut performer, 100);
+    performer.note_on(38, 0.8, 9);
+    assert!(heard(&mut performer, 4_800) == expected);
+}
+
+#[test]
+fn a_foot_stays_on_the_pedal_through_all_notes_off() {
+    let pedal = |performer: &mut Performer| {
+        let mut snapshot = KitSnapshot::default();
+        performer.snapshot(&mut snapshot);
+        snapshot.pieces[standard_slot("hi-hat").index()].rims.pedal
+    };
+    let mut performer = ready(&KitDocument::standard());
+    performer.control_change(4, 0.9, 9);
+    heard(&mut performer, 48_000);
+    let down = pedal(&mut performer);
+    performer.control_change(123, 0.0, 9);
+    heard(&mut performer, 48_000);
+    assert!(
+        (pedal(&mut performer) - down).abs() < 0.02 * down.abs(),
+        "{} from {down}",
+        pedal(&mut performer)
+    );
+}

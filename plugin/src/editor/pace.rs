@@ -74,9 +74,38 @@ impl Pace {
     }
 }
 
+/// Whether the audio goes on: a host that stops it in mid ring leaves a picture in which nothing moves any more.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Pulse {
+    clock: u64,
+    /// When it was seen to go on, s of the editor's time.
+    seen: f64,
+}
+
+impl Pulse {
+    /// How long it may stand still, s: longer than the longest buffers and than frames are apart.
+    const PATIENCE: f64 = 0.5;
+
+    /// Takes in the engine's clock at the time `now`, s, and says whether it goes on.
+    pub fn goes_on(&mut self, clock: u64, now: f64) -> bool {
+        if self.clock != clock {
+            *self = Pulse { clock, seen: now };
+        }
+        now - self.seen < Pulse::PATIENCE
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn audio_that_stops_is_noticed_within_half_a_second_and_so_is_its_return() {
+        let mut pulse = Pulse::default();
+        assert!(pulse.goes_on(100, 10.0) && pulse.goes_on(100, 10.4));
+        assert!(!pulse.goes_on(100, 10.6) && !pulse.goes_on(100, 60.0));
+        assert!(pulse.goes_on(101, 60.1));
+    }
 
     #[test]
     fn frames_that_hands_cause_add_none_of_their_own() {

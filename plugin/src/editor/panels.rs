@@ -17,7 +17,7 @@ use super::physics::Physics;
 use super::playing::PlayingPanel;
 use super::presets::PresetBar;
 use super::stage::{self, Stage};
-use super::status::{self, Late, Latest};
+use super::status::{self, Latest, News};
 use super::values::Values;
 use super::{knobs, list, physics, settings, theme};
 use crate::host_parameters::HostParameters;
@@ -110,7 +110,8 @@ pub struct Panels {
     former: KitSnapshot,
     /// The stroke that the sentence is about.
     latest: Latest,
-    late: Late,
+    late: News,
+    limited: News,
 }
 
 impl Panels {
@@ -135,7 +136,8 @@ impl Panels {
             picture: Rect::ZERO,
             former: KitSnapshot::default(),
             latest: Latest::default(),
-            late: Late::default(),
+            late: News::default(),
+            limited: News::default(),
         }
     }
 
@@ -154,7 +156,7 @@ impl Panels {
     /// Takes what was played before the window opened as old news.
     pub fn forget(&mut self, snapshot: &KitSnapshot) {
         self.former = *snapshot;
-        self.late = Late::default();
+        (self.late, self.limited) = (News::default(), News::default());
         self.kit.forget_strokes(snapshot);
     }
 
@@ -318,8 +320,11 @@ impl Panels {
         let palette = theme::of(ui);
         let now = ui.input(|input| input.time);
         self.late.follow(inputs.snapshot.late_buffers, now);
+        self.limited.follow(inputs.snapshot.limited_samples, now);
         let kit = &self.document.kit;
-        let trouble = status::trouble(inputs.snapshot, kit, &self.late, now, palette);
+        let refused = inputs.parameters.refused_rate().map(|rate| status::refused(rate, palette));
+        let trouble = refused
+            .or_else(|| status::trouble(inputs.snapshot, kit, [&self.late, &self.limited], now, palette));
         let (text, colour) = trouble.unwrap_or_else(|| {
             let cents = self.latest.slot().map_or(0.0, |slot| self.physics.cents(slot));
             (self.latest.sentence(inputs.snapshot, kit, cents), palette.text)

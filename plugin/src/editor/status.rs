@@ -13,11 +13,12 @@ const ANSWERING: u32 = 8;
 /// Glide that is worth a word, cents: about what is heard.
 const AUDIBLE_CENTS: f32 = 3.0;
 
-/// What is the matter with the kit as a whole, if anything is; and in what colour to say it.
+/// What is the matter with the kit as a whole, if anything is; and in what colour to say it. News are those of late buffers
+/// and of the ceiling.
 pub fn trouble(
     snapshot: &KitSnapshot,
     kit: &KitSpec,
-    late: &Late,
+    [late, limited]: [&News; 2],
     now: f64,
     palette: &Palette,
 ) -> Option<(String, Color32)> {
@@ -30,6 +31,8 @@ pub fn trouble(
         ("Waiting for the host to start processing".to_owned(), palette.faint)
     } else if ready < pieces {
         (format!("Building the kit: {ready} of {pieces} pieces"), palette.accent)
+    } else if limited.is_news(now) {
+        ("Too loud: held below 12 dB above full scale to protect your ears".to_owned(), palette.over)
     } else if late.is_news(now) {
         let dropouts = match snapshot.late_buffers {
             1 => "1 buffer".to_owned(),
@@ -46,17 +49,22 @@ pub fn trouble(
     Some(found)
 }
 
-/// Buffers that were late, and when there were more of them: what is long ago is not worth a sentence.
+/// That there is no kit at a sample rate, Hz; and in what colour to say it.
+pub fn refused(rate: f32, palette: &Palette) -> (String, Color32) {
+    (format!("Silent: no kit can be built at {rate} Hz. Accepted: 22050 to 768000 Hz"), palette.over)
+}
+
+/// How often something went wrong, and when there was more of it: what is long ago is not worth a sentence.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Late {
+pub struct News {
     count: Option<u64>,
     /// When the latest was noticed, s of the editor's time.
     seen: Option<f64>,
 }
 
-impl Late {
+impl News {
     /// How long it is said, s.
-    const NEWS: f64 = 4.0;
+    const LASTING: f64 = 4.0;
 
     /// Takes in how many there were so far, at the time `now`, s.
     pub fn follow(&mut self, count: u64, now: f64) {
@@ -67,7 +75,7 @@ impl Late {
     }
 
     fn is_news(&self, now: f64) -> bool {
-        self.seen.is_some_and(|seen| now - seen < Late::NEWS)
+        self.seen.is_some_and(|seen| now - seen < News::LASTING)
     }
 }
 
@@ -185,13 +193,20 @@ mod tests {
     }
 
     #[test]
+    fn a_rate_without_a_kit_is_named() {
+        let (text, _) = refused(8_000.0, &crate::editor::theme::DARK);
+        assert_eq!(text, "Silent: no kit can be built at 8000 Hz. Accepted: 22050 to 768000 Hz");
+    }
+
+    #[test]
     fn trouble_counts_the_pieces_of_the_kit_at_hand_and_dropouts_while_they_are_new() {
         let kit = KitSpec::standard();
         let one = kit.alone(Slot::ALL[1]).unwrap();
         let mut snapshot = KitSnapshot { clock: 1, ..KitSnapshot::default() };
-        let mut late = Late::default();
-        let said = |snapshot: &KitSnapshot, kit: &KitSpec, late: &Late| {
-            trouble(snapshot, kit, late, 1.0, &crate::editor::theme::DARK).map(|(text, _)| text)
+        let mut late = News::default();
+        let said = |snapshot: &KitSnapshot, kit: &KitSpec, late: &News| {
+            trouble(snapshot, kit, [late, &News::default()], 1.0, &crate::editor::theme::DARK)
+                .map(|(text, _)| text)
         };
         snapshot.pieces[0].ready = true;
         assert_eq!(said(&snapshot, &kit, &late).unwrap(), "Building the kit: 1 of 9 pieces");
@@ -201,5 +216,11 @@ mod tests {
         snapshot.late_buffers = 1;
         let text = said(&snapshot, &one, &late).unwrap();
         assert!(text.starts_with("Audio dropouts: 1 buffer took too long"), "{text}");
+        let mut limited = News::default();
+        limited.follow(0, 0.0);
+        limited.follow(7, 0.5);
+        let said = |now: f64| trouble(&snapshot, &one, [&late, &limited], now, &crate::editor::theme::DARK);
+        assert!(said(1.0).is_some_and(|(text, _)| text.starts_with("Too loud")));
+        assert_eq!(said(9.0), None);
     }
 }

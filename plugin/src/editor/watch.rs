@@ -92,7 +92,8 @@ fn seen(viewer: &Viewer, parameters: &HostParameters) -> u64 {
     // The window keeps the document that it shows: no other can be at the same address.
     let document = Arc::as_ptr(&parameters.document()).addr() as u64;
     let assigned = parameters.assignments().fingerprint();
-    let rest = [viewer.news(), document, assigned, parameters.deadlines().late()];
+    let refused = parameters.refused_rate().map_or(0, |rate| u64::from(rate.to_bits()));
+    let rest = [viewer.news(), document, assigned, parameters.deadlines().late(), refused];
     rest.into_iter().fold(places, |mixed, number| mixed.rotate_left(17).wrapping_mul(31) ^ number)
 }
 

@@ -6,6 +6,7 @@
 //! and closing waits for that.
 
 use std::cell::Cell;
+use std::fmt;
 use std::sync::mpsc::{self, Receiver, Sender};
 use std::thread::{self, ThreadId};
 use std::time::Duration;
@@ -18,6 +19,14 @@ use crate::guard::caught;
 
 /// Longest wait for the thread of a closed window. *By ear*, of patience: a host that closes a window should not hang.
 const LONGEST_FAREWELL: Duration = Duration::from_secs(2);
+
+/// Longest side of a window, pixels: what graphics drivers draw at least, and twice what the widest screens have.
+const MOST_PIXELS: u32 = 16_384;
+
+/// Whether a window can have a size.
+fn is_sane(size: NativeSize<u32>) -> bool {
+    size.width.max(size.height) <= MOST_PIXELS
+}
 
 /// Holds on to the graphics driver for as long as the process lasts. baseview opens it for every window and lets it go
 /// after, and whenever Mesa is loaded anew it writes down its functions' names once more, some kilobytes that stay.
@@ -89,28 +98,57 @@ pub fn closing_whole(spawned: SpawnedEditor<EguiEditorHandle>, ended: Receiver<(
     SpawnedEditor { handle: Handle(spawned.handle), window: Window { shown: Some(spawned.window), ended } }
 }
 
+/// Why a window does not do what a host asks.
+#[derive(Debug)]
+pub enum WindowError {
+    /// The window's library says so.
+    Library(baseview::Error),
+    /// Nothing would be legible at this size, or no screen could show it: pixels.
+    Size(NativeSize<u32>),
+}
+
+impl fmt::Display for WindowError {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            WindowError::Library(error) => error.fmt(f),
+            WindowError::Size(size) => write!(f, "no window is {} by {} pixels", size.width, size.height),
+        }
+    }
+}
+
+impl std::error::Error for WindowError {}
+
 impl EditorHandle for Handle {
     type Window = Window;
-    type Error = baseview::Error;
+    type Error = WindowError;
 
-    fn run_until_closed(mut window: Window) -> Result<(), baseview::Error> {
-        window.shown.take().map_or(Ok(()), EguiEditorHandle::run_until_closed)
+    fn run_until_closed(mut window: Window) -> Result<(), WindowError> {
+        let shown = window.shown.take();
+        shown.map_or(Ok(()), EguiEditorHandle::run_until_closed).map_err(WindowError::Library)
     }
 
-    fn set_parent(&self, parent: ParentWindowHandle, window: &Window) -> Result<(), baseview::Error> {
-        caught("EditorHandle::set_parent", Ok(()), || self.0.set_parent(parent, window.shown()))
+    fn set_parent(&self, parent: ParentWindowHandle, window: &Window) -> Result<(), WindowError> {
+        caught("EditorHandle::set_parent", Ok(()), || {
+            self.0.set_parent(parent, window.shown()).map_err(WindowError::Library)
+        })
     }
 
-    fn show(&self, window: &Window) -> Result<(), baseview::Error> {
-        caught("EditorHandle::show", Ok(()), || self.0.show(window.shown()))
+    fn show(&self, window: &Window) -> Result<(), WindowError> {
+        caught("EditorHandle::show", Ok(()), || self.0.show(window.shown()).map_err(WindowError::Library))
     }
 
-    fn hide(&self, window: &Window) -> Result<(), baseview::Error> {
-        caught("EditorHandle::hide", Ok(()), || self.0.hide(window.shown()))
+    fn hide(&self, window: &Window) -> Result<(), WindowError> {
+        caught("EditorHandle::hide", Ok(()), || self.0.hide(window.shown()).map_err(WindowError::Library))
     }
 
-    fn set_size(&self, size: NativeSize<u32>, window: &Window) -> Result<(), baseview::Error> {
-        caught("EditorHandle::set_size", Ok(()), || self.0.set_size(size, window.shown()))
+    fn set_size(&self, size: NativeSize<u32>, window: &Window) -> Result<(), WindowError> {
+        caught("EditorHandle::set_size", Ok(()), || {
+            let fitting = self.0.adjust_size(size, window.shown());
+            if fitting.is_some_and(|fitting| fitting != size) || !is_sane(size) {
+                return Err(WindowError::Size(size));
+            }
+            self.0.set_size(size, window.shown()).map_err(WindowError::Library)
+        })
     }
 
     fn host_main_thread_callback(&self, window: &Window) {
@@ -120,12 +158,13 @@ impl EditorHandle for Handle {
     }
 
     fn adjust_size(&self, size: NativeSize<u32>, window: &Window) -> Option<NativeSize<u32>> {
-        caught("EditorHandle::adjust_size", None, || self.0.adjust_size(size, window.shown()))
+        let sane = NativeSize { width: size.width.min(MOST_PIXELS), height: size.height.min(MOST_PIXELS) };
+        caught("EditorHandle::adjust_size", None, || self.0.adjust_size(sane, window.shown()))
     }
 
-    fn set_fallback_scale_factor(&self, factor: f64, window: &Window) -> Result<(), baseview::Error> {
+    fn set_fallback_scale_factor(&self, factor: f64, window: &Window) -> Result<(), WindowError> {
         caught("EditorHandle::set_fallback_scale_factor", Ok(()), || {
-            self.0.set_fallback_scale_factor(factor, window.shown())
+            self.0.set_fallback_scale_factor(factor, window.shown()).map_err(WindowError::Library)
         })
     }
 

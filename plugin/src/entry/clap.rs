@@ -1,13 +1,14 @@
 //! The CLAP entry: both instruments, each behind a guard.
 //!
-//! A guard is a copy of the framework's plugin table with four functions of its own: it times, names notes, completes
-//! outputs and writes program changes out. `plugin_data` stays the
+//! A guard is a copy of the framework's plugin table with some functions of its own: it times, names notes, completes
+//! outputs, and writes anew what the framework could not take. `plugin_data` stays the
 //! framework's, so that all it gets called with means to it what it did; the guard itself is found through the
 //! table's address, whose first field it is.
 
 use std::cell::UnsafeCell;
 use std::ffi::{CStr, c_char, c_void};
 use std::ptr;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, OnceLock};
 
 use clap_sys::audio_buffer::clap_audio_buffer;
@@ -15,23 +16,30 @@ use clap_sys::entry::clap_plugin_entry;
 use clap_sys::ext::gui::CLAP_EXT_GUI;
 use clap_sys::ext::note_name::{CLAP_EXT_NOTE_NAME, clap_note_name, clap_plugin_note_name};
 use clap_sys::ext::params::{CLAP_EXT_PARAMS, clap_plugin_params};
+use clap_sys::ext::tail::{CLAP_EXT_TAIL, clap_plugin_tail};
 use clap_sys::factory::plugin_factory::{CLAP_PLUGIN_FACTORY_ID, clap_plugin_factory};
 use clap_sys::host::clap_host;
-use clap_sys::id::clap_id;
 use clap_sys::plugin::{clap_plugin, clap_plugin_descriptor};
-use clap_sys::process::{CLAP_PROCESS_ERROR, clap_process, clap_process_status};
+use clap_sys::process::{CLAP_PROCESS_CONTINUE, CLAP_PROCESS_ERROR, clap_process, clap_process_status};
 use clap_sys::version::CLAP_VERSION;
 use nice_plug::prelude::*;
 use nice_plug::wrapper::clap::{PluginDescriptor, Wrapper};
 use nice_plug::wrapper::setup_logger;
 
-use self::programs::ProgramChanges;
+use self::guard::{Guard, Outputs, guard};
+use self::input::Input;
+use self::steps::Telling;
+use super::TAIL;
 use super::scratch::{CHANNELS, Scratch};
 use crate::guard::caught;
-use crate::host_parameters::{self, HostParameters};
+use crate::host_parameters;
+use crate::outputs::Used;
 use crate::plugin::{Overhear, OverhearMulti};
 
-mod programs;
+mod guard;
+mod input;
+mod steps;
+mod table;
 
 /// What hosts look up by name.
 #[allow(non_upper_case_globals, missing_docs)]
@@ -52,6 +60,15 @@ static FACTORY: clap_plugin_factory = clap_plugin_factory {
 
 static NOTE_NAMES: clap_plugin_note_name =
     clap_plugin_note_name { count: Some(note_count), get: Some(note_name) };
+
+static TAIL_TOLD: clap_plugin_tail = clap_plugin_tail { get: Some(tail) };
+
+/// How long it rings after the last note, samples.
+unsafe extern "C" fn tail(plugin: *const clap_plugin) -> u32 {
+    // SAFETY: see `guard`.
+    let rate = unsafe { guard(plugin) }.sample_rate.load(Ordering::Relaxed);
+    (TAIL * f64::from_bits(rate)) as u32
+}
 
 unsafe extern "C" fn init(_path: *const c_char) -> bool {
     caught("init", false, || {
@@ -115,32 +132,6 @@ unsafe extern "C" fn create(
     })
 }
 
-/// The framework's table with the guard's functions, and what they need.
-#[repr(C)]
-struct Guard {
-    /// What the host holds: first, so that its address is the guard's.
-    table: clap_plugin,
-    /// The framework's own table.
-    framework: clap_plugin,
-    /// Lives as long as the plugin.
-    host: *const clap_host,
-    parameters: Option<Arc<HostParameters>>,
-    /// The framework's table of parameters, but for their values.
-    values: OnceLock<clap_plugin_params>,
-    /// Touched by `activate` and `process` only, which never overlap; the rest is read by any thread.
-    outputs: UnsafeCell<Outputs>,
-}
-
-/// Scratch and the ports made of it for one call, and the events of one.
-struct Outputs {
-    programs: ProgramChanges,
-    scratch: Scratch,
-    /// `[port]`, filled in for a call that needs completing.
-    ports: Vec<clap_audio_buffer>,
-    /// Whether the plugin has been activated.
-    active: bool,
-}
-
 /// # Safety
 /// `host` is as the format says.
 unsafe fn guarded<P: ClapPlugin>(host: *const clap_host) -> *const clap_plugin {
@@ -153,23 +144,18 @@ unsafe fn guarded<P: ClapPlugin>(host: *const clap_host) -> *const clap_plugin {
     let table = clap_plugin {
         destroy: Some(destroy),
         activate: Some(activate),
+        start_processing: Some(start_processing),
         process: Some(timed_process),
         get_extension: Some(get_extension),
         ..framework
     };
-    let (programs, scratch) = (ProgramChanges::new(), Scratch::new(ports));
-    let outputs = Outputs { programs, scratch, ports: Vec::with_capacity(ports), active: false };
+    let (input, scratch) = (Input::new(), Scratch::new(ports));
+    let outputs = Outputs { input, scratch, ports: Vec::with_capacity(ports), active: false, fresh: true };
     let parameters = host_parameters::take_latest();
     let (values, outputs) = (OnceLock::new(), UnsafeCell::new(outputs));
-    let guard = Guard { table, framework, host, parameters, values, outputs };
+    let sample_rate = AtomicU64::new(0);
+    let guard = Guard { table, framework, host, parameters, sample_rate, values, outputs };
     Box::into_raw(Box::new(guard)).cast()
-}
-
-/// # Safety
-/// The host passes what [`guarded`] returned and has not destroyed it.
-unsafe fn guard<'a>(plugin: *const clap_plugin) -> &'a Guard {
-    // SAFETY: the table is the guard's first field.
-    unsafe { &*plugin.cast() }
 }
 
 unsafe extern "C" fn destroy(plugin: *const clap_plugin) {
@@ -186,10 +172,27 @@ unsafe extern "C" fn activate(plugin: *const clap_plugin, rate: f64, least: u32,
     // SAFETY: `activate` never overlaps with `process`, so that nobody else holds the outputs.
     caught("activate", false, || unsafe {
         let guard = guard(plugin);
+        guard.sample_rate.store(rate.to_bits(), Ordering::Relaxed);
         let outputs = &mut *guard.outputs.get();
         outputs.scratch.prepare(most as usize);
+        outputs.fresh = true;
         outputs.active = guard.framework.activate.is_some_and(|activate| activate(plugin, rate, least, most));
         outputs.active
+    })
+}
+
+/// Starts processing. What rings when a host stops rings on when it starts again: the format has a call of its own for a
+/// reset. Only after an activation it starts from silence.
+unsafe extern "C" fn start_processing(plugin: *const clap_plugin) -> bool {
+    // SAFETY: as for `process`, with which it does not overlap.
+    caught("start_processing", false, || unsafe {
+        let guard = guard(plugin);
+        let Some(start) = guard.framework.start_processing else { return false };
+        let fresh = std::mem::take(&mut (*guard.outputs.get()).fresh);
+        match guard.parameters.as_ref().filter(|_| !fresh) {
+            Some(parameters) => parameters.resuming(|| start(plugin)),
+            None => start(plugin),
+        }
     })
 }
 
@@ -218,21 +221,32 @@ unsafe extern "C" fn process(plugin: *const clap_plugin, call: *const clap_proce
         let guard = guard(plugin);
         let Some(framework) = guard.framework.process else { return CLAP_PROCESS_ERROR };
         let Some(&(mut given)) = call.as_ref() else { return CLAP_PROCESS_ERROR };
-        let Outputs { programs, scratch, ports, active } = &mut *guard.outputs.get();
+        let Outputs { input, scratch, ports, active, .. } = &mut *guard.outputs.get();
         // The framework panics when it processes before it was activated, where that cannot be caught.
         if !*active {
             return CLAP_PROCESS_ERROR;
         }
         let events = given.in_events.as_ref().zip(guard.parameters.as_deref());
-        let written = events.and_then(|(events, parameters)| programs.written_out(events, parameters));
+        let frames = given.frames_count;
+        let written = events.and_then(|(events, parameters)| input.written_out(events, parameters, frames));
         if let Some(events) = &written {
             given.in_events = events;
         }
+        let output = given.out_events;
+        let telling = Telling::of(output);
+        let own = telling.as_ref().map(Telling::list);
+        if let Some(own) = &own {
+            given.out_events = own;
+        }
+        if let Some(parameters) = &guard.parameters {
+            parameters.use_outputs(used(&given, scratch.ports()));
+        }
         let status = complete(plugin, &given, framework, scratch, ports);
         if written.is_some() {
-            programs.tell(given.out_events, given.frames_count);
+            input.finish(output, frames);
         }
-        status
+        // A host may put a quiet instrument to sleep, but not one whose notes wait for a sample.
+        if status != CLAP_PROCESS_ERROR && input.is_waiting() { CLAP_PROCESS_CONTINUE } else { status }
     }
 }
 
@@ -289,14 +303,33 @@ unsafe fn port_of(call: &clap_process, port: usize) -> Option<&clap_audio_buffer
 /// # Safety
 /// `call` and all it points to are valid.
 unsafe fn is_complete(call: &clap_process, ports: usize) -> bool {
+    // SAFETY: as promised.
+    (0..ports).all(|port| unsafe { is_given(call, port) })
+}
+
+/// Whether the host gives a port with its two channels.
+///
+/// # Safety
+/// `call` and all it points to are valid.
+unsafe fn is_given(call: &clap_process, port: usize) -> bool {
     // SAFETY: as promised; tables hold as many pointers as the port has channels.
-    (0..ports).all(|port| unsafe {
+    unsafe {
         port_of(call, port).is_some_and(|port| {
             port.channel_count as usize == CHANNELS
                 && !port.data32.is_null()
                 && (0..CHANNELS).all(|channel| !(*port.data32.add(channel)).is_null())
         })
-    })
+    }
+}
+
+/// The outputs beside the main one that the host gives whole.
+///
+/// # Safety
+/// `call` and all it points to are valid.
+unsafe fn used(call: &clap_process, ports: usize) -> Used {
+    // SAFETY: as promised.
+    let given = (1..ports).filter(|&port| unsafe { is_given(call, port) });
+    given.fold(Used::NONE, |used, port| used.with(port - 1))
 }
 
 unsafe extern "C" fn get_extension(plugin: *const clap_plugin, id: *const c_char) -> *const c_void {
@@ -310,13 +343,15 @@ unsafe extern "C" fn get_extension(plugin: *const clap_plugin, id: *const c_char
         if !id.is_null() && CStr::from_ptr(id) == CLAP_EXT_GUI && !has_windows(guard.host) {
             return ptr::null();
         }
+        if !id.is_null() && CStr::from_ptr(id) == CLAP_EXT_TAIL {
+            return ptr::from_ref(&TAIL_TOLD).cast();
+        }
         let found = guard.framework.get_extension.map_or(ptr::null(), |get| get(plugin, id));
         if found.is_null() || id.is_null() || CStr::from_ptr(id) != CLAP_EXT_PARAMS {
             return found;
         }
         let framework = &*found.cast::<clap_plugin_params>();
-        let own = || clap_plugin_params { get_value: Some(value), ..*framework };
-        ptr::from_ref(guard.values.get_or_init(own)).cast()
+        ptr::from_ref(guard.values.get_or_init(|| table::table(framework))).cast()
     })
 }
 
@@ -330,27 +365,6 @@ unsafe fn has_windows(host: *const clap_host) -> bool {
         let ask = host.as_ref().and_then(|host| host.get_extension);
         ask.is_some_and(|ask| !ask(host, CLAP_EXT_GUI.as_ptr()).is_null())
     }
-}
-
-/// A parameter's value without modulation, which the framework would add and hosts do not expect.
-unsafe extern "C" fn value(plugin: *const clap_plugin, id: clap_id, into: *mut f64) -> bool {
-    // SAFETY: see `guard`; `into` is null or valid, and tables are what `get_extension` has made them.
-    caught("get_value", false, || unsafe {
-        let guard = guard(plugin);
-        let base = guard.parameters.as_ref().and_then(|parameters| parameters.unmodulated(id));
-        match (base, into.as_mut()) {
-            (Some(base), Some(into)) => {
-                *into = f64::from(base);
-                true
-            }
-            _ => {
-                let framework = guard.framework.get_extension;
-                let table = framework.map_or(ptr::null(), |get| get(plugin, CLAP_EXT_PARAMS.as_ptr()));
-                let table = table.cast::<clap_plugin_params>().as_ref();
-                table.and_then(|table| table.get_value).is_some_and(|value| value(plugin, id, into))
-            }
-        }
-    })
 }
 
 /// Notes with names, as the parameters and the user have them now.

@@ -1,13 +1,14 @@
 //! The VST3 entry: both instruments, each behind a guard.
 //!
 //! A guard is an object with all interfaces of the framework's, which it owns and passes calls on to. Its own are: it
-//! prepares scratch when processing is set up, completes the outputs of `process`, and tells units and the names of
-//! notes.
+//! prepares scratch when processing is set up, completes what a host brings to `process`, and tells units, the names of
+//! notes, what MIDI controllers there are, and which parameters have steps.
 #![allow(non_snake_case)]
 
 use std::cell::UnsafeCell;
 use std::ffi::c_void;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
 
 use nice_plug::prelude::*;
 use nice_plug::wrapper::setup_logger;
@@ -24,14 +25,19 @@ use nice_plug::wrapper::vst3::vst3::Steinberg::{
     FIDString, FUnknown, IBStream, IPlugView, IPluginBaseTrait, IPluginFactory, IPluginFactory2,
     IPluginFactory2Trait, IPluginFactory3, IPluginFactory3Trait, IPluginFactoryTrait, PClassInfo,
     PClassInfo2, PClassInfoW, PFactoryInfo, TBool, TUID, int16, int32, kInternalError, kInvalidArgument,
-    kNotInitialized, kResultOk, tresult, uint32,
+    kNotInitialized, kResultFalse, kResultOk, tresult, uint32,
 };
 use nice_plug::wrapper::vst3::vst3::{Class, ComWrapper};
 use nice_plug::wrapper::vst3::{PluginInfo, Wrapper};
 
+use self::controllers::Controllers;
+use self::edits::Edits;
+use self::input::Input;
+use super::TAIL;
 use super::scratch::{CHANNELS, Scratch};
 use crate::guard::caught;
 use crate::host_parameters::{self, HostParameters};
+use crate::outputs::Used;
 use crate::plugin::{Overhear, OverhearMulti};
 
 /// The framework's object, and what completes a host's outputs.
@@ -39,24 +45,48 @@ struct Guard<P: Vst3Plugin> {
     framework: Wrapper<P>,
     outputs: UnsafeCell<Outputs>,
     parameters: Option<Arc<HostParameters>>,
+    controllers: Controllers,
+    edits: Edits,
+    /// Whether the host processes.
+    processes: AtomicBool,
+    /// The outputs beside the main one that are not switched off, as [`Used`] has them.
+    active_buses: AtomicU32,
+    /// Of the latest set-up, Hz: bits of a double precision number.
+    sample_rate: AtomicU64,
 }
 
 /// Scratch, and the buses made of it for one call.
 struct Outputs {
     scratch: Scratch,
     buses: Vec<AudioBusBuffers>,
+    input: Input,
     /// Whether processing has been set up.
     ready: bool,
+    /// Whether the component is active.
+    active: bool,
 }
 
 impl<P: Vst3Plugin> Guard<P> {
     fn new() -> Guard<P> {
         let ports = P::AUDIO_IO_LAYOUTS.first().map_or(0, |layout| 1 + layout.aux_output_ports.len());
-        let outputs =
-            Outputs { scratch: Scratch::new(ports), buses: Vec::with_capacity(ports), ready: false };
+        let outputs = Outputs {
+            scratch: Scratch::new(ports),
+            buses: Vec::with_capacity(ports),
+            input: Input::new(),
+            ready: false,
+            active: false,
+        };
         let framework = Wrapper::new();
-        let parameters = host_parameters::take_latest();
-        Guard { framework, outputs: UnsafeCell::new(outputs), parameters }
+        Guard {
+            framework,
+            outputs: UnsafeCell::new(outputs),
+            parameters: host_parameters::take_latest(),
+            controllers: Controllers::new(),
+            edits: Edits::new(),
+            processes: AtomicBool::new(false),
+            active_buses: AtomicU32::new(Used::ALL.0),
+            sample_rate: AtomicU64::new(0),
+        }
     }
 }
 
@@ -112,51 +142,102 @@ pass_on!(IPluginBaseTrait {
     terminate() -> tresult;
 });
 
-pass_on!(IComponentTrait {
-    getControllerClassId(class: *mut TUID) -> tresult;
-    setIoMode(mode: IoMode) -> tresult;
-    getBusCount(media: MediaType, direction: BusDirection) -> int32;
-    getBusInfo(media: MediaType, direction: BusDirection, index: int32, info: *mut BusInfo) -> tresult;
-    getRoutingInfo(input: *mut RoutingInfo, output: *mut RoutingInfo) -> tresult;
-    activateBus(media: MediaType, direction: BusDirection, index: int32, state: TBool) -> tresult;
-    setActive(state: TBool) -> tresult;
-    setState(state: *mut IBStream) -> tresult;
-    getState(state: *mut IBStream) -> tresult;
-});
+impl<P: Vst3Plugin> IComponentTrait for Guard<P> {
+    pass_on!(@ IComponentTrait getControllerClassId(class: *mut TUID) -> tresult);
+    pass_on!(@ IComponentTrait setIoMode(mode: IoMode) -> tresult);
+    pass_on!(@ IComponentTrait getBusCount(media: MediaType, direction: BusDirection) -> int32);
+    pass_on!(@ IComponentTrait getBusInfo(
+        media: MediaType, direction: BusDirection, index: int32, info: *mut BusInfo
+    ) -> tresult);
+    pass_on!(@ IComponentTrait getRoutingInfo(input: *mut RoutingInfo, output: *mut RoutingInfo) -> tresult);
 
-pass_on!(IEditControllerTrait {
-    setComponentState(state: *mut IBStream) -> tresult;
-    setState(state: *mut IBStream) -> tresult;
-    getState(state: *mut IBStream) -> tresult;
-    getParameterCount() -> int32;
-    getParameterInfo(index: int32, info: *mut ParameterInfo) -> tresult;
-    getParamStringByValue(id: ParamID, value: ParamValue, text: *mut String128) -> tresult;
-    getParamValueByString(id: ParamID, text: *mut TChar, value: *mut ParamValue) -> tresult;
-    normalizedParamToPlain(id: ParamID, value: ParamValue) -> ParamValue;
-    plainParamToNormalized(id: ParamID, value: ParamValue) -> ParamValue;
-    getParamNormalized(id: ParamID) -> ParamValue;
-    setParamNormalized(id: ParamID, value: ParamValue) -> tresult;
-    setComponentHandler(handler: *mut IComponentHandler) -> tresult;
-    createView(name: FIDString) -> ViewPointer;
-});
+    unsafe fn activateBus(
+        &self,
+        media: MediaType,
+        direction: BusDirection,
+        index: int32,
+        state: TBool,
+    ) -> tresult {
+        if let (0, 1, Ok(bus @ 1..)) = (media, direction, usize::try_from(index)) {
+            let bit = Used::NONE.with(bus - 1).0;
+            match state {
+                0 => self.active_buses.fetch_and(!bit, Ordering::Relaxed),
+                _ => self.active_buses.fetch_or(bit, Ordering::Relaxed),
+            };
+        }
+        // SAFETY: passed on.
+        caught("IComponentTrait::activateBus", kInternalError, || unsafe {
+            self.framework.activateBus(media, direction, index, state)
+        })
+    }
+
+    pass_on!(@ IComponentTrait getState(state: *mut IBStream) -> tresult);
+
+    unsafe fn setActive(&self, state: TBool) -> tresult {
+        // SAFETY: passed on; a component is activated only while nothing is processed, so that nobody else holds the
+        // outputs.
+        caught("IComponentTrait::setActive", kInternalError, || unsafe {
+            let result = self.framework.setActive(state);
+            (*self.outputs.get()).active = state != 0 && result == kResultOk;
+            result
+        })
+    }
+
+    unsafe fn setState(&self, state: *mut IBStream) -> tresult {
+        self.edits.forget();
+        // SAFETY: passed on.
+        caught("IComponentTrait::setState", kInternalError, || unsafe {
+            IComponentTrait::setState(&self.framework, state)
+        })
+    }
+}
+
+mod controllers;
+mod edits;
+mod input;
+mod parameters;
 
 impl<P: Vst3Plugin> IAudioProcessorTrait for Guard<P> {
-    pass_on!(@ IAudioProcessorTrait setBusArrangements(
-        inputs: *mut SpeakerArrangement, input_count: int32, outputs: *mut SpeakerArrangement, output_count: int32
-    ) -> tresult);
     pass_on!(@ IAudioProcessorTrait getBusArrangement(
         direction: BusDirection, index: i32, arrangement: *mut SpeakerArrangement
     ) -> tresult);
     pass_on!(@ IAudioProcessorTrait canProcessSampleSize(size: int32) -> tresult);
     pass_on!(@ IAudioProcessorTrait getLatencySamples() -> uint32);
-    pass_on!(@ IAudioProcessorTrait setProcessing(state: TBool) -> tresult);
-    pass_on!(@ IAudioProcessorTrait getTailSamples() -> uint32);
+
+    unsafe fn setBusArrangements(
+        &self,
+        inputs: *mut SpeakerArrangement,
+        input_count: int32,
+        outputs: *mut SpeakerArrangement,
+        output_count: int32,
+    ) -> tresult {
+        // The framework wants a pointer even to no arrangements.
+        let mut nothing = 0;
+        let inputs = if input_count == 0 && inputs.is_null() { &raw mut nothing } else { inputs };
+        // SAFETY: passed on.
+        caught("IAudioProcessorTrait::setBusArrangements", kInternalError, || unsafe {
+            self.framework.setBusArrangements(inputs, input_count, outputs, output_count)
+        })
+    }
+
+    unsafe fn setProcessing(&self, state: TBool) -> tresult {
+        self.processes.store(state != 0, Ordering::Release);
+        // SAFETY: passed on.
+        caught("IAudioProcessorTrait::setProcessing", kInternalError, || unsafe {
+            self.framework.setProcessing(state)
+        })
+    }
+
+    unsafe fn getTailSamples(&self) -> uint32 {
+        (TAIL * f64::from_bits(self.sample_rate.load(Ordering::Relaxed))) as uint32
+    }
 
     unsafe fn setupProcessing(&self, setup: *mut ProcessSetup) -> tresult {
         // SAFETY: `setup` is null or valid; processing is set up only while nothing is processed, so that nobody
         // else holds the outputs.
         caught("IAudioProcessorTrait::setupProcessing", kInternalError, || unsafe {
             if let Some(setup) = setup.as_ref() {
+                self.sample_rate.store(setup.sampleRate.to_bits(), Ordering::Relaxed);
                 (*self.outputs.get()).scratch.prepare(setup.maxSamplesPerBlock.max(0) as usize);
             }
             let result = self.framework.setupProcessing(setup);
@@ -187,14 +268,41 @@ impl<P: Vst3Plugin> Guard<P> {
         // `setupProcessing`, so that nobody else holds the outputs.
         unsafe {
             let Some(given) = data.as_mut() else { return kInvalidArgument };
-            let Outputs { scratch, buses, ready } = &mut *self.outputs.get();
+            let outputs = &mut *self.outputs.get();
+            if given.numSamples < 0 {
+                return kInvalidArgument;
+            }
             // The framework panics when it processes before that.
-            if !*ready {
+            if !(outputs.ready && outputs.active) {
                 return kNotInitialized;
+            }
+            let (events, changes) = (given.inputEvents, given.inputParameterChanges);
+            outputs.input.prepare(given, &self.controllers, &self.edits);
+            let result = self.complete_outputs(given, outputs);
+            outputs.input.finish(given.numSamples);
+            // The host's again.
+            (given.inputEvents, given.inputParameterChanges) = (events, changes);
+            result
+        }
+    }
+
+    /// Processes what is sound with every output there.
+    ///
+    /// # Safety
+    /// As the format says of `process`.
+    unsafe fn complete_outputs(&self, given: &mut ProcessData, outputs: &mut Outputs) -> tresult {
+        let Outputs { scratch, buses, .. } = outputs;
+        // SAFETY: as promised.
+        unsafe {
+            if let Some(parameters) = &self.parameters {
+                let active = Used(self.active_buses.load(Ordering::Relaxed));
+                let is_used = |&bus: &usize| active.has(bus - 1) && is_given(given, bus);
+                let used = (1..scratch.ports()).filter(is_used);
+                parameters.use_outputs(used.fold(Used::NONE, |used, bus| used.with(bus - 1)));
             }
             // A call without samples only brings parameters.
             if given.numSamples <= 0 || is_complete(given, scratch.ports()) {
-                return self.framework.process(data);
+                return caught("process", kInternalError, || self.framework.process(given));
             }
             let completed = scratch.complete(given.numSamples as usize, |bus| match bus_of(given, bus) {
                 Some(bus) => (bus.__field0.channelBuffers32, bus.numChannels.max(0) as usize),
@@ -209,7 +317,7 @@ impl<P: Vst3Plugin> Guard<P> {
             }));
             let (outputs, count) = (given.outputs, given.numOutputs);
             (given.outputs, given.numOutputs) = (buses.as_mut_ptr(), buses.len() as int32);
-            let result = caught("process", kInternalError, || self.framework.process(data));
+            let result = caught("process", kInternalError, || self.framework.process(given));
             // The host's again, even after a panic: it may keep the structure from call to call.
             (given.outputs, given.numOutputs) = (outputs, count);
             result
@@ -232,20 +340,43 @@ unsafe fn bus_of(data: &ProcessData, bus: usize) -> Option<&AudioBusBuffers> {
 /// # Safety
 /// `data` and all it points to are valid.
 unsafe fn is_complete(data: &ProcessData, buses: usize) -> bool {
+    // SAFETY: as promised.
+    (0..buses).all(|bus| unsafe { is_given(data, bus) })
+}
+
+/// Whether the host gives a bus with its two channels.
+///
+/// # Safety
+/// `data` and all it points to are valid.
+unsafe fn is_given(data: &ProcessData, bus: usize) -> bool {
     // SAFETY: as promised; tables hold as many pointers as the bus has channels.
-    (0..buses).all(|bus| unsafe {
+    unsafe {
         bus_of(data, bus).is_some_and(|bus| {
             let table = bus.__field0.channelBuffers32;
             bus.numChannels as usize == CHANNELS
                 && !table.is_null()
                 && (0..CHANNELS).all(|channel| !(*table.add(channel)).is_null())
         })
-    })
+    }
 }
 
-pass_on!(IMidiMappingTrait {
-    getMidiControllerAssignment(bus: int32, channel: int16, controller: CtrlNumber, id: *mut ParamID) -> tresult;
-});
+impl<P: Vst3Plugin> IMidiMappingTrait for Guard<P> {
+    unsafe fn getMidiControllerAssignment(
+        &self,
+        bus: int32,
+        channel: int16,
+        controller: CtrlNumber,
+        id: *mut ParamID,
+    ) -> tresult {
+        if !controllers::acts(controller) {
+            return kResultFalse;
+        }
+        // SAFETY: passed on.
+        caught("IMidiMappingTrait::getMidiControllerAssignment", kInternalError, || unsafe {
+            self.framework.getMidiControllerAssignment(bus, channel, controller, id)
+        })
+    }
+}
 
 pass_on!(INoteExpressionControllerTrait {
     getNoteExpressionCount(bus: int32, channel: int16) -> int32;
@@ -268,155 +399,10 @@ pass_on!(IInfoListenerTrait {
     setChannelContextInfos(list: *mut IAttributeList) -> tresult;
 });
 
-/// Makes both instruments.
-struct Factory {
-    plugins: [PluginInfo; 2],
-}
+mod factory;
 
-impl Class for Factory {
-    type Interfaces = (IPluginFactory, IPluginFactory2, IPluginFactory3);
-}
-
-impl Factory {
-    fn new() -> Factory {
-        Factory { plugins: [PluginInfo::for_plugin::<Overhear>(), PluginInfo::for_plugin::<OverhearMulti>()] }
-    }
-
-    /// Writes what is known of the plugin of an index.
-    ///
-    /// # Safety
-    /// `into` is null or valid.
-    unsafe fn describe<T>(&self, index: int32, into: *mut T, describe: fn(&PluginInfo) -> T) -> tresult {
-        caught("IPluginFactory", kInternalError, || {
-            let plugin = usize::try_from(index).ok().and_then(|index| self.plugins.get(index));
-            // SAFETY: as promised.
-            match (plugin, unsafe { into.as_mut() }) {
-                (Some(plugin), Some(into)) => {
-                    *into = describe(plugin);
-                    kResultOk
-                }
-                _ => kInvalidArgument,
-            }
-        })
-    }
-}
-
-impl IPluginFactoryTrait for Factory {
-    unsafe fn getFactoryInfo(&self, info: *mut PFactoryInfo) -> tresult {
-        // SAFETY: `info` is null or valid.
-        unsafe { self.describe(0, info, PluginInfo::create_factory_info) }
-    }
-
-    unsafe fn countClasses(&self) -> int32 {
-        self.plugins.len() as int32
-    }
-
-    unsafe fn getClassInfo(&self, index: int32, info: *mut PClassInfo) -> tresult {
-        // SAFETY: `info` is null or valid.
-        unsafe { self.describe(index, info, PluginInfo::create_class_info) }
-    }
-
-    unsafe fn createInstance(
-        &self,
-        class: FIDString,
-        interface: FIDString,
-        into: *mut *mut c_void,
-    ) -> tresult {
-        if class.is_null() || interface.is_null() || into.is_null() {
-            return kInvalidArgument;
-        }
-        // SAFETY: both ids are 16 bytes, and `into` is valid, by the format's contract.
-        caught("IPluginFactory::createInstance", kInternalError, || unsafe {
-            match &*class.cast::<[u8; 16]>() {
-                class if class == self.plugins[0].cid => made(Guard::<Overhear>::new(), interface, into),
-                class if class == self.plugins[1].cid => made(Guard::<OverhearMulti>::new(), interface, into),
-                _ => kInvalidArgument,
-            }
-        })
-    }
-}
-
-/// Hands an object out as the interface asked for.
-///
-/// # Safety
-/// `interface` is 16 bytes, `into` valid.
-unsafe fn made<P: Vst3Plugin>(guard: Guard<P>, interface: FIDString, into: *mut *mut c_void) -> tresult {
-    let object = ComWrapper::new(guard);
-    let Some(unknown) = object.as_com_ref::<FUnknown>() else { return kInvalidArgument };
-    let unknown = unknown.as_ptr();
-    // SAFETY: `unknown` lives as long as `object`; asking it for an interface takes a reference of the host's.
-    unsafe { ((*(*unknown).vtbl).queryInterface)(unknown, interface.cast(), into) }
-}
-
-impl IPluginFactory2Trait for Factory {
-    unsafe fn getClassInfo2(&self, index: int32, info: *mut PClassInfo2) -> tresult {
-        // SAFETY: `info` is null or valid.
-        unsafe { self.describe(index, info, PluginInfo::create_class_info_2) }
-    }
-}
-
-impl IPluginFactory3Trait for Factory {
-    unsafe fn getClassInfoUnicode(&self, index: int32, info: *mut PClassInfoW) -> tresult {
-        // SAFETY: `info` is null or valid.
-        unsafe { self.describe(index, info, PluginInfo::create_class_info_unicode) }
-    }
-
-    unsafe fn setHostContext(&self, _context: *mut FUnknown) -> tresult {
-        kResultOk
-    }
-}
-
-#[unsafe(no_mangle)]
-extern "system" fn GetPluginFactory() -> *mut c_void {
-    caught("GetPluginFactory", std::ptr::null_mut(), || {
-        let factory = ComWrapper::new(Factory::new()).to_com_ptr::<IPluginFactory>();
-        factory.map_or(std::ptr::null_mut(), |factory| factory.into_raw().cast())
-    })
-}
-
-/// What every system's entry does.
-fn loaded() -> bool {
-    caught("module entry", false, || {
-        setup_logger::<Overhear>();
-        true
-    })
-}
-
-#[cfg(all(target_family = "unix", not(target_os = "macos")))]
-#[unsafe(no_mangle)]
-extern "C" fn ModuleEntry(_library: *mut c_void) -> bool {
-    loaded()
-}
-
-#[cfg(all(target_family = "unix", not(target_os = "macos")))]
-#[unsafe(no_mangle)]
-extern "C" fn ModuleExit() -> bool {
-    true
-}
-
-#[cfg(target_os = "macos")]
-#[unsafe(no_mangle)]
-extern "C" fn bundleEntry(_bundle: *mut c_void) -> bool {
-    loaded()
-}
-
-#[cfg(target_os = "macos")]
-#[unsafe(no_mangle)]
-extern "C" fn bundleExit() -> bool {
-    true
-}
-
-#[cfg(target_os = "windows")]
-#[unsafe(no_mangle)]
-extern "system" fn InitDll() -> bool {
-    loaded()
-}
-
-#[cfg(target_os = "windows")]
-#[unsafe(no_mangle)]
-extern "system" fn ExitDll() -> bool {
-    true
-}
+#[cfg(test)]
+use factory::Factory;
 
 #[cfg(test)]
 mod tests;

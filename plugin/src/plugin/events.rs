@@ -38,14 +38,15 @@ pub fn play<S>(
         // Events that change nothing do not cut: the engine renders whole stretches at a lower cost.
         let Some(event) = Message::of(&event) else { continue };
         render_until(performer, &mut notes, samples.min(event.timing as usize));
+        let channel = event.on.unwrap_or_else(|| performer.any_channel());
         match event.what {
             What::NoteOn(_) if bypassed => {}
-            What::NoteOn(velocity) => notes.add(performer, event.number, event.channel, velocity),
-            What::EventKey(place) => notes.place(event.number, event.channel, place),
-            What::Bend(semitones) => notes.bend(performer, event.number, event.channel, semitones),
+            What::NoteOn(velocity) => notes.add(performer, event.number, channel, velocity),
+            What::EventKey(place) => notes.place(event.number, channel, place),
+            What::Bend(semitones) => notes.bend(performer, event.number, channel, semitones),
             _ => {
                 notes.strike(performer);
-                event.tell(performer, parameters);
+                event.tell(performer, channel, parameters);
             }
         }
     }
@@ -115,7 +116,8 @@ impl Notes {
 struct Message {
     /// Sample in the slice, or behind it.
     timing: u32,
-    channel: u8,
+    /// None for any.
+    on: Option<u8>,
     /// Note, controller or program.
     number: u8,
     what: What,
@@ -124,7 +126,11 @@ struct Message {
 enum What {
     NoteOn(f32),
     NoteOff,
+    /// Of every note.
+    NotesOff,
     Choke,
+    /// Of every cymbal.
+    ChokeAll,
     Pressure(f32),
     /// 0 the centre to 1 the rim.
     EventKey(f32),
@@ -137,8 +143,14 @@ enum What {
 impl Message {
     fn of<S>(event: &NoteEvent<S>) -> Option<Message> {
         let note = |timing: u32, channel: Channel, key: Key, what: What| {
-            let number = key.number()?;
-            Some(Message { timing, channel: channel.number().unwrap_or(0), number, what })
+            let (number, what) = match (key.number(), what) {
+                (Some(number), what) => (number, what),
+                // Whoever means any note means all of them.
+                (None, What::NoteOff) => (0, What::NotesOff),
+                (None, What::Choke) => (0, What::ChokeAll),
+                (None, _) => return None,
+            };
+            Some(Message { timing, on: channel.number(), number, what })
         };
         match *event {
             NoteEvent::NoteOn { timing, channel, key, velocity, .. } => {
@@ -156,19 +168,22 @@ impl Message {
                 note(timing, channel, key, What::Bend(tuning))
             }
             NoteEvent::MidiCC { timing, channel, cc, value } => {
-                Some(Message { timing, channel, number: cc, what: What::Controller(value) })
+                Some(Message { timing, on: Some(channel), number: cc, what: What::Controller(value) })
             }
             NoteEvent::MidiProgramChange { timing, channel, program } => {
-                Some(Message { timing, channel, number: program, what: What::Program })
+                Some(Message { timing, on: Some(channel), number: program, what: What::Program })
             }
             _ => None,
         }
     }
 
     /// Tells what needs no waiting.
-    fn tell(&self, performer: &mut Performer, parameters: &HostParameters) {
-        let Message { channel, number, .. } = *self;
+    fn tell(&self, performer: &mut Performer, channel: u8, parameters: &HostParameters) {
+        let number = self.number;
         match self.what {
+            What::NotesOff | What::ChokeAll if !performer.hears(channel) => {}
+            What::NotesOff => performer.notes_off(),
+            What::ChokeAll => performer.choke_all(),
             What::NoteOff => performer.note_off(number, channel),
             What::Choke => performer.choke(number, channel),
             What::Pressure(pressure) => performer.pressure(number, pressure, channel),

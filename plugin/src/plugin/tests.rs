@@ -1,6 +1,7 @@
 use overhear_engine::snapshot::KitSnapshot;
 
 use super::*;
+use crate::outputs::Used;
 use overhear_player::kit_document::KitDocument;
 
 const RATE: f64 = 48_000.0;
@@ -43,7 +44,7 @@ fn played(slices: &[(usize, Vec<NoteEvent<()>>)]) -> Vec<f32> {
         let (mut left, mut right) = (vec![f32::NAN; *samples], vec![f32::NAN; *samples]);
         let mut events = events.iter().copied();
         let mut main = [left.as_mut_slice(), right.as_mut_slice()];
-        let mut buffers = Buffers::new(&mut main, &mut []).unwrap();
+        let mut buffers = Buffers::new(&mut main, &mut [], Used::ALL).unwrap();
         play(&mut performer, &mut buffers, &HostParameters::default(), || events.next());
         sound.extend(left);
     }
@@ -96,7 +97,7 @@ fn a_program_change_that_moved_no_parameter_changes_nothing() {
         let mut events = change.into_iter().chain([note(0)]);
         let (mut left, mut right) = (vec![0.0; 2_000], vec![0.0; 2_000]);
         let mut main = [left.as_mut_slice(), right.as_mut_slice()];
-        let mut buffers = Buffers::new(&mut main, &mut []).unwrap();
+        let mut buffers = Buffers::new(&mut main, &mut [], Used::ALL).unwrap();
         play(&mut performer, &mut buffers, &parameters, || events.next());
         left
     };
@@ -111,7 +112,7 @@ fn more_notes_at_a_sample_than_can_wait_are_all_struck() {
     let (mut left, mut right) = ([0.0; 64], [0.0; 64]);
     let mut events = (0..40).map(|_| note(3));
     let mut main = [left.as_mut_slice(), right.as_mut_slice()];
-    let mut buffers = Buffers::new(&mut main, &mut []).unwrap();
+    let mut buffers = Buffers::new(&mut main, &mut [], Used::ALL).unwrap();
     play(&mut performer, &mut buffers, &HostParameters::default(), || events.next());
     let mut snapshot = KitSnapshot::default();
     performer.snapshot(&mut snapshot);
@@ -124,7 +125,7 @@ fn notes_out_of_order_and_beyond_the_slice_are_not_lost() {
     let (mut left, mut right) = ([0.0; 64], [0.0; 64]);
     let mut events = [note(60), note(10), note(u32::MAX)].into_iter();
     let mut main = [left.as_mut_slice(), right.as_mut_slice()];
-    let mut buffers = Buffers::new(&mut main, &mut []).unwrap();
+    let mut buffers = Buffers::new(&mut main, &mut [], Used::ALL).unwrap();
     play(&mut performer, &mut buffers, &HostParameters::default(), || events.next());
     let mut snapshot = KitSnapshot::default();
     performer.snapshot(&mut snapshot);
@@ -170,10 +171,12 @@ fn a_bounce_and_who_plays_after_it_wait_for_their_own_kit() {
 #[test]
 fn a_rate_the_engine_refuses_is_silent_and_the_next_good_one_plays() {
     let mut instance = Overhear::default();
-    instance.prepare(1_000.0, false);
+    instance.prepare(8_000.0, false);
     assert!(instance.stage.is_none());
+    assert_eq!(instance.parameters.refused_rate(), Some(8_000.0), "the window says so");
     instance.prepare(48_000.0, false);
     assert!(instance.stage.is_some());
+    assert_eq!(instance.parameters.refused_rate(), None);
 }
 
 #[test]

@@ -33,7 +33,7 @@ fn its_parameters_are_the_table_in_its_order() {
     assert_eq!(found[COUNT].id, host_id(BYPASS_ID));
     for (found, parameter) in found.iter().zip(parameters()) {
         assert_eq!(found.id, host_id(parameter.id), "{}", parameter.name);
-        let default = f64::from(parameter.normalized(parameter.default));
+        let default = parameter.in_clap(parameter.default);
         assert!((found.default - default).abs() < 1e-6, "{}", parameter.name);
         assert_eq!(found.value, found.default, "{}", parameter.name);
     }
@@ -46,7 +46,7 @@ fn values_are_shown_in_units_and_read_back() {
     for (index, parameter) in parameters().iter().enumerate() {
         let id = host_id(parameter.id);
         for plain in [parameter.min, parameter.default, parameter.max] {
-            let value = f64::from(parameter.normalized(plain));
+            let value = parameter.in_clap(plain);
             let shown = instance.value_text(id, value).unwrap();
             assert_eq!(shown, text(index, plain, &kit), "{}", parameter.name);
             let back = instance.text_value(id, &shown).unwrap();
@@ -74,11 +74,7 @@ fn parameters_of_the_first_slots_are_those_of_the_standard_kit_s_pieces() {
         let title =
             kit.piece(slot).map_or_else(|| format!("Slot {}", slot.index() + 1), |piece| piece.title.clone());
         assert_eq!(found.name, format!("{title} {}", what.label()));
-        let default = parameters()[index].normalized(default_value(index, &kit));
-        assert!(
-            kit.piece(slot).is_none() || (found.default - f64::from(default)).abs() < 1e-6,
-            "{}",
-            found.name
-        );
+        let default = parameters()[index].in_clap(default_value(index, &kit));
+        assert!(kit.piece(slot).is_none() || (found.default - default).abs() < 1e-6, "{}", found.name);
     }
 }

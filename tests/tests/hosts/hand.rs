@@ -169,6 +169,10 @@ fn the_window_takes_other_sizes_and_opens_again_as_it_was_left() {
         }
         parent.wait_for_text(&mut instance, "at another size");
     }
+    for (width, height) in [(1, 1), (100_000, 100_000), (1_000, 20)] {
+        assert!(instance.force_editor_size(width, height).is_err(), "{width} by {height} is taken");
+    }
+    assert_eq!(own_size(&parent), (1000, 700));
     // It is told of its size by its next frame.
     let stored = |instance: &mut Instance| {
         String::from_utf8_lossy(&instance.save_state().unwrap()).contains("\"window\":\"[1000,700]\"")

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use overhear::kit_document::KitDocument;
 use overhear::kit_file;
 use overhear_cli::host::{Event, Instance, Processor, What, set_kit, with_fields};
-use overhear_cli::player::{Blocks, Hit, Setup, Source, Take};
+use overhear_cli::player::{Blocks, Message, Setup, Source, Take};
 use overhear_cli::plugin_folders::Format;
 use overhear_engine::kit::OUTPUTS;
 use overhear_engine::slot::Slot;
@@ -128,10 +128,10 @@ fn a_file_rendered_on_fourteen_pieces_is_the_same_by_the_engine_and_by_clap() {
     let _turn = alone();
     let kit = fourteen();
     let hit = |(sample, what): (u64, Happening)| match what {
-        Happening::Note(key, velocity) => Hit { sample, channel: 9, key, velocity },
+        Happening::Note(key, velocity) => Message::note(sample, 9, key, velocity),
         Happening::Parameter(..) => unreachable!("notes only"),
     };
-    let take = Take { hits: score(&kit).into_iter().map(hit).collect(), frames: 48_000 };
+    let take = Take { messages: score(&kit).into_iter().map(hit).collect(), frames: 48_000 };
     let setup = Setup { rate: RATE as u32, settings: vec![setting("dynamics=5")], kit };
     let render = |source: Source| {
         let mut sound = [Vec::new(), Vec::new()];

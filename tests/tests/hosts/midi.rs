@@ -177,6 +177,43 @@ fn cymbals_are_choked_as_the_rule_says_and_drums_never() {
 }
 
 #[test]
+fn a_choke_of_any_note_chokes_every_cymbal() {
+    let _turn = alone();
+    let mut instance = instance();
+    let strokes = [49, 51, 55, 46].map(|key| (0, on(key)));
+    let ringing = energy(&play(&mut instance, &strokes), 9_000);
+    let choked = energy(&play(&mut instance, &[&strokes[..], &[(2_400, What::ChokeAll)]].concat()), 9_000);
+    assert!(choked < 0.05 * ringing, "{choked} of {ringing}");
+    set(&mut instance, "midi_channel", 10.0);
+    let choked = energy(&play(&mut instance, &[&strokes[..], &[(2_400, What::ChokeAll)]].concat()), 9_000);
+    assert!(choked < 0.05 * ringing, "on one channel: {choked} of {ringing}");
+}
+
+#[test]
+fn all_notes_off_and_all_sound_off_leave_nothing_ringing() {
+    let _turn = alone();
+    let mut instance = instance();
+    let strokes = [36, 38, 49, 51, 55, 46].map(|key| (0, on(key)));
+    for controller in [120, 123] {
+        let off = (2_400, What::Midi([0xB9, controller, 0]));
+        let sound = play(&mut instance, &[&strokes[..], &[off]].concat());
+        assert!(peak(&sound) > 0.01 && energy(&sound, 2_400 + 480) == 0.0, "controller {controller}");
+    }
+}
+
+#[test]
+fn nothing_is_louder_than_the_ceiling_and_music_is_not_touched() {
+    let _turn = alone();
+    let mut instance = instance();
+    for name in ["master_level", "crash_level", "ride_level", "snare_level", "kick_level"] {
+        set(&mut instance, name, 12.0);
+    }
+    let strokes: Vec<_> = (0..20).flat_map(|at| [36, 38, 49, 51].map(|key| (at * 500, on(key)))).collect();
+    let loudest = peak(&play(&mut instance, &strokes));
+    assert!(loudest > 2.0 && loudest <= 4.0, "{loudest}");
+}
+
+#[test]
 fn a_program_change_loads_its_preset_at_its_sample_and_tells_the_host() {
     let _turn = alone();
     let number = FACTORY.iter().position(|(name, _)| *name == "jazz").unwrap();

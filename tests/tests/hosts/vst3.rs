@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::process::Command;
 
 use overhear::parameters::{BYPASS_GROUP, parameters};
+use overhear_cli::message::Message;
 use overhear_cli::player::Blocks;
 use overhear_cli::plugin_folders::Format;
 use serde_json::{Value, json};
@@ -122,6 +123,28 @@ pub fn through_pedalboard(
         "block": block,
         "frames": frames(rate),
         "notes": listed_notes(score),
+    });
+    through_python(name, "hosts/pedalboard_vst3.py", description)
+}
+
+/// Plays messages through the stereo instrument in pedalboard.
+pub fn messages_through_pedalboard(
+    name: &str,
+    messages: &[Message],
+    frames: usize,
+    rate: f64,
+    block: u32,
+) -> Sound {
+    let listed: Vec<_> = messages.iter().map(|message| json!([message.sample, message.bytes])).collect();
+    let description = json!({
+        "plugin": bundle_path(Format::Vst3),
+        "name": overhear::NAME,
+        "preset": null,
+        "rate": rate,
+        "block": block,
+        "frames": frames,
+        "notes": [],
+        "messages": listed,
     });
     through_python(name, "hosts/pedalboard_vst3.py", description)
 }

@@ -5,7 +5,7 @@ use overhear::kit_document::KitDocument;
 use overhear_engine::kit::{OUTPUTS, Stereo};
 use overhear_engine::slot::SLOTS;
 
-use overhear_cli::player::{EnginePlayer, Hit, Setup};
+use overhear_cli::player::{EnginePlayer, Message, Setup};
 
 /// Peaks of one piece, full scale 1, before the master.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,7 +32,7 @@ pub fn table(rate: u32) -> Result<Vec<Row>> {
         let strikes = |&key: &u8| notes.stroke(key).is_some_and(|stroke| stroke.slot == slot);
         let Some(key) = (0..128).find(strikes) else { continue };
         player.performer.reset();
-        let hit = Hit { sample: 0, channel: 9, key, velocity: 127 };
+        let hit = Message::note(0, 9, key, 127);
         player.play(&[hit], frames, |performer, part| {
             let mut outputs: Vec<Stereo<'_>> =
                 buffers.iter_mut().map(|pair| pair.each_mut().map(|side| &mut side[part.clone()])).collect();

@@ -36,9 +36,9 @@ pub fn run(folder: &Path) -> Result<()> {
         let mut style = style(Source::Clap(clap.clone()));
         style.kit = settings::kit_of(&preset);
         style.settings = settings::moved(&preset, &style.kit.kit);
-        let (mut take, _) = takes(&song, &style)?;
+        let mut take = takes(&song, &style)?.take;
         let samples = |seconds: f64| (seconds * f64::from(RATE)) as u64;
-        take.hits.retain(|hit| hit.sample <= samples(LAST_NOTE));
+        take.messages.retain(|message| message.sample <= samples(LAST_NOTE));
         take.frames = samples(SECONDS);
         let (played, left, right) = play(&take, &style, &entry.name)?;
         ensure!(played.finite, "with `{}` the plugin produced values that are not numbers", entry.name);

@@ -13,6 +13,7 @@ use super::*;
 use crate::entry::clap::tests::{FRAMES, Instance, struck};
 use overhear_player::kit_document::standard_slot;
 
+mod calls;
 mod panics;
 
 const BUSES: usize = 1 + OUTPUTS;
@@ -161,7 +162,7 @@ fn every_output_is_that_of_the_other_format() {
         assert!(vst3 == clap, "bus {bus}");
     }
     let snare = 1 + standard_slot("snare").index();
-    assert!([0, snare].iter().all(|&bus| vst3[bus][0].iter().any(|sample| *sample != 0.0)));
+    assert!(vst3[snare][0].iter().any(|sample| *sample != 0.0));
 }
 
 #[test]

@@ -94,7 +94,7 @@ impl<P: Vst3Plugin> IUnitInfoTrait for Guard<P> {
 }
 
 /// Writes as much of a text as there is room for, and a zero.
-fn write(text: &str, into: &mut String128) {
+pub(super) fn write(text: &str, into: &mut String128) {
     into.fill(0);
     let room = into.len() - 1;
     for (to, from) in into[..room].iter_mut().zip(text.encode_utf16()) {

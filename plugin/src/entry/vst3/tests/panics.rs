@@ -1,6 +1,7 @@
 //! A plugin that panics wherever a host can call it, and a host that goes on.
 
 use super::*;
+use crate::entry::vst3::factory::{GetPluginFactory, loaded};
 use crate::guard::failing::while_panicking;
 
 /// What the host gets from a call during which the entry of that name panics.
