@@ -7,7 +7,7 @@
 //! passive.
 //!
 //! Scheme: modes from [`MIXED_FROM`](super::tension_field::MIXED_FROM) times the drum's pitch on are mixed, in order of frequency, in blocks of
-//! [`BLOCK`], then once more in blocks that lie half a block further. Both passes are rotations, so no energy is gained, and
+//! 128, then once more in blocks that lie half a block further. Both passes are rotations, so no energy is gained, and
 //! what remains between modes is weaker than their distance. The mixture is worked out in the middle of the range of pitches and
 //! kept at all of them: tension moves all modes of a head alike. Frequencies, losses and masses follow the even modes' at every pitch.
 //!
