@@ -85,7 +85,7 @@ fn a_coupling_is_the_sum_over_the_heads_of_tension_times_slopes() {
 
 #[test]
 fn blocks_come_to_what_one_large_problem_does() {
-    let drum = tom(1500.0);
+    let drum = tom(1900.0);
     let even = even_modes(&drum);
     let even = &even[mixed(&even, &drum)..];
     assert!(even.len() > BLOCK + BLOCK / 2, "{} modes", even.len());
