@@ -23,8 +23,8 @@ pub struct ModeMixture {
     coefs: Vec<f32>,
 }
 
-/// Modes that a mixture can have.
-pub const MAX_MIXED: usize = 4096;
+/// Modes that a mixture can have: two heads of 2,000 each and the air between them are fewer.
+pub const MAX_MIXED: usize = 8192;
 
 impl ModeMixture {
     /// From rows of coefficients (dimensionless), each with the first simple mode it speaks of.
