@@ -204,7 +204,14 @@ mod tests {
     fn the_gradient_is_that_of_the_energy_below_and_beyond_yield() {
         let spec = reference::drum("rack-tom");
         let drum = DrumModes::new(&spec).unwrap();
-        let (mut stretch, modes) = Stretch::new(&spec.membrane(&spec.batter), &drum, None, spec.pitch_hz);
+        let mixed = MixedModes::new(&drum, &spec.tension_field.unwrap(), |_| 0.0);
+        for mixed in [None, Some(&mixed)] {
+            check(&spec, &drum, mixed);
+        }
+    }
+
+    fn check(spec: &crate::drum::DrumSpec, drum: &DrumModes, mixed: Option<&MixedModes>) {
+        let (mut stretch, modes) = Stretch::new(&spec.membrane(&spec.batter), drum, mixed, spec.pitch_hz);
         let mut gradient = zero_row(modes);
         let mut scratch = zero_row(modes);
         for size in [1e-4_f32, 3e-3, 3e-2] {
