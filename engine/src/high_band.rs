@@ -53,6 +53,7 @@ use std::f64::consts::{SQRT_2, TAU};
 
 use crate::air_load::SPEED_OF_SOUND;
 use crate::modal::simd::MAX_RUN;
+use crate::modal::smoothing::Smoothing;
 use crate::modal::{InputVector, MAX_DRIVES, ModalBody, Mode, RECEIVERS, ReceiverWeights};
 use crate::patch_factors::PatchFactors;
 
@@ -129,6 +130,8 @@ pub struct HighBand {
     follow: f32,
     /// What is heard far away, as at a metre, over what is heard at the point.
     away: f32,
+    /// Steps of the sound by retuning.
+    smoothing: Smoothing,
     /// Whether anything moves.
     rings: bool,
 }
@@ -159,6 +162,7 @@ impl HighBand {
             slices,
             places: (0..spec.places.min(MAX_DRIVES)).map(place).collect(),
             follow: (1.0 - (-corner / spec.sample_rate).exp()) as f32,
+            smoothing: Smoothing::default(),
             rings: false,
         };
         band.retune(spec.tensions[1], &HighMuffling::NONE);
@@ -170,7 +174,8 @@ impl HighBand {
     /// # Real-time
     /// No allocation; some 200 ns a slice.
     pub fn retune(&mut self, tension: f64, muffling: &HighMuffling) {
-        let HighBand { spec, body, pickup, slices, .. } = self;
+        let HighBand { spec, body, pickup, slices, smoothing, .. } = self;
+        let before = body.listen(pickup);
         let top = top_hz(spec.sample_rate);
         for (k, (slice, transfer)) in slices.iter().zip(pickup.transfer_mut(0)).enumerate() {
             let mut mode = mode(spec, slice, tension);
@@ -185,6 +190,7 @@ impl HighBand {
             *transfer = [loud * cos, loud * sin];
         }
         body.tune(pickup);
+        smoothing.step(before, body.listen(pickup));
         for place in &mut self.places {
             body.connect(&mut place.port);
             [place.direct, ..] = pickup.direct_at(body, &place.port);
@@ -234,7 +240,7 @@ impl HighBand {
     /// # Real-time
     /// Linear in slices times samples times places pressed; nothing at rest.
     pub fn render(&mut self, near: &mut [f32], far: &mut [f32]) {
-        let HighBand { body, pickup, places, follow, rings, away, .. } = self;
+        let HighBand { body, pickup, places, follow, rings, away, smoothing, .. } = self;
         *rings |= places.iter().any(|place| place.pressed);
         if !*rings {
             return;
@@ -244,7 +250,8 @@ impl HighBand {
         let [far_unheard, few_unheard] = unheard;
         let pressed = places.iter().filter(|place| place.pressed);
         let drives = pressed.map(|place| (&place.port, &place.forces[..]));
-        body.ring_driven(0, drives, pickup, [&mut *sound, far_unheard, few_unheard]);
+        body.ring_driven(0, drives, pickup, [&mut *sound, &mut *far_unheard, &mut *few_unheard]);
+        smoothing.add_to(&mut [&mut *sound, far_unheard, few_unheard]);
         for place in places.iter_mut().filter(|place| place.pressed || place.slow != 0.0) {
             place.add_direct(*follow, sound);
             if std::mem::take(&mut place.pressed) {
@@ -267,7 +274,9 @@ impl HighBand {
             for place in self.places.iter_mut().filter(|place| place.slow.abs() < FAINT) {
                 place.slow = 0.0;
             }
-            self.rings = !self.body.is_still() || self.places.iter().any(|place| place.slow != 0.0);
+            self.rings = !self.body.is_still()
+                || !self.smoothing.is_over()
+                || self.places.iter().any(|place| place.slow != 0.0);
         }
         self.body.is_finite() && self.places.iter().all(|place| place.slow.is_finite())
     }
@@ -280,6 +289,7 @@ impl HighBand {
     /// Puts it to rest.
     pub fn reset(&mut self) {
         self.body.reset();
+        self.smoothing = Smoothing::default();
         self.rings = false;
         for place in &mut self.places {
             place.forces.fill(0.0);

@@ -28,6 +28,7 @@ pub mod coupled_modes;
 mod receiver_weights;
 mod input_vector;
 mod row;
+pub mod smoothing;
 pub mod simd;
 
 use simd::Kernels;

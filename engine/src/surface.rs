@@ -31,6 +31,7 @@ use std::any::Any;
 
 use crate::contact::Material;
 use crate::high_band::HighBand;
+use crate::modal::smoothing::Smoothing;
 use crate::modal::{ModalBody, Mode, RECEIVERS};
 use crate::potential::{NonlinearForce, Potential};
 use crate::rim::Rim;
@@ -74,6 +75,8 @@ pub struct Surface {
     /// Local compliance, if the surface is a head.
     local_compliance: Option<LocalHeadCompliance>,
     log: StrikeLog,
+    /// Steps by changed modes.
+    smoothing: Smoothing,
 }
 
 impl Surface {
@@ -89,6 +92,7 @@ impl Surface {
             material: parts.material,
             local_compliance: None,
             log: StrikeLog::default(),
+            smoothing: Smoothing::default(),
         }
     }
 
@@ -230,12 +234,14 @@ impl Surface {
     /// # Real-time
     /// Linear in the number of modes, about 100 ns each.
     pub fn retune(&mut self, mode: impl Fn(usize, &Mode) -> Mode) {
+        let before = self.body.sound().listen();
         let body = self.body.modal_mut();
         for k in 0..body.len() {
             let new = mode(k, &body.modes()[k]);
             body.set_mode(k, new);
         }
         self.follow();
+        self.smoothing.step(before, self.body.sound().listen());
     }
 
     /// Adds an air load: sound from elsewhere acts on the drum, and it radiates to others. Allocates.
@@ -318,6 +324,7 @@ impl Surface {
         for attachment in &mut self.attachments {
             attachment.ring(out.each_mut().map(|out| &mut **out), done);
         }
+        self.smoothing.add_to(&mut out);
         let [near, far, _] = out;
         self.observers.bands_mut().for_each(|band| band.render(near, far));
     }
@@ -379,6 +386,7 @@ impl Surface {
             && self.attachments.iter().all(|attachment| attachment.is_still())
             && self.contacts.is_empty()
             && self.body.modal().is_still()
+            && self.smoothing.is_over()
     }
 
     /// Whether strikers are present.
@@ -396,6 +404,7 @@ impl Surface {
     /// Puts everything to rest and removes all strikers.
     pub fn reset(&mut self) {
         self.body.reset();
+        self.smoothing = Smoothing::default();
         self.observers.bands_mut().for_each(HighBand::reset);
         self.contacts.reset();
         self.attachments.iter_mut().for_each(|attachment| attachment.reset(&mut self.contacts));

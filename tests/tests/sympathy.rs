@@ -74,7 +74,7 @@ fn between_the_drums_the_shortest_delay_is_from_rack_tom_to_snare_54_samples_at_
         .filter_map(|pair| Some((layout.path_length(pair.0, pair.1)?, pair)));
     let (way, pair) = ways.min_by(|a, b| a.0.total_cmp(&b.0)).expect("drums");
     assert_eq!(pair, (slot("snare"), slot("rack-tom")));
-    // Interpolation needs one newer sample.
+    // The whole samples before it, less the newer neighbour that any interpolation needs.
     assert_eq!((way / SPEED_OF_SOUND * RATE).floor() as usize - 1, 54);
 }
 

@@ -1,0 +1,80 @@
+//! Steps of the sound where the modes change, spread over a block.
+//!
+//! Modes that change keep their displacement and velocity. What is heard are their accelerations, which step: by twice the
+//! change of the frequency. Of a step the difference is added to the sound and taken back along a straight line within a block,
+//! so that a pitch that glides from block to block is heard without steps.
+
+use super::{Pressure, RECEIVERS};
+use crate::block::BLOCK;
+
+/// What is still to be taken back.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Smoothing {
+    /// Pressure added to the present sample at each receiver, and how much less it is in the next, Pa.
+    added: Pressure,
+    slope: Pressure,
+    /// Samples until nothing is left.
+    left: usize,
+}
+
+impl Smoothing {
+    /// The pressure at each receiver (Pa) has changed between two samples.
+    pub fn step(&mut self, before: Pressure, after: Pressure) {
+        if before == after {
+            return;
+        }
+        for i in 0..RECEIVERS {
+            self.added[i] += before[i] - after[i];
+            self.slope[i] = self.added[i] / BLOCK as f32;
+        }
+        self.left = BLOCK;
+    }
+
+    /// Whether nothing is left.
+    pub fn is_over(&self) -> bool {
+        self.left == 0
+    }
+
+    /// Adds what is left to the next samples.
+    pub fn add_to(&mut self, out: &mut [&mut [f32]; RECEIVERS]) {
+        let samples = out[0].len().min(self.left);
+        if samples == 0 {
+            return;
+        }
+        for ((out, added), slope) in out.iter_mut().zip(&mut self.added).zip(&self.slope) {
+            for out in &mut out[..samples] {
+                *out += *added;
+                *added -= slope;
+            }
+        }
+        self.left -= samples;
+        if self.left == 0 {
+            self.added = Pressure::default();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_step_becomes_a_line_however_time_is_cut() {
+        let smoothed = |run: usize| {
+            let mut smoothing = Smoothing::default();
+            smoothing.step([1.0, 0.0, 0.0], [0.0, 2.0, 0.0]);
+            let mut rows = [[0.0_f32; 2 * BLOCK]; RECEIVERS];
+            let [a, b, c] = &mut rows;
+            let runs = a.chunks_mut(run).zip(b.chunks_mut(run)).zip(c.chunks_mut(run));
+            runs.for_each(|((a, b), c)| smoothing.add_to(&mut [a, b, c]));
+            rows
+        };
+        let rows = smoothed(2 * BLOCK);
+        for i in 0..BLOCK {
+            let left = 1.0 - i as f32 / BLOCK as f32;
+            assert!((rows[0][i] - left).abs() < 1e-5 && (rows[1][i] + 2.0 * left).abs() < 1e-5);
+        }
+        assert!(rows.iter().all(|row| row[BLOCK..].iter().all(|&x| x == 0.0)));
+        assert_eq!(smoothed(5), rows);
+    }
+}
