@@ -35,6 +35,8 @@ fn snare_and_tom() -> KitSpec {
 #[test]
 fn wires_land_when_a_rack_tom_is_struck_the_more_the_harder() {
     let mut kit = kit(RATE);
+    kit.set(Control::Tuning(slot("rack-tom")), 140.0);
+    kit.finish_controls();
     let counts = [2.0, 4.0, 6.0].map(|speed| landings(&mut kit, speed, 0.2));
     println!("landings after 2, 4, 6 m/s: {counts:?}");
     for (count, want) in counts.into_iter().zip([12.0, 152.0, 324.0]) {

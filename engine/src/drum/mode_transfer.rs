@@ -28,7 +28,7 @@ use crate::receiver::ReceiverPosition;
 use crate::split::Splitting;
 
 /// Modes up to so many times the default pitch are heard one by one. *By ear*.
-const SINGLY: f64 = 12.0;
+const SINGLY: f64 = 17.0;
 
 /// The least size that is told from nothing, over that at the default pitch.
 const LEAST: f32 = 1e-3;

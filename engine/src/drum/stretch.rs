@@ -25,6 +25,7 @@ use crate::membrane::MembraneSpec;
 use crate::modal::simd::blocks::{Block, BlockProduct};
 use crate::modal::simd::{Kernels, LANES};
 use crate::modal::{Row, zero_row};
+use crate::mode_mixture::sum_of_products;
 use crate::potential::{Evaluation, Potential};
 use crate::split::Splitting;
 
@@ -142,7 +143,9 @@ impl Stretch {
         let kept = f64::from(self.kernels.dot(&self.sorted, &self.product));
         let rest = &q[self.rows.len()..];
         self.mixed_product.iter_mut().zip(&*self.mixed).zip(rest).for_each(|((out, a), q)| *out = a * q);
-        kept + f64::from(self.kernels.dot(&self.mixed_product, rest))
+        // Not the kernels' sum, which takes whole vectors only: the mixed modes begin and end anywhere.
+        let count = rest.len().min(self.mixed.len());
+        kept + f64::from(sum_of_products(&self.mixed_product[..count], &rest[..count]))
     }
 }
 
