@@ -88,10 +88,15 @@ pub(super) struct DelayTap {
 impl DelayTap {
     /// A tap with a delay (s) and a gain.
     pub(super) fn new(delay: f64, gain: f64, sample_rate: f64) -> DelayTap {
+        DelayTap::through(AHEAD, delay, gain, sample_rate)
+    }
+
+    /// The same through at most so many samples newer than those next to its position, and as many older ones.
+    fn through(ahead: usize, delay: f64, gain: f64, sample_rate: f64) -> DelayTap {
         let samples = (delay * sample_rate).clamp(0.0, FARTHEST / SPEED_OF_SOUND * sample_rate);
         // Samples that do not exist yet are not asked for: nearer, the polynomial goes through fewer.
         let newer = samples as usize;
-        let reach = newer.min(AHEAD);
+        let reach = newer.min(ahead);
         let used = newer - reach..=newer + reach + 1;
         let whole = newer.max(AHEAD);
         let weight = |age: usize| -> f64 {
@@ -109,6 +114,12 @@ impl DelayTap {
     pub(super) fn along(metres: f64, lead: f64, sample_rate: f64) -> DelayTap {
         let late = (metres - lead).max(0.0) / SPEED_OF_SOUND;
         DelayTap::new(late, 1.0 / metres.max(crate::layout::NEAREST), sample_rate)
+    }
+
+    /// A path from piece to piece, m. Its polynomial is a cubic: a longer one would be more even at high frequencies, which
+    /// do not drive pieces, and begin some samples before the sound arrives.
+    pub(super) fn to_piece(metres: f64, sample_rate: f64) -> DelayTap {
+        DelayTap::through(1, metres / SPEED_OF_SOUND, 1.0 / metres.max(crate::layout::NEAREST), sample_rate)
     }
 
     /// The same, weaker.

@@ -83,7 +83,7 @@ impl Propagation {
         let mut shortest = None;
         for (to, from) in Slot::ALL.into_iter().flat_map(|to| Slot::ALL.map(|from| (to, from))) {
             if let Some(path) = self.layout.path_length(from, to).filter(|_| from != to) {
-                let tap = DelayTap::along(path, 0.0, self.sample_rate);
+                let tap = DelayTap::to_piece(path, self.sample_rate);
                 self.heard[to.index()][from.index()] = tap;
                 // Only drums have a radius, and only they receive.
                 if self.layout.pieces[to.index()].is_some_and(|piece| piece.radius > 0.0) {

@@ -70,9 +70,9 @@ mod tests {
             rows
         };
         let rows = smoothed(2 * BLOCK);
-        for i in 0..BLOCK {
+        for (i, (first, second)) in rows[0].iter().zip(&rows[1]).enumerate().take(BLOCK) {
             let left = 1.0 - i as f32 / BLOCK as f32;
-            assert!((rows[0][i] - left).abs() < 1e-5 && (rows[1][i] + 2.0 * left).abs() < 1e-5);
+            assert!((first - left).abs() < 1e-5 && (second + 2.0 * left).abs() < 1e-5);
         }
         assert!(rows.iter().all(|row| row[BLOCK..].iter().all(|&x| x == 0.0)));
         assert_eq!(smoothed(5), rows);
