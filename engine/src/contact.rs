@@ -24,6 +24,8 @@
 //! so that without loss the work `F (d1 - d0)` is the change of `V` to rounding, at any rate; with
 //! loss it is more when closing and less when opening. `F` grows with `d1`, hence one root.
 //!
+//! [`force`] computes this for the contacts of a body side by side; [`solver`] finds their compressions.
+//!
 //! Neglected: adhesion, friction, and the mass of the deformed material.
 
 pub mod force;

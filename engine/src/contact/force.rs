@@ -10,8 +10,8 @@
 //!   (V1 - V0) / (d1 - d0) = 2/5 K (s1^4 + s1^3 s0 + s1^2 s0^2 + s1 s0^3 + s0^4) / (s1 + s0)
 //!   ```
 //!
-//!   One that closes or opens has the quotient itself: one of the two potentials is zero.
-//! * **Any other exponent**: the quotient, and for a small movement its Taylor series about the middle.
+//!   For one that closes or opens the quotient itself is exact, because one of the two potentials is zero.
+//! * **Any other exponent**: the quotient, or for a small movement its Taylor series about the middle.
 
 use super::{ContactLaw, ContactStep};
 
@@ -21,7 +21,7 @@ const HERTZ: f64 = 1.5;
 /// Movement, relative to the compression, below which the quotient is replaced by its series.
 const SERIES: f64 = 1e-4;
 
-/// So many contacts, each number `[contact]`. An unused lane is [apart](Self::APART).
+/// `N` contacts; every array is indexed `[contact]`. An unused lane is [apart](Self::APART).
 #[derive(Debug, Clone)]
 pub struct ContactLanes<const N: usize> {
     /// `K`, N/m^alpha.

@@ -4,11 +4,11 @@
 //! compressions after the sample obey `d_i + sum_j Y_ij F_j(d_j) = f_i`, each force growing with its own
 //! compression. Newton's method takes three to five steps. `1 + Y F'` is never singular, as `Y` is positive.
 //!
-//! Where all contacts follow Hertz's law, each step solves its linear system by two sweeps of Jacobi's method, in all lanes at
+//! If all contacts follow Hertz's law, each step solves its linear system by two sweeps of Jacobi's method, in all lanes at
 //! once. A point yields more to its own force than to all others, by three to five times under snare wires and by twenty-five
-//! around a hi-hat's rim, so a step leaves about a fiftieth of the error at most. Should that not converge, further steps use
-//! elimination, as those of other laws do. Should Newton's method not converge, where a contact opens, single contacts are
-//! solved in turn (Gauss-Seidel), each between bounds.
+//! around a hi-hat's rim, so a step leaves about a fiftieth of the error at most. If that does not converge, further steps use
+//! elimination, as all steps for other laws do. If Newton's method does not converge, as may happen where a contact opens,
+//! single contacts are solved in turn (Gauss-Seidel), each between bounds.
 
 use super::force::ContactLanes;
 use super::{ContactLaw, ContactStep};
@@ -128,7 +128,7 @@ fn newton<const N: usize, const ALL_HERTZ: bool>(
         };
         lanes.force = std::array::from_fn(|i| force[i] + slope[i] * change[i]);
         let found = compressions(&lanes.force, &lanes.free);
-        // What is not a number has not settled.
+        // NaN does not count as settled.
         let mut settled = true;
         for i in 0..N {
             let scale = LAST_STEP * lanes.before[i].abs().max(lanes.free[i].abs());
@@ -238,7 +238,7 @@ fn between_bounds(lane: &ContactLanes<1>, compliance: f64) -> f64 {
             break;
         }
     }
-    // Of the linear bodies rather than of the law: this keeps `d1 = free - C F` exact, which the energy balance needs.
+    // From the linear bodies rather than from the law: this keeps `d1 = free - C F` exact, which the energy balance needs.
     if compliance > 0.0 { ((free - d) / compliance).max(0.0) } else { force }
 }
 
