@@ -24,8 +24,8 @@ use crate::surface::incident_field::{AUDIBLE, IncidentPressure};
 /// Sound below this is silence, Pa: 100 dB under full scale.
 const SILENT: f32 = 2e-4;
 
-/// A piece with less energy of motion than this that has been silent for so long falls asleep, J and s. What is only held
-/// bent does not keep it awake.
+/// A piece with less energy of motion than this that has been silent for so long falls asleep, J and s. A piece with static
+/// deflection but no motion may sleep.
 const STILL: f64 = 1e-10;
 const DOZE: f64 = 0.05;
 

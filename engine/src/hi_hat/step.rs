@@ -162,14 +162,16 @@ impl Pair {
         let up: Amplitudes = down.map(|pair| pair.map(|x| -x));
         top.push_folded(&self.folded[0], &up);
         self.lower.modal.push_folded(&self.folded[1], &down);
-        let heard = |forces: &Amplitudes, direct: &Amplitudes| -> f32 {
+        let pressure = |forces: &Amplitudes, direct: &Amplitudes| -> f32 {
             forces.iter().flatten().zip(direct.iter().flatten()).map(|(force, direct)| force * direct).sum()
         };
         let pressed = dynamic.iter().zip(&self.dynamics.coupling).map(|(force, u)| force * u).sum();
         let [above, below] = &self.dynamics.direct;
         (
             pressed,
-            std::array::from_fn(|receiver| heard(&up, &above[receiver]) + heard(&down, &below[receiver])),
+            std::array::from_fn(|receiver| {
+                pressure(&up, &above[receiver]) + pressure(&down, &below[receiver])
+            }),
         )
     }
 
@@ -214,10 +216,10 @@ impl Pair {
             self.rims.age += 1;
         }
         if !self.lower.modal.is_still() {
-            let mut heard = [[0.0; MAX_RUN]; RECEIVERS];
-            self.lower.modal.ring(0, &self.lower.receiver, heard.each_mut().map(|row| &mut row[..samples]));
-            for (out, heard) in out.into_iter().zip(&heard) {
-                out.iter_mut().zip(heard).for_each(|(sum, x)| *sum += x);
+            let mut lower = [[0.0; MAX_RUN]; RECEIVERS];
+            self.lower.modal.ring(0, &self.lower.receiver, lower.each_mut().map(|row| &mut row[..samples]));
+            for (out, lower) in out.into_iter().zip(&lower) {
+                out.iter_mut().zip(lower).for_each(|(sum, x)| *sum += x);
             }
         }
     }
