@@ -135,13 +135,8 @@ fn points_that_move_as_one_obey_the_equations() {
         let d = [lanes.free[0] - found[0], lanes.free[1] - found[1]];
         let (forces, _) = lanes.gradient::<true>(&lanes.roots(), &d);
         let largest = lanes.force[0].max(lanes.force[1]);
-        for i in 0..2 {
-            assert!(
-                (forces[i].max(0.0) - lanes.force[i]).abs() <= 1e-5 * largest,
-                "{} {}",
-                forces[i],
-                lanes.force[i]
-            );
+        for (by_law, found) in forces.iter().zip(&lanes.force) {
+            assert!((by_law.max(0.0) - found).abs() <= 1e-5 * largest, "{by_law} {found}");
         }
     }
 }
