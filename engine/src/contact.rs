@@ -24,8 +24,11 @@
 //! so that without loss the work `F (d1 - d0)` is the change of `V` to rounding, at any rate; with
 //! loss it is more when closing and less when opening. `F` grows with `d1`, hence one root.
 //!
+//! [`force`] computes this for the contacts of a body side by side; [`solver`] finds their compressions.
+//!
 //! Neglected: adhesion, friction, and the mass of the deformed material.
 
+pub mod force;
 pub mod solver;
 pub mod static_equilibrium;
 
@@ -36,9 +39,6 @@ use crate::numbers::{Numbers, Visitor};
 /// Slowest approach that still sets the loss, m/s. Below it a touch is as lossy as at it; keeps
 /// `lambda` finite. *Derived*: far below any audible landing.
 const SLOWEST_APPROACH: f64 = 1e-3;
-
-/// Iterations after which the solver stops; Newton needs 3 to 6, halving alone would need 50.
-const MAX_ITERATIONS: usize = 60;
 
 /// Elastic constants of a solid.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -148,86 +148,18 @@ impl ContactLaw {
         if d > 0.0 { self.stiffness * self.power(d) * d / (self.exponent + 1.0) } else { 0.0 }
     }
 
-    /// Static force at compression `d`, N.
-    fn elastic_force(&self, d: f64) -> f64 {
-        if d > 0.0 { self.stiffness * self.power(d) } else { 0.0 }
-    }
-
     /// Static force at compression `d`, N, and its slope, N/m.
     pub fn elastic(&self, d: f64) -> (f64, f64) {
-        let force = self.elastic_force(d);
-        if d > 0.0 { (force, self.exponent * force / d) } else { (0.0, 0.0) }
+        if d <= 0.0 {
+            return (0.0, 0.0);
+        }
+        let force = self.stiffness * self.power(d);
+        (force, self.exponent * force / d)
     }
 
     /// `d^alpha`; the Hertz exponent without the general power.
     fn power(&self, d: f64) -> f64 {
         if self.exponent == 1.5 { d * d.sqrt() } else { d.powf(self.exponent) }
-    }
-
-    /// The force held over a sample that takes the compression from `before` (m).
-    ///
-    /// # Real-time
-    /// At most 60 iterations, usually 4.
-    pub fn force(&self, step: &ContactStep) -> f64 {
-        let ContactStep { before, free, compliance, .. } = *step;
-        let held = self.potential(before);
-        let force_free = self.gradient(step, held, free).0;
-        if force_free <= 0.0 {
-            return 0.0;
-        }
-        // g(d) = d + C F(d) - free grows strictly; its root lies in [free - C F(free), free].
-        let (mut low, mut high) = (free - compliance * force_free, free);
-        let tolerance = 1e-15 * before.abs().max(free.abs());
-        // Where a Newton step from the free end may overshoot, the bracket catches it.
-        let mut d = before.clamp(low, high);
-        let mut force = force_free;
-        for _ in 0..MAX_ITERATIONS {
-            let (value, slope) = self.gradient(step, held, d);
-            force = value;
-            let g = d + compliance * value - free;
-            if g > 0.0 {
-                high = d;
-            } else {
-                low = d;
-            }
-            let mut next = d - g / (1.0 + compliance * slope);
-            if !(low..=high).contains(&next) {
-                next = 0.5 * (low + high);
-            }
-            let moved = (next - d).abs();
-            d = next;
-            if moved <= tolerance {
-                break;
-            }
-        }
-        // Through the linear bodies rather than the law: the two agree to rounding, and this one
-        // keeps `d1 = free - C F` exact, which is what the energy balance rests on.
-        if compliance > 0.0 { ((free - d) / compliance).max(0.0) } else { force }
-    }
-
-    /// `F` and `dF/dd1` for a sample that ends at compression `d1`; `held` is the potential at its start, J.
-    pub fn gradient(&self, step: &ContactStep, held: f64, d1: f64) -> (f64, f64) {
-        let ContactStep { before: d0, lambda, dt, .. } = *step;
-        let moved = d1 - d0;
-        let (elastic, slope) = if moved.abs() > 1e-4 * d0.abs().max(d1.abs()) {
-            // V(d1) = F(d1) d1 / (alpha + 1)
-            let end = self.elastic_force(d1);
-            let mean = (end * d1 / (self.exponent + 1.0) - held) / moved;
-            (mean, (end - mean) / moved)
-        } else {
-            // The difference quotient loses its digits: Taylor about the middle. The next term
-            // is of relative order (moved / d)^4.
-            let middle = 0.5 * (d0 + d1);
-            if middle <= 0.0 {
-                return (0.0, 0.0);
-            }
-            let (k, a) = (self.stiffness, self.exponent);
-            let curvature = a * (a - 1.0) * moved * moved / (24.0 * middle * middle);
-            let force = k * self.power(middle);
-            (force * (1.0 + curvature), 0.5 * a * force / middle)
-        };
-        let factor = 1.0 + lambda * moved / dt;
-        if factor <= 0.0 { (0.0, 0.0) } else { (elastic * factor, slope * factor + elastic * lambda / dt) }
     }
 }
 

@@ -1,21 +1,21 @@
-//! Modes that are mixtures of simpler ones: the matrix that takes anything given per simple mode to the mixed ones.
+//! Mixed modes: the matrix that takes anything given per even mode to the mixed ones.
 //!
-//! Mixed modes are made of simple modes of nearby frequency, so that each is a short run of coefficients over simple
-//! modes in order of frequency.
+//! Even modes are those of an evenly stretched body. A mixed mode is made of even modes of nearby frequency, so that it is a short
+//! run of coefficients over even modes in order of frequency.
 
 use serde::{Deserialize, Serialize};
 
 /// The run of coefficients of one mixed mode.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 struct Run {
-    /// First simple mode.
+    /// First even mode.
     first: u32,
     /// Where its coefficients begin and how many there are.
     start: u32,
     length: u32,
 }
 
-/// Simple modes before `kept` stay as they are; each further mode is a mixture.
+/// Even modes before `kept` stay as they are; each further mode is a mixture.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ModeMixture {
     kept: usize,
@@ -27,7 +27,7 @@ pub struct ModeMixture {
 pub const MAX_MIXED: usize = 8192;
 
 impl ModeMixture {
-    /// From rows of coefficients (dimensionless), each with the first simple mode it speaks of.
+    /// From rows of coefficients (dimensionless), each with the first even mode it speaks of.
     ///
     /// # Panics
     /// If there are more than [`MAX_MIXED`] modes.
@@ -41,7 +41,7 @@ impl ModeMixture {
         ModeMixture { kept, runs, coefs }
     }
 
-    /// Number of modes, kept and mixed; there are as many simple ones.
+    /// Number of modes, kept and mixed; there are as many even ones.
     pub fn modes(&self) -> usize {
         self.kept + self.runs.len()
     }
@@ -51,35 +51,35 @@ impl ModeMixture {
         self.kept
     }
 
-    /// The simple modes of a mixed one (counted from the first mixed) and its share of each.
+    /// The even modes of a mixed one (counted from the first mixed) and its share of each.
     pub fn parts(&self, mixed: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         let Run { first, start, length } = self.runs[mixed];
         let coefs = &self.coefs[start as usize..][..length as usize];
         coefs.iter().enumerate().map(move |(i, &coef)| (first as usize + i, f64::from(coef)))
     }
 
-    /// Takes values of the simple modes, in any unit, to the mixed ones.
+    /// Takes values of the even modes, in any unit, to the mixed ones.
     ///
     /// # Real-time
     /// No allocation; linear in the number of coefficients.
-    pub fn apply(&self, simple: &[f32], mixed: &mut [f32]) {
-        mixed[..self.kept].copy_from_slice(&simple[..self.kept]);
+    pub fn apply(&self, even: &[f32], mixed: &mut [f32]) {
+        mixed[..self.kept].copy_from_slice(&even[..self.kept]);
         for (out, run) in mixed[self.kept..].iter_mut().zip(&self.runs) {
             let coefs = &self.coefs[run.start as usize..][..run.length as usize];
-            *out = sum_of_products(coefs, &simple[run.first as usize..][..run.length as usize]);
+            *out = sum_of_products(coefs, &even[run.first as usize..][..run.length as usize]);
         }
     }
 
-    /// Takes several values of each simple mode, in any units, to the mixed ones at once.
+    /// Takes several values of each even mode, in any units, to the mixed ones at once.
     ///
     /// # Real-time
     /// As [`apply`](Self::apply).
-    pub fn apply_rows<const N: usize>(&self, simple: &[[f32; N]], mixed: &mut [[f32; N]]) {
-        mixed[..self.kept].copy_from_slice(&simple[..self.kept]);
+    pub fn apply_rows<const N: usize>(&self, even: &[[f32; N]], mixed: &mut [[f32; N]]) {
+        mixed[..self.kept].copy_from_slice(&even[..self.kept]);
         for (out, run) in mixed[self.kept..].iter_mut().zip(&self.runs) {
             let coefs = &self.coefs[run.start as usize..][..run.length as usize];
             *out = [0.0; N];
-            for (coef, row) in coefs.iter().zip(&simple[run.first as usize..]) {
+            for (coef, row) in coefs.iter().zip(&even[run.first as usize..]) {
                 for i in 0..N {
                     out[i] += coef * row[i];
                 }

@@ -24,8 +24,8 @@ use crate::surface::incident_field::{AUDIBLE, IncidentPressure};
 /// Sound below this is silence, Pa: 100 dB under full scale.
 const SILENT: f32 = 2e-4;
 
-/// A piece with less energy of motion than this that has been silent for so long falls asleep, J and s. What is only held
-/// bent does not keep it awake.
+/// A piece with less energy of motion than this that has been silent for so long falls asleep, J and s. A piece with static
+/// deflection but no motion may sleep.
 const STILL: f64 = 1e-10;
 const DOZE: f64 = 0.05;
 
@@ -122,7 +122,7 @@ impl Piece {
     /// metre, Pa, overwriting `out`, while sound from elsewhere arrives. At most to the end of the piece's block; how time
     /// is cut into calls does not change a sample.
     ///
-    /// What cannot be heard any more falls asleep, and what sleeps wakes when sound above [`AUDIBLE`] reaches it.
+    /// An inaudible piece falls asleep. A sleeping piece wakes when sound above [`AUDIBLE`] reaches it.
     ///
     /// # Real-time
     /// No allocation, no lock.
@@ -176,7 +176,7 @@ impl Piece {
         self.instrument.surface_mut().hear();
     }
 
-    /// Falls asleep if nothing has been heard of it for a while and next to nothing moves.
+    /// Falls asleep if it has been silent for a while and almost nothing moves.
     fn doze(&mut self) {
         let silent = std::mem::take(&mut self.loudest) < SILENT;
         let surface = self.instrument.surface();
@@ -197,7 +197,7 @@ impl Piece {
         &self.close
     }
 
-    /// What is done once a block: controls followed, silence made exact, faults caught.
+    /// Begins a block: follows controls, makes silence exact, catches values that are not finite.
     fn begin_block(&mut self) {
         self.glide();
         self.instrument.follow_controls();
@@ -210,7 +210,7 @@ impl Piece {
         self.asleep = self.instrument.surface().is_still();
     }
 
-    /// Whether nothing moves and nothing is about: there is nothing to hear until the next stroke.
+    /// Whether the piece is asleep: it is silent until a stroke or loud sound wakes it.
     pub fn is_asleep(&self) -> bool {
         self.asleep
     }

@@ -1,3 +1,4 @@
+use super::solver::force as solved_force;
 use super::*;
 
 const RATES: [f64; 4] = [44_100.0, 48_000.0, 96_000.0, 192_000.0];
@@ -15,7 +16,7 @@ fn bounce(law: &ContactLaw, mass: f64, speed: f64, dt: f64) -> Bounce {
     let (mut d, mut v, mut peak, mut time) = (0.0, speed, 0.0_f64, 0.0);
     for _ in 0..50_000_000 {
         let free = d + v * dt;
-        let force = law.force(&ContactStep { before: d, free, compliance, lambda, dt });
+        let force = solved_force(law, &ContactStep { before: d, free, compliance, lambda, dt });
         let next = free - compliance * force;
         v -= force * dt / mass;
         peak = peak.max(force);
@@ -126,7 +127,7 @@ fn work_done_is_the_change_of_the_potential() {
     let law = ContactLaw::new(&tips()[0].0, &Material::FILM, 1.0);
     for (before, free) in [(0.0, 1e-5), (1e-5, 1e-5 * (1.0 + 1e-6)), (1e-5, -2e-5), (-1e-5, 3e-5)] {
         let step = ContactStep { before, free, compliance: 1e-8, lambda: 0.0, dt: 1e-5 };
-        let force = law.force(&step);
+        let force = solved_force(&law, &step);
         let after = free - step.compliance * force;
         let work = force * (after - before);
         let stored = law.potential(after) - law.potential(before);
@@ -140,7 +141,7 @@ fn force_is_never_negative_and_vanishes_apart() {
     for before in [-1e-3, 0.0, 1e-4, 2e-3] {
         for free in [-5e-3, -1e-6, 0.0, 1e-3, 5e-3] {
             let step = ContactStep { before, free, compliance: 1e-8, lambda: 3.0, dt: 2e-5 };
-            let force = law.force(&step);
+            let force = solved_force(&law, &step);
             assert!(force >= 0.0);
             if before <= 0.0 && free <= 0.0 {
                 assert_eq!(force, 0.0);

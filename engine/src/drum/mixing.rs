@@ -2,7 +2,7 @@
 //!
 //! Model: with the modes of the even drum as coordinates (unit modal mass), the [tension field](super::tension_field) of each
 //! head adds `T int tau grad(i) grad(j) dA` to the stiffness. Where modes lie farther apart than that, each keeps its
-//! shape; where they crowd, the new modes are mixtures of many orders, each of which is struck and heard a little. All that is
+//! shape; where they crowd, the new modes are mixtures of many orders, each of which a stroke excites a little and which radiates a little. All that is
 //! known of the even modes goes through the same mixture: shapes, losses, pressures, so that the drum stays reciprocal and
 //! passive.
 //!
@@ -290,7 +290,7 @@ impl<'a> Problem<'a> {
     fn rotate(
         &self,
         block: std::ops::Range<usize>,
-        even: bool,
+        first_pass: bool,
         squares: &mut [f64],
         rows: &mut [(usize, Vec<f64>)],
     ) {
@@ -314,7 +314,7 @@ impl<'a> Problem<'a> {
             }
             stiffness[(i, i)] += self.mode(low + i).omega.powi(2);
         }
-        let matrix = if even { stiffness } else { basis.transpose() * stiffness * &basis };
+        let matrix = if first_pass { stiffness } else { basis.transpose() * stiffness * &basis };
         let solved = eigen::symmetric(matrix);
         let vectors = basis * &solved.vectors;
         for k in 0..size {

@@ -71,15 +71,15 @@ impl MufflerCoefs {
             Muffler::Gel { sigma, radius, angle } => {
                 let film = membrane.area_density() * membrane.area();
                 let radial = drum.heads.batter.membrane.radial_shapes(&[radius]);
-                let shape = |simple: usize| {
-                    let EvenMode { pair, member } = even[simple];
+                let shape = |k: usize| {
+                    let EvenMode { pair, member } = even[k];
                     let m = drum.modes[pair].m;
                     let (sin, cos) = (f64::from(m) * (angle - spec.evenness.axis(m, 0))).sin_cos();
                     let around = if member == Member::Cosine { cos } else { sin };
                     around * batter(pair, &|i| radial[i])
                 };
                 let square = |parts: &mut dyn Iterator<Item = (usize, f64)>| {
-                    parts.map(|(simple, share)| share * shape(simple)).sum::<f64>().powi(2)
+                    parts.map(|(part, share)| share * shape(part)).sum::<f64>().powi(2)
                 };
                 let mixed = of_mixed(mixed, square);
                 MufflerCoefs::Gel { sigma, radius, dashpot: 2.0 * film * sigma, radial, mixed }
@@ -92,14 +92,14 @@ impl MufflerCoefs {
                     .collect();
                 let radial = drum.heads.batter.membrane.radial_shapes(&places);
                 // All the way around, modes of different orders do not meet, and a pair's square is half of its largest.
-                let mean = |simple: usize| {
-                    let pair = even[simple].pair;
+                let mean = |k: usize| {
+                    let pair = even[k].pair;
                     let around = if drum.modes[pair].m == 0 { 1.0 } else { 0.5 };
                     let at = |at: usize| batter(pair, &|i| radial[i * RING_PLACES + at]).powi(2);
                     around * (0..RING_PLACES).map(at).sum::<f64>() / RING_PLACES as f64
                 };
                 let mixed =
-                    of_mixed(mixed, |parts| parts.map(|(simple, share)| share * share * mean(simple)).sum());
+                    of_mixed(mixed, |parts| parts.map(|(part, share)| share * share * mean(part)).sum());
                 let radius = 0.5 * (1.0 + inner);
                 MufflerCoefs::Ring { sigma, dashpot: 2.0 * film * sigma, radius, radial, mixed }
             }

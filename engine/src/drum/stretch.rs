@@ -158,16 +158,14 @@ fn alone(
     limit: f64,
 ) -> Vec<f64> {
     let even = mixing::even_modes(drum);
-    let square = |simple: usize| -> f64 {
-        let mode = &drum.modes[even[simple].pair];
+    let square = |k: usize| -> f64 {
+        let mode = &drum.modes[even[k].pair];
         let (first, heads) = drum.heads.batter.order(mode.m);
         let wave = |i: usize| drum.heads.batter.membrane.modes()[first + i].zero / spec.radius;
         (0..heads).map(|i| (wave(i) * mode.share(i, place)).powi(2)).sum()
     };
     let modes = (0..mixed.len()).take_while(|&k| mixed.at(k, place).omega < limit);
-    modes
-        .map(|k| mixed.mixture.parts(k).map(|(simple, share)| share * share * square(simple)).sum())
-        .collect()
+    modes.map(|k| mixed.mixture.parts(k).map(|(part, share)| share * share * square(part)).sum()).collect()
 }
 
 /// `A E h / (16 (1 - nu))`, J.

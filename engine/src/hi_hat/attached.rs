@@ -1,7 +1,7 @@
 //! The [`Pair`] as an attachment of the upper cymbal: the contacts at the rims are solved together with the strikers'.
 
-use crate::contact::ContactStep;
-use crate::contact::solver::{self, Compliances, ContactProblem};
+use crate::contact::force::ContactLanes;
+use crate::contact::solver::{self, Coupling};
 use crate::modal::simd::MAX_RUN;
 use crate::modal::{InputVector, Pressure, RECEIVERS};
 use crate::surface::attachment::{Attachment, Site};
@@ -22,24 +22,17 @@ impl Pair {
     /// Finds the forces of strikers and rims together.
     fn solve_with(&mut self, contacts: &mut Contacts, divisor: f64) {
         let n = contacts.present().len();
-        let mut compliances: Compliances<MOST> = [[0.0; MOST]; MOST];
-        let mut problems: [ContactProblem; MOST] = std::array::from_fn(|k| {
-            if let Some(&i) = contacts.present().get(k) {
-                let point = contacts.point(i);
-                ContactProblem { law: point.law, step: point.step, force: point.force }
-            } else if k < n + POINTS {
-                self.problem(k - n, self.stiffened(k - n, k - n, divisor))
-            } else {
-                let point = contacts.point(0);
-                let step =
-                    ContactStep { before: -1.0, free: -1.0, compliance: 0.0, lambda: 0.0, dt: point.step.dt };
-                ContactProblem { law: point.law, step, force: 0.0 }
-            }
-        });
+        let (mut lanes, mut compliances) = (ContactLanes::<MOST>::APART, [[0.0; MOST]; MOST]);
+        for (k, &i) in contacts.present().iter().enumerate() {
+            let point = contacts.point(i);
+            lanes.set(k, &point.law, &point.step, point.force);
+        }
+        (0..POINTS).for_each(|j| self.set_lane(&mut lanes, n + j, j));
         for (a, &i) in contacts.present().iter().enumerate() {
             for (b, &j) in contacts.present().iter().enumerate() {
                 compliances[a][b] = contacts.stiffened(i, j);
             }
+            compliances[a][a] = contacts.point(i).step.compliance;
             for j in 0..POINTS {
                 let mutual = self.stiffened_to(i, contacts.coupling(i), j, divisor);
                 (compliances[a][n + j], compliances[n + j][a]) = (mutual, mutual);
@@ -50,15 +43,12 @@ impl Pair {
                 compliances[n + i][n + j] = self.stiffened(i, j, divisor);
             }
         }
-        self.kernels.vectorized(
-            #[inline(always)]
-            || solver::solve(&mut problems[..n + POINTS], &compliances),
-        );
-        for (k, problem) in problems[..n].iter().enumerate() {
+        solver::solve(self.kernels, &mut lanes, &Coupling { compliances: &compliances, stiffening: None });
+        for k in 0..n {
             let i = contacts.present()[k];
-            contacts.point_mut(i).force = problem.force;
+            contacts.point_mut(i).force = lanes.force[k];
         }
-        self.rims.force = std::array::from_fn(|j| problems[n + j].force);
+        self.rims.force.copy_from_slice(&lanes.force[n..n + POINTS]);
     }
 }
 
@@ -117,7 +107,8 @@ impl Attachment for Pair {
             let step = &contacts.point(i).step;
             step.free.max(step.before) < -APART
         };
-        if contacts.present().iter().all(apart) && self.solve_alone(free.divisor) {
+        if contacts.present().iter().all(apart) {
+            self.solve_alone(free.divisor);
             for k in 0..contacts.present().len() {
                 let i = contacts.present()[k];
                 contacts.point_mut(i).force = 0.0;

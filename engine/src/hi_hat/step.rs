@@ -5,8 +5,8 @@
 //! with the upper cymbal's nonlinear force is positive in the direction in which that contact presses.
 
 use crate::contact::ContactStep;
-use crate::contact::solver::uniform::UniformContacts;
-use crate::contact::solver::{ContactProblem, product};
+use crate::contact::force::ContactLanes;
+use crate::contact::solver::{self, Coupling, Stiffening, product};
 use crate::fitted;
 use crate::modal::simd::MAX_RUN;
 use crate::modal::simd::rim_harmonics::Amplitudes;
@@ -108,20 +108,13 @@ impl Pair {
         self.engaged && (0..POINTS).any(|j| self.rims.free[j].max(self.rims.compression[j]) > -MARGIN)
     }
 
-    /// Finds the forces at the rims if nothing else touches, `divisor` being the dimensionless `2 + G`; whether
-    /// that succeeded.
-    pub(super) fn solve_alone(&mut self, divisor: f64) -> bool {
-        let rims = UniformContacts {
-            law: &self.rims.law,
-            yields: &self.dynamics.whole,
-            coupling: &self.dynamics.coupling,
-            divisor,
-            before: &self.rims.compression,
-            free: &self.rims.free,
-            lambda: &self.rims.lambda,
-            dt: self.dt,
-        };
-        rims.solve(&self.kernels, &mut self.rims.force)
+    /// Finds the forces at the rims if nothing else touches, `divisor` being the dimensionless `2 + G`.
+    pub(super) fn solve_alone(&mut self, divisor: f64) {
+        let mut lanes = ContactLanes::<POINTS>::APART;
+        (0..POINTS).for_each(|j| self.set_lane(&mut lanes, j, j));
+        let stiffening = Some(Stiffening { coupling: &self.dynamics.coupling, divisor });
+        solver::solve(self.kernels, &mut lanes, &Coupling { compliances: &self.dynamics.whole, stiffening });
+        self.rims.force = lanes.force;
     }
 
     /// Compliance between two rim points, m/N; `divisor` is that of the nonlinear force.
@@ -134,16 +127,16 @@ impl Pair {
         self.strikers[point].whole[j] - coupling * self.dynamics.coupling[j] / divisor
     }
 
-    /// A place's contact of a compliance in m/N, to be solved.
-    pub(super) fn problem(&self, j: usize, compliance: f64) -> ContactProblem {
+    /// Puts the contact of place `j` into a lane, to be solved.
+    pub(super) fn set_lane<const N: usize>(&self, lanes: &mut ContactLanes<N>, lane: usize, j: usize) {
         let step = ContactStep {
             before: self.rims.compression[j],
             free: self.rims.free[j],
-            compliance,
+            compliance: self.dynamics.whole[j][j],
             lambda: self.rims.lambda[j],
             dt: self.dt,
         };
-        ContactProblem { law: self.rims.law, step, force: self.rims.force[j] }
+        lanes.set(lane, &self.rims.law, &step, self.rims.force[j]);
     }
 
     /// Applies the forces at the rims. Returns their force on the nonlinear variable, and the pressure proportional to
@@ -169,14 +162,16 @@ impl Pair {
         let up: Amplitudes = down.map(|pair| pair.map(|x| -x));
         top.push_folded(&self.folded[0], &up);
         self.lower.modal.push_folded(&self.folded[1], &down);
-        let heard = |forces: &Amplitudes, direct: &Amplitudes| -> f32 {
+        let pressure = |forces: &Amplitudes, direct: &Amplitudes| -> f32 {
             forces.iter().flatten().zip(direct.iter().flatten()).map(|(force, direct)| force * direct).sum()
         };
         let pressed = dynamic.iter().zip(&self.dynamics.coupling).map(|(force, u)| force * u).sum();
         let [above, below] = &self.dynamics.direct;
         (
             pressed,
-            std::array::from_fn(|receiver| heard(&up, &above[receiver]) + heard(&down, &below[receiver])),
+            std::array::from_fn(|receiver| {
+                pressure(&up, &above[receiver]) + pressure(&down, &below[receiver])
+            }),
         )
     }
 
@@ -221,10 +216,10 @@ impl Pair {
             self.rims.age += 1;
         }
         if !self.lower.modal.is_still() {
-            let mut heard = [[0.0; MAX_RUN]; RECEIVERS];
-            self.lower.modal.ring(0, &self.lower.receiver, heard.each_mut().map(|row| &mut row[..samples]));
-            for (out, heard) in out.into_iter().zip(&heard) {
-                out.iter_mut().zip(heard).for_each(|(sum, x)| *sum += x);
+            let mut lower = [[0.0; MAX_RUN]; RECEIVERS];
+            self.lower.modal.ring(0, &self.lower.receiver, lower.each_mut().map(|row| &mut row[..samples]));
+            for (out, lower) in out.into_iter().zip(&lower) {
+                out.iter_mut().zip(lower).for_each(|(sum, x)| *sum += x);
             }
         }
     }

@@ -165,7 +165,7 @@ impl Mixer {
         self.master.jump();
     }
 
-    /// Whether nothing of a pair is heard, whatever it hears.
+    /// Whether a pair is silent in the mix, whatever it receives.
     pub(super) fn is_shut(&self, pair: usize) -> bool {
         self.strips[SLOTS + pair].gain.is_shut()
     }

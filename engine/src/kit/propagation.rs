@@ -37,7 +37,7 @@ pub(super) struct Propagation {
     /// Sound of each piece: near field, far field, and to other pieces.
     lines: [[DelayLine; RECEIVERS]; SLOTS],
     /// From the other pieces: `[receiver][source]`.
-    heard: Box<[[DelayTap; SLOTS]; SLOTS]>,
+    between: Box<[[DelayTap; SLOTS]; SLOTS]>,
     /// To the close microphone.
     close: [DelayTap; SLOTS],
     /// Distance from each piece at which its sound has no delay in the mix, m.
@@ -62,7 +62,7 @@ impl Propagation {
             layout: *layout,
             room: *room,
             lines: std::array::from_fn(|_| std::array::from_fn(|_| DelayLine::new(sample_rate))),
-            heard: Box::new([[still; SLOTS]; SLOTS]),
+            between: Box::new([[still; SLOTS]; SLOTS]),
             close: [DelayTap::new(0.0, 1.0, sample_rate); SLOTS],
             time_zero: [CLOSE; SLOTS],
             pairs: Box::new([[[moving; SLOTS]; 2]; PAIRS]),
@@ -84,7 +84,7 @@ impl Propagation {
         for (to, from) in Slot::ALL.into_iter().flat_map(|to| Slot::ALL.map(|from| (to, from))) {
             if let Some(path) = self.layout.path_length(from, to).filter(|_| from != to) {
                 let tap = DelayTap::to_piece(path, self.sample_rate);
-                self.heard[to.index()][from.index()] = tap;
+                self.between[to.index()][from.index()] = tap;
                 // Only drums have a radius, and only they receive.
                 if self.layout.pieces[to.index()].is_some_and(|piece| piece.radius > 0.0) {
                     shortest = Some(shortest.map_or(tap.reach(), |least: usize| least.min(tap.reach())));
@@ -201,7 +201,7 @@ impl Propagation {
             if !std::mem::replace(&mut job.receives, true) {
                 job.incident = SILENT_RUN;
             }
-            line.hear(clock, &self.heard[receiver][from], &mut job.incident[..job.run]);
+            line.hear(clock, &self.between[receiver][from], &mut job.incident[..job.run]);
         }
         if job.receives {
             job.incident.iter_mut().zip(amount).for_each(|(pressure, amount)| *pressure *= amount);
@@ -237,29 +237,29 @@ impl Propagation {
         levels: &GainRuns,
         mixer: &Mixer,
     ) -> PairRun {
-        let mut heard = [SILENT_RUN; 2];
+        let mut sides = [SILENT_RUN; 2];
         if mixer.is_shut(pair) {
             // Cross-fades have ended when the pair is on again.
             self.pairs[pair].iter_mut().flatten().for_each(MovingDelayTap::jump);
-            return heard;
+            return sides;
         }
         for (piece, lines) in self.lines.iter().enumerate() {
             if lines[1].is_silent() {
                 continue;
             }
-            for (side, heard) in heard.iter_mut().enumerate() {
+            for (side, total) in sides.iter_mut().enumerate() {
                 let mut sound = SILENT_RUN;
                 let sound = &mut sound[..samples];
                 self.pairs[pair][side][piece].hear(&lines[1], clock, sound);
                 if pair == 1 {
                     self.images[side][piece].iter_mut().for_each(|tap| tap.hear(&lines[1], clock, sound));
                 }
-                for ((sum, sound), level) in heard.iter_mut().zip(sound).zip(&levels[piece]) {
+                for ((sum, sound), level) in total.iter_mut().zip(sound).zip(&levels[piece]) {
                     *sum += level * *sound;
                 }
             }
         }
-        heard
+        sides
     }
 
     /// Adds the room's tail of `sent`, the far field at a metre, Pa.

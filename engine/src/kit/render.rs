@@ -102,11 +102,11 @@ impl Kit {
             mixer.add(slot, [sound, sound], &mut bus, outputs.next());
         }
         for pair in 0..PAIRS {
-            let mut heard = air.pair(pair, *clock, samples, &levels, mixer);
+            let mut sides = air.pair(pair, *clock, samples, &levels, mixer);
             if pair + 1 == PAIRS && !mixer.is_shut(pair) {
-                air.tail(&sent[..samples], &mut heard);
+                air.tail(&sent[..samples], &mut sides);
             }
-            let [left, right] = heard.each_ref().map(|side| &side[..samples]);
+            let [left, right] = sides.each_ref().map(|side| &side[..samples]);
             mixer.add(SLOTS + pair, [left, right], &mut bus, outputs.next());
         }
         mixer.finish(&mut bus);

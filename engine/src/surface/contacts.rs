@@ -7,8 +7,8 @@
 //! Strikers come first; exciters of attachments follow, with one point each.
 
 use crate::contact::ContactStep;
-use crate::contact::solver::hertz::Hertz;
-use crate::contact::solver::{self, Compliances, ContactProblem};
+use crate::contact::force::ContactLanes;
+use crate::contact::solver::{self, Compliances, Coupling};
 use crate::modal::simd::Kernels;
 
 use super::body::{FreeStep, StruckBody};
@@ -239,61 +239,32 @@ impl Contacts {
     /// # Real-time
     /// See [`solver::solve`].
     pub fn solve(&mut self, kernels: Kernels) {
-        let present = self.present();
-        let hertz = present.iter().all(|&i| Hertz::<MAX_POINTS>::knows(&self.points[i].law));
-        let solved = match present.len() {
-            2..=8 if hertz => self.solve_hertz::<8>(kernels),
-            9..=MAX_POINTS if hertz => self.solve_hertz::<MAX_POINTS>(kernels),
-            _ => false,
-        };
-        if !solved {
-            self.solve_any();
+        match self.count {
+            0 => {}
+            1 => self.solve_in::<1>(kernels),
+            2 => self.solve_in::<2>(kernels),
+            3..=4 => self.solve_in::<4>(kernels),
+            5..=8 => self.solve_in::<8>(kernels),
+            _ => self.solve_in::<MAX_POINTS>(kernels),
         }
     }
 
-    /// [`solve`](Self::solve) of at most `N` contacts of Hertz's law; false if they were not found.
-    fn solve_hertz<const N: usize>(&mut self, kernels: Kernels) -> bool {
+    /// [`solve`](Self::solve) of at most `N` points.
+    fn solve_in<const N: usize>(&mut self, kernels: Kernels) {
+        let (mut lanes, mut compliances) = (ContactLanes::<N>::APART, [[0.0; N]; N]);
         let present = &self.present[..self.count];
-        let mut hertz = Hertz::<N>::APART;
         for (n, &i) in present.iter().enumerate() {
             let point = &self.points[i];
             // The preloads of the others are part of equilibrium: what they would push is put back.
             let mut free = point.step.free - self.stiffened[i][i] * point.preload;
-            for (compliance, &j) in hertz.compliance[n].iter_mut().zip(present) {
+            for (compliance, &j) in compliances[n].iter_mut().zip(present) {
                 *compliance = self.stiffened[i][j];
                 free += *compliance * self.points[j].preload;
             }
-            hertz.compliance[n][n] = point.step.compliance;
-            (hertz.stiffness[n], hertz.before[n]) = (point.law.stiffness, point.step.before);
-            (hertz.free[n], hertz.loss[n]) = (free, point.step.lambda / point.step.dt);
-            hertz.force[n] = point.force;
+            compliances[n][n] = point.step.compliance;
+            lanes.set(n, &point.law, &ContactStep { free, ..point.step }, point.force);
         }
-        let solved = hertz.solve(kernels);
-        if solved {
-            present.iter().zip(hertz.force).for_each(|(&i, force)| self.points[i].force = force);
-        }
-        solved
-    }
-
-    /// [`solve`](Self::solve) of contacts of any law.
-    fn solve_any(&mut self) {
-        let present = &self.present[..self.count];
-        let absent = ContactProblem { law: self.points[0].law, step: self.points[0].step, force: 0.0 };
-        let (mut problems, mut compliances) = ([absent; MAX_POINTS], [[0.0; MAX_POINTS]; MAX_POINTS]);
-        for (n, &i) in present.iter().enumerate() {
-            let point = &self.points[i];
-            // The preloads of the others are part of equilibrium: what they would push is put back.
-            let mut free = point.step.free;
-            for (k, &j) in present.iter().enumerate().filter(|&(k, _)| k != n) {
-                compliances[n][k] = self.stiffened[i][j];
-                free += self.stiffened[i][j] * self.points[j].preload;
-            }
-            let step = ContactStep { free, ..point.step };
-            problems[n] = ContactProblem { law: point.law, step, force: point.force };
-        }
-        solver::solve(&mut problems[..present.len()], &compliances);
-        for (problem, &i) in problems.iter().zip(present) {
-            self.points[i].force = problem.force;
-        }
+        solver::solve(kernels, &mut lanes, &Coupling { compliances: &compliances, stiffening: None });
+        present.iter().zip(lanes.force).for_each(|(&i, force)| self.points[i].force = force);
     }
 }

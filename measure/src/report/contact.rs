@@ -5,7 +5,7 @@ use std::ops::Range;
 use crate::spectra::PowerSpectrum;
 use crate::{RATES, build, lossless_piece, names, reference, render, spec, stroke, total_energy};
 use anyhow::Result;
-use overhear_engine::contact::{ContactLaw, ContactStep, Material, Tip};
+use overhear_engine::contact::{ContactLaw, ContactStep, Material, Tip, solver};
 use overhear_engine::kit_spec::PieceSpec;
 use overhear_engine::piece::{BuildOptions, Piece};
 use overhear_engine::snapshot::StrikeSnapshot;
@@ -86,7 +86,7 @@ fn bounce(law: &ContactLaw, mass: f64, speed: f64, dt: f64) -> Bounce {
     let mut bounce = Bounce { time: 0.0, peak: 0.0, away: 0.0 };
     while d >= 0.0 {
         let free = d + v * dt;
-        let force = law.force(&ContactStep { before: d, free, compliance, lambda, dt });
+        let force = solver::force(law, &ContactStep { before: d, free, compliance, lambda, dt });
         let next = free - compliance * force;
         v -= force * dt / mass;
         bounce.peak = bounce.peak.max(force);

@@ -17,7 +17,7 @@ const PRIVATE: [(&str, &str); 68] = [
     ("Toucher", "Exciter"),
     ("toucher", "exciter"),
     ("TouchPoint", "ContactPoint"),
-    ("Meeting", "ContactProblem"),
+    ("Meeting", "ContactLanes"),
     ("Port", "InputVector"),
     ("Beyond", "NonlinearForce"),
     ("beyond_mut", "nonlinear_force_mut"),

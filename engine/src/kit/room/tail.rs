@@ -96,8 +96,9 @@ impl Tail {
         });
         // Neighbours among the long lines do not go on as neighbours.
         let short = std::array::from_fn(|i| short[i * 7 % LINES]);
-        let heard = LINES as f64 / 2.0;
-        let square = 16.0 * PI / (0.161 * room.volume()) * (6.0 * std::f64::consts::LN_10) * round / heard;
+        let lines_a_side = LINES as f64 / 2.0;
+        let square =
+            16.0 * PI / (0.161 * room.volume()) * (6.0 * std::f64::consts::LN_10) * round / lines_a_side;
         let scatter: [usize; SCATTERS] = SCATTER.map(|way| prime(&mut taken, unit * way));
         let lead = scatter.iter().sum::<usize>();
         let feed = |(i, delay): (usize, usize)| {
@@ -129,7 +130,7 @@ impl Tail {
         self.silent
     }
 
-    /// Adds the tail of a sound of up to [`BLOCK`] samples to what is heard left and right.
+    /// Adds the tail of a sound of up to [`BLOCK`] samples to the left and right output.
     pub(in crate::kit) fn render(&mut self, sound: &[f32], [left, right]: [&mut [f32]; 2]) {
         if self.silent && sound.iter().all(|&x| x == 0.0) {
             return;
@@ -242,8 +243,8 @@ impl Entry {
         }
         self.history[self.at..self.at + sound.len()].copy_from_slice(sound);
         for (run, (delay, gain)) in runs.iter_mut().zip(self.taps) {
-            let heard = &self.history[self.at - delay..];
-            run.iter_mut().zip(&heard[..sound.len()]).for_each(|(x, heard)| *x += gain * heard);
+            let delayed = &self.history[self.at - delay..];
+            run.iter_mut().zip(&delayed[..sound.len()]).for_each(|(x, delayed)| *x += gain * delayed);
         }
         self.at += sound.len();
     }
@@ -286,12 +287,12 @@ impl Lines {
     }
 
     /// Adds what a line was given so many samples ago, not fewer than are asked for.
-    fn listen(&self, i: usize, delay: usize, gain: f32, heard: &mut [f32]) {
+    fn listen(&self, i: usize, delay: usize, gain: f32, out: &mut [f32]) {
         let line = &self.lines[i];
         let at = if self.at[i] < delay { self.at[i] + line.len() - delay } else { self.at[i] - delay };
-        let (before, after) = heard.split_at_mut(heard.len().min(line.len() - at));
-        for (heard, line) in [(before, &line[at..]), (after, &line[..])] {
-            heard.iter_mut().zip(line).for_each(|(heard, x)| *heard += gain * x);
+        let (before, after) = out.split_at_mut(out.len().min(line.len() - at));
+        for (out, line) in [(before, &line[at..]), (after, &line[..])] {
+            out.iter_mut().zip(line).for_each(|(out, x)| *out += gain * x);
         }
     }
 

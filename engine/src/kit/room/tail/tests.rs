@@ -8,18 +8,18 @@ const RATE: f64 = 44_100.0;
 /// What both sides hear of an impulse.
 fn impulse(room: &RoomSpec, rate: f64, seconds: f64) -> [Vec<f64>; 2] {
     let mut tail = Tail::new(room, rate);
-    let mut heard = [Vec::new(), Vec::new()];
-    while (heard[0].len() as f64) < seconds * rate {
+    let mut response = [Vec::new(), Vec::new()];
+    while (response[0].len() as f64) < seconds * rate {
         let mut sound = SILENT_RUN;
-        sound[0] = f32::from(u8::from(heard[0].is_empty()));
+        sound[0] = f32::from(u8::from(response[0].is_empty()));
         let mut sides = [SILENT_RUN; 2];
         let [left, right] = &mut sides;
         tail.render(&sound, [left, right]);
-        for (heard, side) in heard.iter_mut().zip(sides) {
-            heard.extend(side.map(f64::from));
+        for (response, side) in response.iter_mut().zip(sides) {
+            response.extend(side.map(f64::from));
         }
     }
-    heard
+    response
 }
 
 /// An octave of a sound: two band passes of second order on end, whose middle passes as it is.
@@ -65,17 +65,17 @@ fn the_tail_is_as_long_and_as_loud_as_sabines_room_in_every_octave() {
     for (room, rate) in
         [(RoomSpec::STANDARD, RATE), (RoomSpec::STANDARD, 96_000.0), (long, RATE), (large, RATE)]
     {
-        let heard = impulse(&room, rate, 3.0 * room.time + 0.3);
+        let response = impulse(&room, rate, 3.0 * room.time + 0.3);
         let unit: Vec<f64> = std::iter::once(1.0).chain(std::iter::repeat_n(0.0, 8_192)).collect();
         for (hz, time) in OCTAVE_HZ.into_iter().zip(room.times()) {
             let sabine = 16.0 * PI / (0.161 * room.volume() / time) * energy(&octave(&unit, hz, rate));
-            let sides = heard.each_ref().map(|side| octave(side, hz, rate));
+            let sides = response.each_ref().map(|side| octave(side, hz, rate));
             let both = |measure: &dyn Fn(&[f64]) -> f64| 0.5 * (measure(&sides[0]) + measure(&sides[1]));
             let whole = 10.0 * (both(&energy) / sabine).log10();
             // From six mean free times on, as if all of it had come out at once.
             let late = 6.0 * room.mean_way() / SPEED_OF_SOUND;
             let expected = sabine * 10.0_f64.powf(-6.0 * late / time);
-            let end = heard[0].len() as f64 / rate - 1e-3;
+            let end = response[0].len() as f64 / rate - 1e-3;
             let late = both(&|side| energy(between(side, late..end, rate)));
             let late = 10.0 * (late / expected).log10();
             let measured = both(&|side| time_of(side, rate));
@@ -136,9 +136,9 @@ fn fine_spectrum(sound: &[f64], hz: f64) -> f64 {
 
 #[test]
 fn the_tail_is_no_comb_but_as_dense_as_noise_in_every_third_octave() {
-    let heard = impulse(&RoomSpec::STANDARD, RATE, 0.6);
+    let response = impulse(&RoomSpec::STANDARD, RATE, 0.6);
     let (mut draw, mut noise) = (1_u32, Vec::new());
-    for i in 0..heard[0].len() {
+    for i in 0..response[0].len() {
         draw = draw.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         let fallen = 10.0_f64.powf(-3.0 * i as f64 / RATE / RoomSpec::STANDARD.time);
         noise.push(fallen * (f64::from(draw >> 8) / 8_388_608.0 - 1.0));
@@ -150,7 +150,7 @@ fn the_tail_is_no_comb_but_as_dense_as_noise_in_every_third_octave() {
     let mut worst = 0.0_f64;
     for third in -5..=11 {
         let hz = 1_000.0 * (f64::from(third) / 3.0).exp2();
-        let tail = 0.5 * (spread(&heard[0], hz) + spread(&heard[1], hz));
+        let tail = 0.5 * (spread(&response[0], hz) + spread(&response[1], hz));
         println!("{hz:6.0} Hz: {tail:.2} dB, noise {:.2} dB", spread(&noise, hz));
         worst = worst.max(tail);
     }
@@ -217,20 +217,20 @@ fn the_matrix_keeps_energy() {
 #[test]
 fn the_tail_is_the_same_however_time_is_cut_and_ends_in_exact_silence() {
     let cuts = [[32_usize; 4], [1, 31, 7, 25], [3, 5, 32, 24]];
-    let heard = cuts.map(|cuts| {
+    let response = cuts.map(|cuts| {
         let mut tail = Tail::new(&RoomSpec::STANDARD, RATE);
-        let (mut heard, mut cut) = (Vec::new(), cuts.into_iter().cycle());
-        while heard.len() < 40_000 {
+        let (mut response, mut cut) = (Vec::new(), cuts.into_iter().cycle());
+        while response.len() < 40_000 {
             let samples = cut.next().unwrap();
-            let at = heard.len();
+            let at = response.len();
             let sound: Vec<f32> =
                 (at..at + samples).map(|i| if i < 500 { (i as f32).sin() } else { 0.0 }).collect();
             let mut sides = [SILENT_RUN; 2];
             let [left, right] = &mut sides;
             tail.render(&sound, [&mut left[..samples], &mut right[..samples]]);
-            heard.extend_from_slice(&sides[0][..samples]);
+            response.extend_from_slice(&sides[0][..samples]);
         }
-        heard.truncate(40_000);
+        response.truncate(40_000);
         // Silent some time later, and then exactly.
         let mut blocks = 0;
         while !tail.is_silent() {
@@ -240,8 +240,8 @@ fn the_tail_is_the_same_however_time_is_cut_and_ends_in_exact_silence() {
             assert!(blocks < 2_000);
         }
         assert!(tail.long.are_quiet(f32::MIN_POSITIVE) && tail.weakening.last == [0.0; LINES]);
-        heard
+        response
     });
-    let bits = heard.map(|heard| heard.into_iter().map(f32::to_bits).collect::<Vec<_>>());
+    let bits = response.map(|response| response.into_iter().map(f32::to_bits).collect::<Vec<_>>());
     assert!(bits[0] == bits[1] && bits[0] == bits[2]);
 }
