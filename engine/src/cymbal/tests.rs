@@ -36,7 +36,7 @@ fn choked(name: &str, every: u32) -> (Vec<f32>, Vec<f64>) {
 
 #[test]
 fn a_hand_that_the_modes_follow_in_turns_sounds_as_one_that_they_follow_in_every_block() {
-    for name in ["crash", "splash"] {
+    for name in ["crash", "ride", "splash"] {
         let [(oracle, kept), (sound, energy)] = [1, Grip::EVERY].map(|every| choked(name, every));
         // Level of every 20 ms, down to 60 dB under the loudest.
         let levels = |sound: &[f32]| -> Vec<f64> {
@@ -55,8 +55,8 @@ fn a_hand_that_the_modes_follow_in_turns_sounds_as_one_that_they_follow_in_every
             late(&energy),
             late(&kept)
         );
-        assert!(off < 0.01, "{name}: {off}");
-        assert!(apart < 0.5, "{name}: {apart} dB");
+        assert!(off < 0.03, "{name}: {off}");
+        assert!(apart < 0.25, "{name}: {apart} dB");
         // Nothing comes from a hand: displacement and velocity stay what they are when the modes follow. What the sum of all
         // rises is above zero is the exchange of the nonlinear force, under the oracle as well.
         let rises = |energy: &[f64]| -> f64 {
