@@ -27,6 +27,7 @@ pub mod inaudible_modes;
 pub mod rim_harmonics;
 pub mod coupled_modes;
 mod receiver_weights;
+mod retuning;
 mod input_vector;
 mod row;
 pub mod simd;
@@ -34,31 +35,12 @@ pub mod simd;
 use simd::Kernels;
 use simd::ring::Drive;
 
+pub use coefs::Mode;
 use coefs::{Constants, ModalCoefs, TOGETHER};
 pub use input_vector::InputVector;
 pub use receiver_weights::{Pressure, ReceiverWeights};
 pub use row::{Row, zero_row};
 pub use simd::{MAX_DRIVES, RECEIVERS};
-
-/// Constants of a mode in its equation of motion.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Mode {
-    /// Undamped angular frequency, rad/s, above 0.
-    pub omega: f64,
-    /// Amplitude decay rate, 1/s, 0 to below `omega`.
-    pub sigma: f64,
-    /// Modal mass, kg, above 0.
-    pub mass: f64,
-}
-
-impl Mode {
-    /// Damped angular frequency, rad/s.
-    #[inline(always)]
-    pub fn omega_d(&self) -> f64 {
-        // A mode damped past critical is kept oscillating, barely; no body here comes near.
-        (self.omega * self.omega - self.sigma * self.sigma).max(1e-6 * self.omega * self.omega).sqrt()
-    }
-}
 
 /// `z` of every mode.
 struct ModalState {
@@ -108,16 +90,9 @@ impl ModalBody {
         debug_assert!(modes.iter().all(|mode| mode.omega > 0.0 && mode.mass > 0.0 && mode.sigma >= 0.0));
         let n = modes.len();
         let state = ModalState { re: zero_row(n), im: zero_row(n) };
-        let mut body = ModalBody {
-            modes,
-            dt: 1.0 / sample_rate,
-            kernels: Kernels::detect(),
-            coefs: ModalCoefs::new(n),
-            state,
-            retunings: 0,
-        };
-        body.update_coefs();
-        body
+        let dt = 1.0 / sample_rate;
+        let coefs = ModalCoefs::new(&modes, dt);
+        ModalBody { modes, dt, kernels: Kernels::detect(), coefs, state, retunings: 0 }
     }
 
     /// Chooses the kernels, for comparing them; [`new`](Self::new) takes the best the machine has.

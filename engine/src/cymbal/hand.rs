@@ -89,7 +89,7 @@ impl Grip {
         due
     }
 
-    /// The present firmness, which the modes follow now.
+    /// The present firmness, 0 to 1, which the modes follow now.
     pub fn follow(&mut self) -> f64 {
         self.followed = self.firmness.value();
         self.followed

@@ -6,10 +6,29 @@
 //! instruction sets give the same bits.
 
 use super::row::{Row, zero_row};
-use super::{ModalBody, Mode};
 
 /// Modes computed together: some vectors of `f64`, and whole lanes of the rows.
 pub(super) const TOGETHER: usize = super::simd::LANES;
+
+/// Constants of a mode in its equation of motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mode {
+    /// Undamped angular frequency, rad/s, above 0.
+    pub omega: f64,
+    /// Amplitude decay rate, 1/s, 0 to below `omega`.
+    pub sigma: f64,
+    /// Modal mass, kg, above 0.
+    pub mass: f64,
+}
+
+impl Mode {
+    /// Damped angular frequency, rad/s.
+    #[inline(always)]
+    pub fn omega_d(&self) -> f64 {
+        // A mode damped past critical is kept oscillating, barely; no body here comes near.
+        (self.omega * self.omega - self.sigma * self.sigma).max(1e-6 * self.omega * self.omega).sqrt()
+    }
+}
 
 /// Coefficients of the loop, `[mode]` in every row.
 pub(super) struct ModalCoefs {
@@ -22,23 +41,23 @@ pub(super) struct ModalCoefs {
 }
 
 impl ModalCoefs {
-    /// Of modes that nothing moves. Allocates.
-    pub(super) fn new(modes: usize) -> ModalCoefs {
-        let row = || zero_row(modes);
-        ModalCoefs { turn_re: row(), turn_im: row(), hold_re: row(), hold_im: row() }
+    /// Of modes at a time step of `dt`, s. Allocates.
+    pub(super) fn new(modes: &[Mode], dt: f64) -> ModalCoefs {
+        let row = || zero_row(modes.len());
+        let mut coefs = ModalCoefs { turn_re: row(), turn_im: row(), hold_re: row(), hold_im: row() };
+        modes.chunks(1).enumerate().for_each(|(k, mode)| coefs.update(k, 1, &Constants::<1>::of(mode), dt));
+        coefs
     }
 
+    /// Computes those of some modes, from `first` on, anew.
     #[inline(always)]
-    fn write<const N: usize>(&mut self, first: usize, modes: usize, new: &Columns<N>) {
+    pub(super) fn update<const N: usize>(&mut self, first: usize, modes: usize, new: &Constants<N>, dt: f64) {
         let rows = [&mut self.turn_re, &mut self.turn_im, &mut self.hold_re, &mut self.hold_im];
-        for (row, new) in rows.into_iter().zip(&new.0) {
+        for (row, new) in rows.into_iter().zip(&new.columns(dt)) {
             row[first..first + modes].copy_from_slice(&new[..modes]);
         }
     }
 }
-
-/// The rows of [`ModalCoefs`] of some modes.
-struct Columns<const N: usize>([[f32; N]; 4]);
 
 /// The constants of some modes, each in a row of its own.
 #[derive(Clone, Copy)]
@@ -65,82 +84,17 @@ impl<const N: usize> Constants<N> {
         Mode { omega: self.omega[i], sigma: self.sigma[i], mass: self.mass[i] }
     }
 
+    /// Their coefficients, in the order of the rows of [`ModalCoefs`].
     #[inline(always)]
-    fn columns(&self, dt: f64) -> Columns<N> {
-        let mut all = Columns([[0.0; N]; 4]);
+    fn columns(&self, dt: f64) -> [[f32; N]; 4] {
+        let mut all = [[0.0; N]; 4];
         for i in 0..N {
             let coefs = coefs(&self.mode(i), dt);
-            for (row, new) in all.0.iter_mut().zip(coefs) {
+            for (row, new) in all.iter_mut().zip(coefs) {
                 row[i] = new;
             }
         }
         all
-    }
-}
-
-impl ModalBody {
-    /// Changes all modes while they move: `mode(k, old)` gives the new one. As [`set_mode`](Self::set_mode) for each, to the
-    /// bit.
-    ///
-    /// # Real-time
-    /// No allocation; some 10 ns a mode.
-    pub fn set_modes(&mut self, mode: impl Fn(usize, &Mode) -> Mode) {
-        let kernels = self.kernels;
-        let mut retuned = false;
-        for first in (0..self.modes.len()).step_by(TOGETHER) {
-            let modes = TOGETHER.min(self.modes.len() - first);
-            let old = Constants::<TOGETHER>::of(&self.modes[first..first + modes]);
-            for k in first..first + modes {
-                let new = mode(k, &self.modes[k]);
-                retuned |= new.omega != self.modes[k].omega || new.mass != self.modes[k].mass;
-                self.modes[k] = new;
-            }
-            kernels.vectorized(
-                #[inline(always)]
-                || self.change(first, modes, &old),
-            );
-        }
-        self.retunings += u64::from(retuned);
-    }
-
-    /// Changes mode `k` while it moves; displacement and velocity stay what they are.
-    ///
-    /// Input vectors must be [connected](Self::connect) and receiver weights [tuned](Self::tune) again.
-    ///
-    /// # Real-time
-    /// No allocation; about 50 ns.
-    pub fn set_mode(&mut self, k: usize, mode: Mode) {
-        let old = Constants::<1>::of(&self.modes[k..=k]);
-        self.modes[k] = mode;
-        self.retunings += 1;
-        self.change(k, 1, &old);
-    }
-
-    /// Times that a frequency or a mass has changed: what does not depend on losses need not follow more often.
-    pub fn retunings(&self) -> u64 {
-        self.retunings
-    }
-
-    /// Brings state and coefficients of some modes, of which `old` are the former constants, to their present ones.
-    #[inline(always)]
-    fn change<const N: usize>(&mut self, first: usize, modes: usize, old: &Constants<N>) {
-        let new = Constants::<N>::of(&self.modes[first..first + modes]);
-        let range = first..first + modes;
-        let (re, im) = (&mut self.state.re[range.clone()], &self.state.im[range]);
-        for (i, (re, im)) in re.iter_mut().zip(im).enumerate() {
-            let (old, new) = (old.mode(i), new.mode(i));
-            let displacement = f64::from(*im);
-            let velocity = old.omega_d() * f64::from(*re) - old.sigma * displacement;
-            *re = ((velocity + new.sigma * displacement) / new.omega_d()) as f32;
-        }
-        self.coefs.write(first, modes, &new.columns(self.dt));
-    }
-
-    /// Computes all coefficients anew.
-    pub(super) fn update_coefs(&mut self) {
-        for k in 0..self.modes.len() {
-            self.coefs.write(k, 1, &Constants::<1>::of(&self.modes[k..=k]).columns(self.dt));
-        }
     }
 }
 
@@ -306,32 +260,5 @@ mod tests {
             }
         }
         assert!(differ * 10_000 < all, "{differ} of {all}");
-    }
-
-    #[test]
-    fn modes_together_are_changed_as_one_by_one() {
-        let modes: Vec<Mode> =
-            (0..37).map(|k| Mode { omega: 500.0 * f64::from(k + 1), sigma: 3.0, mass: 0.2 }).collect();
-        let new = |k: usize, old: &Mode| Mode { omega: 1.1 * old.omega, sigma: k as f64, ..*old };
-        let [mut together, mut alone] = [(); 2].map(|()| {
-            let mut body = ModalBody::new(modes.clone(), 44_100.0);
-            body.state.re.iter_mut().take(37).enumerate().for_each(|(k, re)| *re = (k as f32).sin());
-            body.state.im.iter_mut().take(37).enumerate().for_each(|(k, im)| *im = (k as f32).cos());
-            body
-        });
-        together.set_modes(new);
-        for k in 0..modes.len() {
-            let mode = new(k, &alone.modes[k]);
-            alone.set_mode(k, mode);
-        }
-        together.step();
-        alone.step();
-        assert_eq!(together.state.re[..], alone.state.re[..]);
-        assert_eq!(together.state.im[..], alone.state.im[..]);
-        assert_eq!(together.coefs.hold_im[..], alone.coefs.hold_im[..]);
-        assert!(together.state.re[37..].iter().all(|&re| re == 0.0));
-        let before = together.retunings();
-        together.set_modes(|_, old| Mode { sigma: 2.0 * old.sigma, ..*old });
-        assert_eq!(together.retunings(), before);
     }
 }
