@@ -23,7 +23,7 @@ use crate::mode::{ModeInfo, ModeKind};
 use crate::surface::Surface;
 
 use assembly::{CymbalPlate, Ordered, RigidMotion};
-use hand::Hand;
+use hand::Grip;
 use modes::CymbalModes;
 pub use spec::{CymbalSpec, Stand};
 
@@ -35,7 +35,7 @@ pub struct Cymbal {
     tuning: Glide,
     muffling: Glide,
     /// How firmly a hand holds it, 0 to 1.
-    hand: Glide,
+    hand: Grip,
     /// Whether a control has moved since the modes last followed.
     stale: bool,
 }
@@ -70,7 +70,7 @@ impl Cymbal {
             lossless: context.ideal.lossless,
             tuning: Glide::new(tuning, low, high),
             muffling: Glide::new(0.0, 0.0, 1.0),
-            hand: Glide::new(0.0, 0.0, 1.0),
+            hand: Grip::new(),
             stale: true,
         };
         cymbal.follow_controls();
@@ -99,16 +99,21 @@ impl Instrument for Cymbal {
         self.hand.set(strength);
     }
 
+    fn take_turn(&mut self, number: usize) {
+        self.hand.take_turn(number);
+    }
+
     fn advance_controls(&mut self, seconds: f64) {
         let moved = [&mut self.tuning, &mut self.muffling].map(|glide| glide.advance(seconds));
-        self.stale |= moved.contains(&true) | self.hand.advance(seconds / Hand::SLOWER);
+        self.stale |= moved.contains(&true);
+        self.hand.advance(seconds);
     }
 
     fn follow_controls(&mut self) {
-        if !std::mem::take(&mut self.stale) {
+        if !(self.hand.is_due() | std::mem::take(&mut self.stale)) {
             return;
         }
-        let (tuning, muffling, hand) = (self.tuning.value(), self.muffling.value(), self.hand.value());
+        let (tuning, muffling, hand) = (self.tuning.value(), self.muffling.value(), self.hand.follow());
         let (modes, lossless) = (&self.modes, self.lossless);
         self.surface.retune(|k, _| {
             let (bare, built) = (modes.bare(k, tuning), &modes.modes[k]);
@@ -123,8 +128,8 @@ impl Instrument for Cymbal {
     }
 
     fn finish_controls(&mut self) {
-        let moved = [&mut self.tuning, &mut self.muffling, &mut self.hand].map(Glide::jump);
-        self.stale |= moved.contains(&true);
+        let moved = [&mut self.tuning, &mut self.muffling].map(Glide::jump);
+        self.stale |= moved.contains(&true) | self.hand.jump();
         self.follow_controls();
     }
 
@@ -144,3 +149,6 @@ impl Instrument for Cymbal {
         .collect()
     }
 }
+
+#[cfg(test)]
+mod tests;

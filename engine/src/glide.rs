@@ -17,12 +17,19 @@ pub struct Glide {
     target: f64,
     min: f64,
     max: f64,
+    /// Where it is as close as this to its aim it is there, if that is more than [`ARRIVED`].
+    within: f64,
 }
 
 impl Glide {
     /// At rest at `value`, within `min..=max`, in units of the caller.
     pub fn new(value: f64, min: f64, max: f64) -> Glide {
-        Glide { value, lead: value, target: value, min, max }
+        Glide { value, lead: value, target: value, min, max, within: 0.0 }
+    }
+
+    /// Arrives as soon as it is as close as `within`, in units of the caller.
+    pub fn arriving_within(self, within: f64) -> Glide {
+        Glide { within, ..self }
     }
 
     /// Where it is, in units of the caller.
@@ -55,7 +62,7 @@ impl Glide {
         let (value, lead) = (self.value - self.target, self.lead - self.target);
         self.value = self.target + (value + lead * time) * left;
         self.lead = self.target + lead * left;
-        let close = ARRIVED * self.target.abs().max(ARRIVED * self.max);
+        let close = (ARRIVED * self.target.abs().max(ARRIVED * self.max)).max(self.within);
         if (self.value - self.target).abs() < close && (self.lead - self.target).abs() < close {
             (self.value, self.lead) = (self.target, self.target);
         }

@@ -33,7 +33,7 @@ use std::f64::consts::TAU;
 use crate::build_context::BuildContext;
 use crate::contact::{ContactLaw, Tip};
 use crate::cymbal::assembly::{self, PlateShapes};
-use crate::cymbal::hand::Hand;
+use crate::cymbal::hand::Grip;
 use crate::cymbal::spec::CymbalSpec;
 use crate::damping::SIGMA_T60;
 use crate::error::SpecError;
@@ -68,7 +68,7 @@ pub struct HiHat {
     lossless: bool,
     tuning: Glide,
     muffling: Glide,
-    hand: Glide,
+    hand: Grip,
     /// Amount of rubbing of the rims, 0 to 1, and the clamping force at which it is half, N.
     rubbing: f64,
     half_rubbing: f64,
@@ -96,7 +96,7 @@ impl HiHat {
             lossless: context.ideal.lossless,
             tuning: Glide::new(tuning, low, high),
             muffling: Glide::new(0.0, 0.0, 1.0),
-            hand: Glide::new(0.0, 0.0, 1.0),
+            hand: Grip::new(),
             rubbing: 0.0,
             half_rubbing: spec.half_rubbing,
             stale: true,
@@ -180,9 +180,14 @@ impl Instrument for HiHat {
         self.hand.set(strength);
     }
 
+    fn take_turn(&mut self, number: usize) {
+        self.hand.take_turn(number);
+    }
+
     fn advance_controls(&mut self, seconds: f64) {
         let moved = [&mut self.tuning, &mut self.muffling].map(|glide| glide.advance(seconds));
-        self.stale |= moved.contains(&true) | self.hand.advance(seconds / Hand::SLOWER);
+        self.stale |= moved.contains(&true);
+        self.hand.advance(seconds);
     }
 
     fn follow_controls(&mut self) {
@@ -190,13 +195,13 @@ impl Instrument for HiHat {
         if (rubbing - self.rubbing).abs() > RUBBING_STEP {
             (self.rubbing, self.stale) = (rubbing, true);
         }
-        if !std::mem::take(&mut self.stale) {
+        if !(self.hand.is_due() | std::mem::take(&mut self.stale)) {
             return;
         }
         let tuning = self.tuning.value();
         let damping = Damping {
             muffling: self.muffling.value(),
-            hand: self.hand.value(),
+            hand: self.hand.follow(),
             rubbing: self.rubbing,
             lossless: self.lossless,
         };
@@ -212,8 +217,8 @@ impl Instrument for HiHat {
     }
 
     fn finish_controls(&mut self) {
-        let moved = [&mut self.tuning, &mut self.muffling, &mut self.hand].map(Glide::jump);
-        self.stale |= moved.contains(&true);
+        let moved = [&mut self.tuning, &mut self.muffling].map(Glide::jump);
+        self.stale |= moved.contains(&true) | self.hand.jump();
         if let Some(pair) = self.surface.attachment_mut::<Pair>().filter(|pair| pair.foot().moves()) {
             pair.come_to_rest();
         }

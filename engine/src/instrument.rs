@@ -43,6 +43,9 @@ pub trait Instrument: Send {
     /// Lets a hand take hold of it, from 0 (lets go) to 1 (firmly). Drums are not choked.
     fn choke(&mut self, _strength: f64) {}
 
+    /// Its number among the pieces of a kit, which share out in turns what need not be done in every block.
+    fn take_turn(&mut self, _number: usize) {}
+
     /// Throws snare wires on or off.
     fn throw_wires(&mut self, _on: bool) {}
 

@@ -29,6 +29,9 @@ const SILENT: f32 = 2e-4;
 const STILL: f64 = 1e-10;
 const DOZE: f64 = 0.05;
 
+/// Blocks from one time that the modes of a sleeping piece follow its controls to the next: a picture's time.
+const LOOKED_AT: usize = 32;
+
 /// A built piece that can be struck and heard.
 pub struct Piece {
     slot: Slot,
@@ -39,6 +42,8 @@ pub struct Piece {
     phase: usize,
     /// Samples since the controls were last let glide.
     unglided: usize,
+    /// Blocks asleep until the modes follow the controls.
+    slept: usize,
     /// Nothing moves and nothing is about: there is nothing to render.
     asleep: bool,
     quarantines: u32,
@@ -67,7 +72,8 @@ impl Piece {
     /// [`SpecError`] if the options or a number of the description are out of range.
     pub fn new(slot: Slot, build: &PieceBuild, options: &BuildOptions) -> Result<Piece, SpecError> {
         SpecError::check("sample rate (Hz)", options.sample_rate, 22_050.0, 768_000.0)?;
-        let instrument = self::build(&build.spec.instrument, &build.context(*options))?;
+        let mut instrument = self::build(&build.spec.instrument, &build.context(*options))?;
+        instrument.take_turn(slot.index());
         Ok(Piece {
             slot,
             kind: build.spec.instrument.kind(),
@@ -75,6 +81,7 @@ impl Piece {
             sample_rate: options.sample_rate,
             phase: 0,
             unglided: 0,
+            slept: 0,
             asleep: true,
             quarantines: 0,
             placement: build.spec.placement(),
@@ -114,7 +121,7 @@ impl Piece {
         if !strike.is_finite() {
             return;
         }
-        self.asleep = false;
+        self.wake();
         self.instrument.strike(strike);
     }
 
@@ -170,7 +177,7 @@ impl Piece {
 
     /// Wakes by sound.
     fn hear(&mut self) {
-        self.asleep = false;
+        self.wake();
         self.quiet = 0;
         self.instrument.follow_shapes();
         self.instrument.surface_mut().hear();
@@ -192,6 +199,23 @@ impl Piece {
         }
     }
 
+    /// Asleep for another block: the modes follow the controls now and then, for whoever looks at them.
+    fn sleep_on(&mut self) {
+        // The pieces of a kit take turns.
+        if (self.slept + self.slot.index()).is_multiple_of(LOOKED_AT) {
+            self.instrument.follow_controls();
+        }
+        self.slept = (self.slept + 1) % LOOKED_AT;
+    }
+
+    /// Wakes, with the modes where the controls are.
+    fn wake(&mut self) {
+        if std::mem::take(&mut self.asleep) {
+            self.slept = 0;
+            self.instrument.follow_controls();
+        }
+    }
+
     /// Its close microphone.
     pub fn close(&self) -> &CloseMicrophone {
         &self.close
@@ -200,10 +224,11 @@ impl Piece {
     /// Begins a block: follows controls, makes silence exact, catches values that are not finite.
     fn begin_block(&mut self) {
         self.glide();
-        self.instrument.follow_controls();
         if self.asleep {
+            self.sleep_on();
             return;
         }
+        self.instrument.follow_controls();
         if !self.instrument.surface_mut().settle() {
             self.quarantines = self.quarantines.saturating_add(1);
         }
@@ -233,6 +258,7 @@ impl Piece {
         self.finish_controls();
         self.phase = 0;
         self.unglided = 0;
+        self.slept = 0;
     }
 
     /// What the latest stroke's contact measured.
@@ -278,7 +304,7 @@ impl Piece {
     /// The surface that is struck, for tests and tools that look closely.
     pub fn surface_mut(&mut self) -> &mut Surface {
         // It may be set going.
-        self.asleep = false;
+        self.wake();
         self.instrument.surface_mut()
     }
 

@@ -18,6 +18,9 @@ struct Older {
     /// Of the standard kit only.
     groove: Option<Cost>,
     all_at_once: Cost,
+    /// Of kits with cymbals.
+    cymbals_ringing: Option<Cost>,
+    cymbals_choked: Option<Cost>,
     idle: Cost,
     pieces: BTreeMap<String, Value>,
 }
@@ -41,12 +44,15 @@ pub fn read(path: &Path) -> Result<Before> {
 /// # Errors
 /// Its fields that are missing or not numbers.
 pub fn parse(text: &str) -> serde_json::Result<Before> {
-    let Older { groove, all_at_once, idle, pieces } = serde_json::from_str(text)?;
+    let Older { groove, all_at_once, cymbals_ringing, cymbals_choked, idle, pieces } =
+        serde_json::from_str(text)?;
     let mut before = Before::from([
         ("all-at-once".to_owned(), all_at_once.calibrations),
         ("idle".to_owned(), idle.calibrations),
     ]);
-    before.extend(groove.map(|groove| ("groove".to_owned(), groove.calibrations)));
+    let others =
+        [("groove", groove), ("cymbals ringing", cymbals_ringing), ("cymbals choked", cymbals_choked)];
+    before.extend(others.into_iter().filter_map(|(name, cost)| Some((name.to_owned(), cost?.calibrations))));
     for (name, tiers) in pieces {
         flatten(&name, &tiers, &mut before);
     }

@@ -18,6 +18,8 @@ pub struct Cost {
     pub spread: [f64; 2],
     /// CPU seconds of the whole loop, median.
     pub calibration_s: f64,
+    /// CPU time of the longest block, s: the least over the runs.
+    pub longest_s: f64,
 }
 
 /// CPU time of every block of a scene in their order, the least over the runs, s.
@@ -72,7 +74,8 @@ pub fn runs(workload: &mut Workload, runs: usize, progress: &mut Progress) -> (C
     let calibrations = median(&mut ratios);
     // `median` has sorted them.
     let spread = [ratios[0], ratios[ratios.len() - 1]];
-    (Cost { share, calibrations, spread, calibration_s }, Blocks(least))
+    let longest_s = least.iter().copied().fold(0.0, f64::max);
+    (Cost { share, calibrations, spread, calibration_s, longest_s }, Blocks(least))
 }
 
 /// One run: CPU time of every block, and of the whole calibration loop, s.

@@ -36,6 +36,11 @@ pub struct Report {
     groove: Option<Figure>,
     all_at_once: Figure,
     gliding: Figure,
+    /// Of kits with cymbals.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cymbals_ringing: Option<Figure>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cymbals_choked: Option<Choked>,
     pieces: BTreeMap<String, PieceCost>,
     idle: Idle,
     /// The longest block over the groove and all at once, of its deadline.
@@ -62,6 +67,17 @@ pub struct Figure {
     /// Least and greatest of all runs.
     calibrations_min: f64,
     calibrations_max: f64,
+}
+
+/// The cost of cymbals that are choked.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct Choked {
+    #[serde(flatten)]
+    cost: Figure,
+    /// The same over that of cymbals that are struck alike and ring.
+    over_ringing: f64,
+    /// The longest block over the longest one of those.
+    longest_over_ringing: f64,
 }
 
 /// Cost of a kit at rest.
@@ -106,6 +122,10 @@ impl Report {
             found.map(|&(_, cost)| Figure::from(cost))
         };
         let of = |wanted| find(wanted).expect("every scene is measured");
+        let cost_of =
+            |wanted: fn(&Scene) -> bool| costs.iter().find(|(scene, _)| wanted(scene)).map(|&(_, cost)| cost);
+        let ringing = cost_of(|scene| matches!(scene, Scene::Ringing(_)));
+        let choked = cost_of(|scene| matches!(scene, Scene::Choked(_)));
         let mut pieces: BTreeMap<String, PieceCost> = BTreeMap::new();
         for &(scene, cost) in &costs {
             let Scene::Piece(slot, quality) = scene else { continue };
@@ -135,6 +155,12 @@ impl Report {
             groove: find(|scene| matches!(scene, Scene::Groove(_))),
             all_at_once: of(|scene| matches!(scene, Scene::AllAtOnce(_))),
             gliding: of(|scene| matches!(scene, Scene::Gliding(_))),
+            cymbals_ringing: ringing.map(Figure::from),
+            cymbals_choked: choked.zip(ringing).map(|(choked, ringing)| Choked {
+                cost: choked.into(),
+                over_ringing: choked.calibrations / ringing.calibrations,
+                longest_over_ringing: choked.longest_s / ringing.longest_s,
+            }),
             idle: of(|scene| *scene == Scene::Idle),
             pieces,
             worst_block_share: Buffers::of(&blocks, 1, request.rate).within(1.0),
@@ -176,6 +202,12 @@ impl fmt::Display for Report {
         }
         self.row(f, "all-at-once", &self.all_at_once)?;
         self.row(f, "gliding", &self.gliding)?;
+        if let Some(ringing) = &self.cymbals_ringing {
+            self.row(f, "cymbals ringing", ringing)?;
+        }
+        if let Some(choked) = &self.cymbals_choked {
+            self.row(f, "cymbals choked", &choked.cost)?;
+        }
         self.row(f, "idle", &self.idle)?;
         for (name, PieceCost { standard, tiers }) in &self.pieces {
             if tiers.is_empty() {
@@ -186,6 +218,12 @@ impl fmt::Display for Report {
                     self.row(f, &format!("{name} {}", quality.name()), figure)?;
                 }
             }
+        }
+        if let Some(Choked { over_ringing, longest_over_ringing, .. }) = &self.cymbals_choked {
+            writeln!(
+                f,
+                "\nchoked cymbals cost {over_ringing:.2} of what ringing ones do, their longest block {longest_over_ringing:.2}"
+            )?;
         }
         writeln!(f, "\nCPU time of a buffer, % of its deadline, within which so many stay")?;
         let quantiles = QUANTILES.map(|(name, _)| format!("{:>9}", format!("{name} %"))).concat();
@@ -234,13 +272,15 @@ mod tests {
 
     #[test]
     fn a_report_names_every_scene_and_can_be_compared_with() {
-        let cost = Cost { share: 0.05, calibrations: 0.6, spread: [0.5, 0.7], calibration_s: 0.08 };
+        let cost =
+            Cost { share: 0.05, calibrations: 0.6, spread: [0.5, 0.7], calibration_s: 0.08, longest_s: 2e-4 };
         let quality = Quality::Standard;
+        let cymbals = [Scene::Ringing(quality), Scene::Choked(quality)];
         let kit = [Scene::Groove(quality), Scene::AllAtOnce(quality), Scene::Gliding(quality), Scene::Idle];
         let standard = KitSpec::standard();
         let slot = |name| standard.find(name).unwrap().0;
         let crash = Quality::ALL.map(|quality| Scene::Piece(slot("crash"), quality));
-        let scenes = kit.into_iter().chain(crash).chain([Scene::Piece(slot("kick"), quality)]);
+        let scenes = kit.into_iter().chain(cymbals).chain(crash).chain([Scene::Piece(slot("kick"), quality)]);
         let request = Request {
             kit: None,
             runs: 7,
@@ -266,6 +306,8 @@ mod tests {
             "groove",
             "all_at_once",
             "gliding",
+            "cymbals_ringing",
+            "cymbals_choked",
             "pieces",
             "idle",
             "worst_block_share",
@@ -277,6 +319,7 @@ mod tests {
             assert!(json.get(key).is_some(), "{key}");
         }
         assert_eq!(json["groove"]["calibrations"], 0.6);
+        assert_eq!(json["cymbals_choked"]["over_ringing"], 1.0);
         assert_eq!(json["pieces"]["crash"]["tiers"].as_object().unwrap().len(), Quality::ALL.len());
         let before = compare::parse(&json.to_string()).unwrap();
         assert_eq!(before.get("crash high"), Some(&0.6));

@@ -28,10 +28,27 @@ pub enum Scene {
     AllAtOnce(Quality),
     /// The same while every tuning and muffling is automated: a new value for each in every block.
     Gliding(Quality),
+    /// Every cymbal struck at once, and again after two seconds; three seconds.
+    Ringing(Quality),
+    /// The same while a hand holds them, see [`held`]: a new pressure in every block.
+    Choked(Quality),
     /// A kit at rest, for a second.
     Idle,
     /// One piece, and the second after a hard stroke.
     Piece(Slot, Quality),
+}
+
+/// When cymbals are struck again, s.
+const AGAIN: f64 = 2.0;
+
+/// How firmly a hand holds the cymbals at a time (s), 0 to 1: lightly and never still, so that they ring on; then firmly; then
+/// not at all, which ends before the second stroke.
+fn held(time: f64) -> f64 {
+    match time {
+        0.1..1.0 => 0.05 * (1.0 - (4.0 * TAU * time).cos()),
+        1.0..1.3 => 1.0,
+        _ => 0.0,
+    }
 }
 
 /// A stroke at a sample.
@@ -45,13 +62,16 @@ impl Scene {
     /// The scenes of a kit as a whole: the groove only of the standard kit, which it was written for.
     pub fn of_kit(document: &KitDocument, quality: Quality) -> Vec<Scene> {
         let groove = (*document == KitDocument::standard()).then_some(Scene::Groove(quality));
-        groove.into_iter().chain([Scene::AllAtOnce(quality), Scene::Gliding(quality), Scene::Idle]).collect()
+        let cymbals = cymbals(document).next().map(|_| [Scene::Ringing(quality), Scene::Choked(quality)]);
+        let every = [Scene::AllAtOnce(quality), Scene::Gliding(quality), Scene::Idle];
+        groove.into_iter().chain(every).chain(cymbals.into_iter().flatten()).collect()
     }
 
     /// How long it lasts, s.
     pub fn seconds(self) -> f64 {
         match self {
             Scene::Groove(_) | Scene::AllAtOnce(_) | Scene::Gliding(_) => 4.0,
+            Scene::Ringing(_) | Scene::Choked(_) => 3.0,
             Scene::Idle | Scene::Piece(..) => 1.0,
         }
     }
@@ -67,6 +87,8 @@ impl Scene {
             Scene::Groove(_) => "groove".to_owned(),
             Scene::AllAtOnce(_) => "all-at-once".to_owned(),
             Scene::Gliding(_) => "gliding".to_owned(),
+            Scene::Ringing(_) => "cymbals ringing".to_owned(),
+            Scene::Choked(_) => "cymbals choked".to_owned(),
             Scene::Idle => "idle".to_owned(),
             Scene::Piece(slot, _) => kit.piece(slot).map(|piece| piece.name.clone()).unwrap_or_default(),
         }
@@ -85,11 +107,22 @@ impl Scene {
                 let struck = struck.filter(|&slot| spared.is_none_or(|(spared, _)| slot != spared));
                 struck.map(|slot| beat(slot, hard(document, slot))).collect()
             }
+            Scene::Ringing(_) | Scene::Choked(_) => {
+                let again = (AGAIN * rate) as usize;
+                let strokes =
+                    |at| cymbals(document).map(move |slot| Beat { at, ..beat(slot, hard(document, slot)) });
+                strokes(0).chain(strokes(again)).collect()
+            }
             Scene::Idle => Vec::new(),
             // The piece is alone in its kit.
             Scene::Piece(slot, _) => vec![beat(ALONE, hard(document, slot))],
         })
     }
+}
+
+/// The slots of cymbals and hi-hats.
+fn cymbals(document: &KitDocument) -> impl Iterator<Item = Slot> {
+    document.kit.slots().filter(|(_, piece)| piece.instrument.kind() != Kind::Drum).map(|(slot, _)| slot)
 }
 
 fn hard(document: &KitDocument, slot: Slot) -> Strike {
@@ -138,9 +171,11 @@ impl Workload {
     /// [`BadInput`](crate::error::BadInput) if a piece cannot be built.
     pub fn new(scene: Scene, document: &KitDocument, rate: f64) -> Result<Workload> {
         let (spec, quality) = match scene {
-            Scene::Groove(quality) | Scene::AllAtOnce(quality) | Scene::Gliding(quality) => {
-                (document.kit.clone(), quality)
-            }
+            Scene::Groove(quality)
+            | Scene::AllAtOnce(quality)
+            | Scene::Gliding(quality)
+            | Scene::Ringing(quality)
+            | Scene::Choked(quality) => (document.kit.clone(), quality),
             Scene::Idle => (document.kit.clone(), Quality::Standard),
             Scene::Piece(slot, quality) => (document.kit.alone(slot).context("an empty slot")?, quality),
         };
@@ -177,12 +212,20 @@ impl Workload {
         }
     }
 
+    /// Holds every cymbal; see [`held`].
+    fn hold(&mut self) {
+        let strength = held(self.now as f64 / self.rate);
+        Slot::ALL.into_iter().for_each(|slot| self.kit.choke(slot, strength));
+    }
+
     /// Renders one block of [`BLOCK`] samples, cut where strokes fall.
     #[inline(never)] // Instructions are counted by its name.
     pub fn block(&mut self) {
         let (start, end) = (self.now, self.now + BLOCK);
-        if let Scene::Gliding(_) = self.scene {
-            self.automate();
+        match self.scene {
+            Scene::Gliding(_) => self.automate(),
+            Scene::Choked(_) => self.hold(),
+            _ => {}
         }
         while self.now < end {
             while let Some(beat) = self.beats.get(self.played).filter(|beat| beat.at <= self.now) {
@@ -205,7 +248,7 @@ mod tests {
     fn the_groove_is_of_the_standard_kit_and_every_other_is_struck_as_a_whole() {
         let standard = KitDocument::standard();
         let quality = Quality::Standard;
-        assert_eq!(Scene::of_kit(&standard, quality).len(), 4);
+        assert_eq!(Scene::of_kit(&standard, quality).len(), 6);
         let struck =
             |document: &KitDocument| Scene::AllAtOnce(quality).beats(document, 44_100.0).unwrap().len();
         assert_eq!(struck(&standard), standard.kit.pieces.len() - 1);
@@ -214,7 +257,13 @@ mod tests {
         other.kit.pieces.retain(|piece| piece.name != "ride");
         assert_eq!(
             Scene::of_kit(&other, quality),
-            [Scene::AllAtOnce(quality), Scene::Gliding(quality), Scene::Idle]
+            [
+                Scene::AllAtOnce(quality),
+                Scene::Gliding(quality),
+                Scene::Idle,
+                Scene::Ringing(quality),
+                Scene::Choked(quality)
+            ]
         );
         assert_eq!(struck(&other), other.kit.pieces.len());
     }

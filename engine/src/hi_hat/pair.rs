@@ -80,6 +80,8 @@ pub struct Pair {
     pub(super) still: bool,
     /// Whether rims may meet.
     pub(super) engaged: bool,
+    /// Retunings of both shells when the balance last followed them.
+    followed: Option<[u64; 2]>,
     pub(super) kernels: Kernels,
     pub(super) dt: f64,
 }
@@ -101,6 +103,7 @@ impl Pair {
             strikers: [StrikerPlace::default(); STRIKER_PLACES],
             still: true,
             engaged: false,
+            followed: None,
             kernels: Kernels::detect(),
             dt: 1.0 / parts.sample_rate,
         }
@@ -168,9 +171,7 @@ impl Pair {
     /// # Real-time
     /// Linear in the number of modes.
     pub fn retune(&mut self, mode: impl Fn(usize) -> Mode) {
-        for k in 0..self.lower.modal.len() {
-            self.lower.modal.set_mode(k, mode(k));
-        }
+        self.lower.modal.set_modes(|k, _| mode(k));
     }
 
     /// Follows a change of either cymbal's modes.
@@ -180,7 +181,11 @@ impl Pair {
     pub(super) fn follow_modes(&mut self, top: &ModalBody, receiver: &ReceiverWeights) {
         self.lower.follow();
         let bodies = [(top, receiver), (&self.lower.modal, &self.lower.receiver)];
-        let changed = self.statics.follow(bodies.map(|(body, _)| body), &self.folded, &self.rigid);
+        // Losses do not move the balance, and a hand or rubbing rims change them while sound plays.
+        let retunings = bodies.map(|(body, _)| body.retunings());
+        let changed = self.followed != Some(retunings)
+            && self.statics.follow(bodies.map(|(body, _)| body), &self.folded, &self.rigid);
+        self.followed = Some(retunings);
         self.dynamics.follow(bodies, &self.folded, &self.rigid, &self.statics.weights);
         self.dynamics.update_offset(&self.pedal.rest.preload);
         if !changed {

@@ -5,6 +5,7 @@
 //! `INAUDIBLE`, as each would only have decayed. That holds for modes without a force: those that a force acts on are given by
 //! its input vector. Lanes in which all modes are zero are skipped ([`ModalBody::ring`]).
 
+use super::coefs::TOGETHER;
 use super::simd::flush::QUIET;
 use super::{InputVector, ModalBody, ReceiverWeights, Row, zero_row};
 
@@ -31,6 +32,33 @@ impl InaudibleModes {
     }
 }
 
+/// The thresholds of the modes from `at` on; see [`ModalBody::update_thresholds`].
+#[inline(always)]
+fn thresholds(
+    below: &mut [f32; TOGETHER],
+    at: usize,
+    share: f64,
+    (weights, first, driven): (&ReceiverWeights, usize, Option<&InputVector>),
+) {
+    let mut loudest = [0.0_f32; TOGETHER];
+    for receiver in &weights.receivers {
+        let [re, im] = [&receiver.weight_re, &receiver.weight_im].map(|row| row.get(at..at + TOGETHER));
+        let Some((re, im)) = re.zip(im) else { continue };
+        for (loudest, (re, im)) in loudest.iter_mut().zip(re.iter().zip(im)) {
+            *loudest = loudest.max(re.abs() + im.abs());
+        }
+    }
+    for (below, loudest) in below.iter_mut().zip(loudest) {
+        *below = ((share / f64::from(loudest)).min(LARGEST) as f32).max(QUIET);
+    }
+    for (i, below) in below.iter_mut().enumerate() {
+        let is_driven = driven.is_some_and(|input| input.shape.get(at + i) != Some(&0.0));
+        if at + i < first || is_driven {
+            *below = QUIET;
+        }
+    }
+}
+
 impl ModalBody {
     /// Updates the thresholds of modes from `first` on, except of those that a force at `driven` acts on, after a change of
     /// modes, receiver weights or input vector.
@@ -45,16 +73,15 @@ impl ModalBody {
         driven: Option<&InputVector>,
     ) {
         let share = INAUDIBLE / self.modes.len().max(1) as f64;
-        for (k, below) in inaudible.below.iter_mut().enumerate() {
-            let undriven = driven.is_none_or(|input| input.shape.get(k) == Some(&0.0));
-            let loudest = weights.receivers.iter().fold(0.0_f32, |loudest, receiver| {
-                let [re, im] =
-                    [&receiver.weight_re, &receiver.weight_im].map(|row| row.get(k).map_or(0.0, |w| w.abs()));
-                loudest.max(re + im)
-            });
-            let may = k >= first && undriven;
-            *below = if may { (share / f64::from(loudest)).min(LARGEST) as f32 } else { QUIET }.max(QUIET);
-        }
+        self.kernels.vectorized(
+            #[inline(always)]
+            || {
+                let (all, _) = inaudible.below.as_chunks_mut::<TOGETHER>();
+                for (chunk, all) in all.iter_mut().enumerate() {
+                    thresholds(all, chunk * TOGETHER, share, (weights, first, driven));
+                }
+            },
+        );
     }
 
     /// Zeroes modes that are inaudible.

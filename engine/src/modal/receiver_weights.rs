@@ -1,5 +1,6 @@
 //! Receivers of a body's sound.
 
+use super::coefs::{Constants, TOGETHER};
 use super::row::{Row, zero_row};
 use super::simd::{self, RECEIVERS};
 
@@ -49,6 +50,33 @@ impl Receiver {
     fn new(transfer: Vec<[f64; 2]>) -> Receiver {
         let row = || zero_row(transfer.len() + simd::REST);
         Receiver { weight_re: row(), weight_im: row(), direct: row(), slow: row(), transfer }
+    }
+
+    /// Updates the weights of the modes from `first` on, `modes` at a time step of `dt` (s).
+    #[inline(always)]
+    pub(super) fn tune(&mut self, first: usize, modes: &Constants<TOGETHER>, dt: f64) {
+        let Receiver { transfer, weight_re, weight_im, direct, slow } = self;
+        let mut transfers = [[0.0; 2]; TOGETHER];
+        transfers.iter_mut().zip(&transfer[first..]).for_each(|(to, from)| *to = *from);
+        let mut new = [[0.0_f32; TOGETHER]; 4];
+        for i in 0..TOGETHER {
+            let (mode, [h_re, h_im]) = (modes.mode(i), transfers[i]);
+            let (omega_d, sigma) = (mode.omega_d(), mode.sigma);
+            let heard = omega_d * dt < std::f64::consts::PI;
+            let (l2_re, l2_im) = (sigma * sigma - omega_d * omega_d, -2.0 * sigma * omega_d);
+            let all = [
+                h_re * l2_im + h_im * l2_re,
+                h_re * l2_re - h_im * l2_im,
+                (h_re * omega_d - h_im * sigma) / (mode.mass * omega_d),
+                h_im / (mode.mass * omega_d),
+            ];
+            for (row, x) in new.iter_mut().zip(all) {
+                row[i] = if heard { x as f32 } else { 0.0 };
+            }
+        }
+        for (row, new) in [weight_re, weight_im, direct, slow].into_iter().zip(&new) {
+            row[first..first + TOGETHER].copy_from_slice(new);
+        }
     }
 
     /// The weights from mode `first` on, for [`ModalBody::ring`](super::ModalBody::ring).

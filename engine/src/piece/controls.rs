@@ -41,9 +41,11 @@ impl Piece {
     /// # Real-time
     /// No allocation, no lock; linear in the number of modes.
     pub fn press_pedal(&mut self, pedal: f64, speed: f64) {
+        if self.instrument.pedal_mut().is_some() {
+            self.wake();
+        }
         if let Some(own) = self.instrument.pedal_mut() {
             own.press(pedal, speed);
-            self.asleep = false;
         }
     }
 
@@ -52,9 +54,11 @@ impl Piece {
     /// # Real-time
     /// No allocation, no lock; linear in the number of modes.
     pub fn stamp_pedal(&mut self, speed: f64) {
+        if self.instrument.pedal_mut().is_some() {
+            self.wake();
+        }
         if let Some(own) = self.instrument.pedal_mut() {
             own.stamp(speed);
-            self.asleep = false;
         }
     }
 
@@ -63,9 +67,11 @@ impl Piece {
     /// # Real-time
     /// No allocation, no lock; linear in the number of modes.
     pub fn splash_pedal(&mut self, speed: f64) {
+        if self.instrument.pedal_mut().is_some() {
+            self.wake();
+        }
         if let Some(own) = self.instrument.pedal_mut() {
             own.splash(speed);
-            self.asleep = false;
         }
     }
 

@@ -68,6 +68,15 @@ pub fn page() -> Result<Page> {
         met: Some(100.0 * share < most),
     };
     sheet.claim(percent("idle, of a core".to_owned(), number(&report, &["idle", "share"]), 0.3));
+    let over = number(&report, &["cymbals_choked", "over_ringing"]);
+    sheet.claim(Claim {
+        what: "cymbals choked by a hand that moves".to_owned(),
+        on: PLAYED,
+        figure: format!("{over:.2} times the cost of ringing ones"),
+        reference: "1.2 times".to_owned(),
+        source: GOAL,
+        met: Some(over <= 1.2),
+    });
     let worst = number(&report, &["worst_block_share"]);
     sheet.claim(percent("longest block of 32 samples, of its deadline".to_owned(), worst, 60.0));
     for (what, key, most, unit) in [
