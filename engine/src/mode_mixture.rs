@@ -88,8 +88,8 @@ impl ModeMixture {
     }
 }
 
-/// `sum a b`, in the unit of the two, in eight partial sums, which the compiler keeps in vector registers.
-pub fn sum_of_products(a: &[f32], b: &[f32]) -> f32 {
+/// `sum a b` in eight partial sums, which the compiler keeps in vector registers.
+fn sum_of_products(a: &[f32], b: &[f32]) -> f32 {
     let mut sums = [0.0_f32; 8];
     let (a, a_rest) = a.as_chunks::<8>();
     let (b, b_rest) = b.as_chunks::<8>();

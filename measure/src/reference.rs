@@ -5,7 +5,7 @@
 use overhear_engine::cymbal::CymbalSpec;
 use overhear_engine::drum::{DrumSpec, HeadContact};
 use overhear_engine::hi_hat::HiHatSpec;
-use overhear_engine::kit_spec::{Defaults, InstrumentSpec, PieceSpec};
+use overhear_engine::kit_spec::{Defaults, InstrumentSpec, KitSpec, PieceSpec};
 use overhear_engine::microphones::CloseSpec;
 use overhear_engine::receiver::ReceiverPosition;
 
@@ -84,6 +84,15 @@ pub fn fixed_disc_kick() -> PieceSpec {
 pub fn fixed_disc_snare() -> PieceSpec {
     let piece = fixed_disc("snare", |drum| DrumSpec { pitch_hz: 220.0, ..drum });
     PieceSpec { defaults: Defaults { preload: Some(0.15), ..piece.defaults }, ..piece }
+}
+
+/// The standard kit with the snare and the rack tom of fixed discs.
+pub fn fixed_disc_kit() -> KitSpec {
+    KitSpec::standard().map(|piece| match piece.name.as_str() {
+        "snare" => fixed_disc_snare(),
+        "rack-tom" => fixed_disc_rack_tom(),
+        _ => piece,
+    })
 }
 
 /// The rack tom with a fixed disc, of 140 Hz.

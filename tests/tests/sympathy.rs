@@ -7,9 +7,9 @@ use overhear_engine::layout::distance;
 use overhear_engine::piece::Piece;
 use overhear_engine::slot::Slot;
 use overhear_engine::strike::Striker;
-use overhear_measure::reference;
+use overhear_measure::reference::fixed_disc_kit;
 use overhear_measure::report::kit::landings;
-use overhear_tests::{RATES, kit, kit_of, slot, spec, standard, stroke};
+use overhear_tests::{RATES, kit_of, slot, spec, standard, stroke};
 
 const RATE: f64 = RATES[0];
 
@@ -33,25 +33,17 @@ fn snare_and_tom() -> KitSpec {
     crowded(KitSpec { pieces: ["snare", "rack-tom"].map(spec).into(), ..standard() })
 }
 
-/// The kit with the snare and the rack tom that the figures below are of.
-fn reference_kit() -> KitSpec {
-    standard().map(|piece| match piece.name.as_str() {
-        "snare" => reference::fixed_disc_snare(),
-        "rack-tom" => reference::fixed_disc_rack_tom(),
-        _ => piece,
-    })
-}
-
 #[test]
 fn wires_land_when_a_rack_tom_is_struck_the_more_the_harder() {
-    let mut kit = kit_of(&reference_kit(), RATE);
+    // The figures are of the reference drums.
+    let mut kit = kit_of(&fixed_disc_kit(), RATE);
     let counts = [2.0, 4.0, 6.0].map(|speed| landings(&mut kit, speed, 0.2));
     println!("landings after 2, 4, 6 m/s: {counts:?}");
     for (count, want) in counts.into_iter().zip([12.0, 152.0, 324.0]) {
         assert!((want / 10.0..want * 10.0).contains(&f64::from(count)), "{counts:?}");
     }
     assert!(counts[0] < counts[1] && counts[1] < counts[2], "{counts:?}");
-    let mut played = self::kit(RATE);
+    let mut played = kit_of(&standard(), RATE);
     let of_played = [2.0, 4.0, 6.0].map(|speed| landings(&mut played, speed, 0.2));
     println!("of the standard kit: {of_played:?}");
     assert!(0 < of_played[0] && of_played.is_sorted_by(|a, b| a < b), "{of_played:?}");
@@ -71,7 +63,7 @@ fn wires_do_not_land_when_the_pieces_are_deaf_or_the_wires_are_off() {
     for (control, value) in
         [(Control::SympatheticCoupling, 0.0), (Control::Sympathy, 0.0), (Control::Wires(slot("snare")), 0.0)]
     {
-        let mut kit = kit(RATE);
+        let mut kit = kit_of(&standard(), RATE);
         kit.set(control, value);
         kit.finish_controls();
         assert_eq!(landings(&mut kit, 6.0, 0.2), 0, "{control:?}");
@@ -88,7 +80,7 @@ fn between_the_drums_the_shortest_delay_is_from_rack_tom_to_snare_54_samples_at_
         .filter_map(|pair| Some((layout.path_length(pair.0, pair.1)?, pair)));
     let (way, pair) = ways.min_by(|a, b| a.0.total_cmp(&b.0)).expect("drums");
     assert_eq!(pair, (slot("snare"), slot("rack-tom")));
-    // The whole samples before it, less the newer neighbour that any interpolation needs.
+    // The whole samples before it, less the newer neighbour that a cubic needs.
     assert_eq!((way / SPEED_OF_SOUND * RATE).floor() as usize - 1, 54);
 }
 
@@ -102,8 +94,9 @@ fn no_run_is_longer_than_the_shortest_delay_at_any_rate_and_in_a_kit_moved_toget
                 .filter(|(from, to)| from != to)
                 .filter_map(|(from, to)| layout.path_length(from, to))
                 .fold(f64::INFINITY, f64::min);
-            let delay = Kit::new(rate, &spec).min_delay();
-            assert!(delay >= 1 && (delay as f64) < shortest / SPEED_OF_SOUND * rate, "{rate}: {delay}");
+            // The newest sample that a cubic reads.
+            let newest = ((shortest / SPEED_OF_SOUND * rate) as usize - 1).max(1);
+            assert_eq!(Kit::new(rate, &spec).min_delay(), newest, "{rate}");
         }
     }
     // Shorter than a block, where it must be.
@@ -133,7 +126,7 @@ fn buffers_do_not_matter_where_delays_are_shorter_than_a_block() {
 
 #[test]
 fn the_first_pressure_arrives_after_the_distance_over_the_speed_of_sound_to_the_sample() {
-    let mut kit = kit(RATE);
+    let mut kit = kit_of(&standard(), RATE);
     let [snare, tom] = ["snare", "rack-tom"].map(slot);
     kit.strike(tom, &stroke(Striker::Stick, 6.0, 0.35, 0.0));
     let way = distance(&spec("rack-tom").placement().source(), &spec("snare").place.centre);
@@ -152,7 +145,7 @@ fn the_first_pressure_arrives_after_the_distance_over_the_speed_of_sound_to_the_
 
 #[test]
 fn cymbals_are_heard_and_do_not_listen() {
-    let mut kit = kit(RATE);
+    let mut kit = kit_of(&standard(), RATE);
     let crash = slot("crash");
     kit.strike(crash, &stroke(Striker::Shoulder, 6.0, 0.9, 0.0));
     run(&mut kit, 8_000);
@@ -165,7 +158,7 @@ fn cymbals_are_heard_and_do_not_listen() {
 fn what_drums_pick_up_is_a_small_part_of_what_was_struck_and_follows_the_amount() {
     let [kick, tom] = ["kick", "floor-tom"].map(slot);
     let picked_up = |amount: f64| {
-        let mut kit = kit(RATE);
+        let mut kit = kit_of(&standard(), RATE);
         kit.set(Control::Sympathy, amount);
         kit.finish_controls();
         kit.strike(tom, &stroke(Striker::Stick, 5.0, 0.35, 0.0));

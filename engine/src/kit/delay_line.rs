@@ -1,7 +1,8 @@
 //! Delay lines: sound paths between two positions, with their delay and attenuation.
 //!
 //! A [`DelayLine`] holds the recent sound of a piece. A [`DelayTap`] reads it at some distance. Between samples it interpolates by
-//! a polynomial through twelve of them (Lagrange), which loses at most 1.5 dB at 16 kHz of 44.1, less than air absorption does.
+//! a polynomial (Lagrange): on the way to a microphone through twelve of them, which loses at most 1.5 dB at 16 kHz of 44.1;
+//! from piece to piece through four.
 //!
 //! Positions on a line are counted by the kit's clock, so the output does not depend on the host's buffers.
 
@@ -62,8 +63,8 @@ impl DelayLine {
 
     /// Adds the sound at a tap from a time on.
     pub(super) fn hear(&self, clock: u64, tap: &DelayTap, out: &mut [f32]) {
-        let first = (clock as usize).wrapping_sub(tap.whole + TAPS - 1 - AHEAD) & self.mask;
-        for (i, weight) in tap.weights.iter().enumerate() {
+        let first = (clock as usize).wrapping_sub(tap.newest + tap.count - 1) & self.mask;
+        for (i, weight) in tap.weights[..tap.count].iter().enumerate() {
             let past = &self.samples[first + i..][..out.len()];
             out.iter_mut().zip(past).for_each(|(out, x)| *out += weight * x);
         }
@@ -79,9 +80,10 @@ impl DelayLine {
 /// A position on a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct DelayTap {
-    /// Whole samples of the delay.
-    whole: usize,
-    /// Weights of the samples around it, oldest first.
+    /// Age of the newest sample that it reads, samples.
+    newest: usize,
+    /// How many it reads, and their weights, oldest first.
+    count: usize,
     weights: [f32; TAPS],
 }
 
@@ -97,29 +99,27 @@ impl DelayTap {
         // Samples that do not exist yet are not asked for: nearer, the polynomial goes through fewer.
         let newer = samples as usize;
         let reach = newer.min(ahead);
-        let used = newer - reach..=newer + reach + 1;
-        let whole = newer.max(AHEAD);
+        let (newest, count) = (newer - reach, 2 * (reach + 1));
         let weight = |age: usize| -> f64 {
-            let others = used.clone().filter(|&other| other != age);
+            let others = (newest..newest + count).filter(|&other| other != age);
             others.map(|other| (samples - other as f64) / (age as f64 - other as f64)).product()
         };
-        let weights = std::array::from_fn(|i| {
-            let age = whole + TAPS - 1 - AHEAD - i;
-            if used.contains(&age) { (weight(age) * gain) as f32 } else { 0.0 }
-        });
-        DelayTap { whole, weights }
+        let mut weights = [0.0; TAPS];
+        for (weights, age) in weights.iter_mut().zip((newest..newest + count).rev()) {
+            *weights = (weight(age) * gain) as f32;
+        }
+        DelayTap { newest, count, weights }
     }
 
     /// A path through free air, m, for a line that holds the sound at a metre. The delay is shorter by `lead`, m.
     pub(super) fn along(metres: f64, lead: f64, sample_rate: f64) -> DelayTap {
-        let late = (metres - lead).max(0.0) / SPEED_OF_SOUND;
-        DelayTap::new(late, 1.0 / metres.max(crate::layout::NEAREST), sample_rate)
+        DelayTap::new((metres - lead).max(0.0) / SPEED_OF_SOUND, spread(metres), sample_rate)
     }
 
-    /// A path from piece to piece, m. Its polynomial is a cubic: a longer one would be more even at high frequencies, which
-    /// do not drive pieces, and begin some samples before the sound arrives.
+    /// A path from piece to piece, m, by a cubic. More points would lose less at high frequencies, which drive no piece, and
+    /// read samples that are newer, so that the kit's blocks would have to be shorter.
     pub(super) fn to_piece(metres: f64, sample_rate: f64) -> DelayTap {
-        DelayTap::through(1, metres / SPEED_OF_SOUND, 1.0 / metres.max(crate::layout::NEAREST), sample_rate)
+        DelayTap::through(1, metres / SPEED_OF_SOUND, spread(metres), sample_rate)
     }
 
     /// The same, weaker.
@@ -129,8 +129,13 @@ impl DelayTap {
 
     /// Longest run (samples) that can be read before it is written.
     pub(super) fn reach(&self) -> usize {
-        self.whole - AHEAD
+        self.newest
     }
+}
+
+/// Pressure at a distance (m) over that at a metre.
+fn spread(metres: f64) -> f64 {
+    1.0 / metres.max(crate::layout::NEAREST)
 }
 
 /// A tap that moves by a cross-fade.

@@ -1,8 +1,11 @@
 //! Steps of the sound where the modes change, spread over a block.
 //!
 //! Modes that change keep their displacement and velocity. What is heard are their accelerations, which step: by twice the
-//! change of the frequency. Of a step the difference is added to the sound and taken back along a straight line within a block,
+//! change of the frequency. The height of the step is added to the sound and taken back along a straight line within a block,
 //! so that a pitch that glides from block to block is heard without steps.
+//!
+//! Other pieces receive the smoothed sound too. What is added is no motion of any mode, so that while a piece is retuned the
+//! exchange between pieces is passive up to it.
 
 use super::{Pressure, RECEIVERS};
 use crate::block::BLOCK;

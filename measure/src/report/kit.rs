@@ -1,6 +1,6 @@
 //! The kit: delays, sympathetic resonance, determinism of the output, and sleep.
 
-use crate::{Chance, kit, slot, standard, stroke};
+use crate::{Chance, kit, kit_of, slot, standard, stroke};
 use anyhow::{Context, Result};
 use overhear::kit_document::KitDocument;
 use overhear_engine::air_load::SPEED_OF_SOUND;
@@ -11,11 +11,12 @@ use overhear_engine::slot::Slot;
 use overhear_engine::snapshot::{KitSnapshot, PieceSnapshot};
 use overhear_engine::strike::{Strike, Striker};
 
-use super::page::bodies::PLAYED;
+use super::page::bodies::{FIXED_DISC, PLAYED};
 use super::page::sources::{EARLIER, EXACT, GOAL};
 use super::page::{Claim, Page, Sheet};
 use super::plot::{Axis, Curve, Plot};
 use crate::hear;
+use crate::reference::fixed_disc_kit;
 
 const RATE: f64 = 44_100.0;
 
@@ -64,16 +65,26 @@ pub fn landings(kit: &mut Kit, speed: f64, radius: f64) -> u32 {
 }
 
 fn wires(sheet: &mut Sheet, kit: &mut Kit) {
-    let counts = [2.0, 4.0, 6.0].map(|speed| landings(kit, speed, 0.2));
+    let mut reference = kit_of(&fixed_disc_kit(), RATE);
+    let counts = [2.0, 4.0, 6.0].map(|speed| landings(&mut reference, speed, 0.2));
     let near = counts.iter().zip([12.0, 152.0, 324.0]);
     let near = near.map(|(&count, want)| (want / 10.0..want * 10.0).contains(&f64::from(count)));
     sheet.claim(Claim {
         what: "rack tom at 2, 4, 6 m/s: landings of the snare's wires in 1 s".to_owned(),
-        on: PLAYED,
+        on: FIXED_DISC,
         figure: format!("{}, {}, {}", counts[0], counts[1], counts[2]),
         reference: "12, 152, 324: order of magnitude, rising".to_owned(),
         source: EARLIER,
         met: Some(near.into_iter().all(|near| near) && counts[0] < counts[1] && counts[1] < counts[2]),
+    });
+    let played = [2.0, 4.0, 6.0].map(|speed| landings(kit, speed, 0.2));
+    sheet.claim(Claim {
+        what: "the same on the standard kit, whose wires are looser and whose tom is lower".to_owned(),
+        on: PLAYED,
+        figure: format!("{}, {}, {}", played[0], played[1], played[2]),
+        reference: "rising".to_owned(),
+        source: GOAL,
+        met: Some(0 < played[0] && played.is_sorted_by(|a, b| a < b)),
     });
     for (what, control) in [
         ("pieces uncoupled", Control::SympatheticCoupling),

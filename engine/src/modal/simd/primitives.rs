@@ -4,6 +4,23 @@ use pulp::Simd;
 
 use super::dispatch::{Kernel, Kernels};
 
+/// A row that goes through whole vectors only.
+#[inline(always)]
+fn whole<S: Simd>(row: &[f32]) -> &[S::f32s] {
+    let (whole, rest) = S::as_simd_f32s(row);
+    debug_assert!(rest.is_empty(), "{} values are no whole number of vectors", row.len());
+    whole
+}
+
+/// The same, to be changed.
+#[inline(always)]
+fn whole_mut<S: Simd>(row: &mut [f32]) -> &mut [S::f32s] {
+    let length = row.len();
+    let (whole, rest) = S::as_mut_simd_f32s(row);
+    debug_assert!(rest.is_empty(), "{length} values are no whole number of vectors");
+    whole
+}
+
 impl Kernels {
     /// `z <- z + turn * z`, complex, for every mode.
     pub fn rotate(&self, re: &mut [f32], im: &mut [f32], turn_re: &[f32], turn_im: &[f32]) {
@@ -20,7 +37,7 @@ impl Kernels {
         self.run(Multiply { out, a, b });
     }
 
-    /// `sum a * b`, over as many as the shorter row has.
+    /// `sum a * b`, over as many as the shorter row has, which may be any number.
     pub fn dot(&self, a: &[f32], b: &[f32]) -> f32 {
         let length = a.len().min(b.len());
         self.run(Dot { a: &a[..length], b: &b[..length] })
@@ -78,8 +95,8 @@ impl Kernel for Rotate<'_> {
     type Output = ();
     #[inline(always)]
     fn with<S: Simd>(self, simd: S, fma: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s + Copy) {
-        let (re, im) = (S::as_mut_simd_f32s(self.re).0, S::as_mut_simd_f32s(self.im).0);
-        let (t_re, t_im) = (S::as_simd_f32s(self.turn_re).0, S::as_simd_f32s(self.turn_im).0);
+        let (re, im) = (whole_mut::<S>(self.re), whole_mut::<S>(self.im));
+        let (t_re, t_im) = (whole::<S>(self.turn_re), whole::<S>(self.turn_im));
         for ((re, im), (&t_re, &t_im)) in re.iter_mut().zip(im).zip(t_re.iter().zip(t_im)) {
             (*re, *im) = turn(simd, fma, (*re, *im), (t_re, t_im));
         }
@@ -97,7 +114,7 @@ impl Kernel for Axpy<'_> {
     #[inline(always)]
     fn with<S: Simd>(self, simd: S, fma: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s + Copy) {
         let factor = simd.splat_f32s(self.factor);
-        for (y, &x) in S::as_mut_simd_f32s(self.y).0.iter_mut().zip(S::as_simd_f32s(self.x).0) {
+        for (y, &x) in whole_mut::<S>(self.y).iter_mut().zip(whole::<S>(self.x)) {
             *y = fma(x, factor, *y);
         }
     }
@@ -113,8 +130,8 @@ impl Kernel for Multiply<'_> {
     type Output = ();
     #[inline(always)]
     fn with<S: Simd>(self, simd: S, _: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s + Copy) {
-        let factors = S::as_simd_f32s(self.a).0.iter().zip(S::as_simd_f32s(self.b).0);
-        for (out, (&a, &b)) in S::as_mut_simd_f32s(self.out).0.iter_mut().zip(factors) {
+        let factors = whole::<S>(self.a).iter().zip(whole::<S>(self.b));
+        for (out, (&a, &b)) in whole_mut::<S>(self.out).iter_mut().zip(factors) {
             *out = simd.mul_f32s(a, b);
         }
     }
@@ -131,7 +148,9 @@ impl Kernel for Dot<'_> {
     fn with<S: Simd>(self, simd: S, fma: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s + Copy) -> f32 {
         // Four sums side by side hide the latency of the addition.
         let mut sums = [simd.splat_f32s(0.0); 4];
-        let (a, b) = (S::as_simd_f32s(self.a).0, S::as_simd_f32s(self.b).0);
+        let ((a, a_end), (b, b_end)) = (S::as_simd_f32s(self.a), S::as_simd_f32s(self.b));
+        // Less than a vector: most rows are whole ones, and have none.
+        let end: f32 = a_end.iter().zip(b_end).map(|(a, b)| a * b).sum();
         let (a_fours, a_rest) = a.as_chunks::<4>();
         let (b_fours, b_rest) = b.as_chunks::<4>();
         for (a, b) in a_fours.iter().zip(b_fours) {
@@ -142,7 +161,8 @@ impl Kernel for Dot<'_> {
         for (i, (&a, &b)) in a_rest.iter().zip(b_rest).enumerate() {
             sums[i] = fma(a, b, sums[i]);
         }
-        simd.reduce_sum_f32s(simd.add_f32s(simd.add_f32s(sums[0], sums[1]), simd.add_f32s(sums[2], sums[3])))
+        let sums = simd.add_f32s(simd.add_f32s(sums[0], sums[1]), simd.add_f32s(sums[2], sums[3]));
+        simd.reduce_sum_f32s(sums) + end
     }
 }
 
@@ -157,7 +177,7 @@ impl Kernel for DotDifference<'_> {
     #[inline(always)]
     fn with<S: Simd>(self, simd: S, fma: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s + Copy) -> f32 {
         let mut sum = simd.splat_f32s(0.0);
-        let [a, x, y] = [self.a, self.x, self.y].map(|row| S::as_simd_f32s(row).0);
+        let [a, x, y] = [self.a, self.x, self.y].map(whole::<S>);
         for ((&a, &x), &y) in a.iter().zip(x).zip(y) {
             sum = fma(a, simd.sub_f32s(x, y), sum);
         }
@@ -175,7 +195,7 @@ impl Kernel for DotSquare<'_> {
     #[inline(always)]
     fn with<S: Simd>(self, simd: S, fma: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s + Copy) -> f32 {
         let mut sum = simd.splat_f32s(0.0);
-        for (&a, &x) in S::as_simd_f32s(self.a).0.iter().zip(S::as_simd_f32s(self.x).0) {
+        for (&a, &x) in whole::<S>(self.a).iter().zip(whole::<S>(self.x)) {
             sum = fma(simd.mul_f32s(a, x), x, sum);
         }
         simd.reduce_sum_f32s(sum)
@@ -194,9 +214,9 @@ impl Kernel for Combine<'_> {
     type Output = ();
     #[inline(always)]
     fn with<S: Simd>(self, simd: S, fma: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s + Copy) {
-        let [a, x, b, y] = [self.a, self.x, self.b, self.y].map(|row| S::as_simd_f32s(row).0);
+        let [a, x, b, y] = [self.a, self.x, self.b, self.y].map(whole::<S>);
         let terms = a.iter().zip(x).zip(b.iter().zip(y));
-        for (out, ((&a, &x), (&b, &y))) in S::as_mut_simd_f32s(self.out).0.iter_mut().zip(terms) {
+        for (out, ((&a, &x), (&b, &y))) in whole_mut::<S>(self.out).iter_mut().zip(terms) {
             *out = fma(a, x, simd.mul_f32s(b, y));
         }
     }
@@ -212,8 +232,24 @@ impl Kernel for Scale<'_> {
     #[inline(always)]
     fn with<S: Simd>(self, simd: S, _: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s + Copy) {
         let factor = simd.splat_f32s(self.factor);
-        for y in S::as_mut_simd_f32s(self.y).0 {
+        for y in whole_mut::<S>(self.y) {
             *y = simd.mul_f32s(*y, factor);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sum_of_products_leaves_none_out_however_many_there_are() {
+        for kernels in [Kernels::detect(), Kernels::baseline()] {
+            for count in 0..=70 {
+                let a: Vec<f32> = (0..count).map(|i| (i + 1) as f32).collect();
+                let expected: f32 = (0..count).map(|i| 2.0 * (i + 1) as f32).sum();
+                assert_eq!(kernels.dot(&a, &[2.0; 70]), expected, "{count} values");
+            }
         }
     }
 }
