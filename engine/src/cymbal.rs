@@ -8,7 +8,10 @@
 use std::f64::consts::TAU;
 
 pub mod assembly;
+pub mod hammering;
 pub mod hand;
+pub mod mixed_potential;
+pub mod mixing;
 pub mod modes;
 pub mod sounding_plate;
 pub mod spec;
@@ -20,6 +23,7 @@ use crate::glide::Glide;
 use crate::instrument::Instrument;
 use crate::modal::Mode;
 use crate::mode::{ModeInfo, ModeKind};
+use crate::plate::ShellMode;
 use crate::surface::Surface;
 
 use assembly::{CymbalPlate, Ordered, RigidMotion};
@@ -49,6 +53,19 @@ fn rigid(stand: &Stand) -> [RigidMotion; 2] {
     [motion(0, |_| 1.0, stand.bounce_hz), motion(1, |r| 2.0 * r, stand.rock_hz)]
 }
 
+/// Root mean square radius of the ring of felt that carries a cymbal, m: felts are 35 to 40 mm wide, with a hole of 10.
+/// *Trade sizes*.
+const FELT_RADIUS: f64 = 0.014;
+
+/// Decay rate (1/s) that the stand's felts give to a mode of unit shape at them, at an angular frequency (rad/s).
+///
+/// The felts are the spring on which the plate bounces, `k = M omega_b^2`, of loss factor `1 / q` at every frequency, as wool has
+/// it; a mode of the mass `M` loses `k / (2 M q omega)`. At the bounce itself that is the bounce's own decay rate.
+fn felt_loss(stand: &Stand, omega: f64) -> f64 {
+    let bounce = TAU * stand.bounce_hz;
+    bounce * bounce / (2.0 * stand.q * omega)
+}
+
 impl Cymbal {
     /// Builds a cymbal. Allocates; takes some tenths of a second.
     ///
@@ -62,7 +79,14 @@ impl Cymbal {
         let shells = plate.shells().iter().enumerate();
         let order: Vec<Ordered> =
             shells.map(|(shell, mode)| Ordered { shell, is_coupled: plate.is_coupled(mode) }).collect();
-        let (modes, shapes) = plate.assemble(&rigid(&stand), &order, |_, _| 0.0);
+        let (modes, shapes) = {
+            let at_felt = plate.shapes_at(FELT_RADIUS / spec.plate().radius());
+            let felt = |row: usize, shell: &ShellMode| {
+                let around = if shell.m == 0 { 1.0 } else { 0.5 };
+                felt_loss(&stand, shell.omega) * around * at_felt[row].powi(2)
+            };
+            plate.assemble(&rigid(&stand), &order, felt)
+        };
         let (low, tuning, high) = CymbalSpec::TUNING;
         let mut cymbal = Cymbal {
             surface: shapes.into_surface(spec, &modes, context),

@@ -39,6 +39,7 @@ pub mod membrane;
 pub mod damping;
 pub mod plate;
 pub mod cavity;
+pub mod random_field;
 pub mod split;
 pub mod mode_mixture;
 pub mod patch_factors;

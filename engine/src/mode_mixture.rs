@@ -3,6 +3,8 @@
 //! Even modes are those of an evenly stretched body. A mixed mode is made of even modes of nearby frequency, so that it is a short
 //! run of coefficients over even modes in order of frequency.
 
+pub mod blocks;
+
 use serde::{Deserialize, Serialize};
 
 /// The run of coefficients of one mixed mode.
@@ -62,11 +64,40 @@ impl ModeMixture {
     ///
     /// # Real-time
     /// No allocation; linear in the number of coefficients.
+    #[inline(always)]
     pub fn apply(&self, even: &[f32], mixed: &mut [f32]) {
         mixed[..self.kept].copy_from_slice(&even[..self.kept]);
         for (out, run) in mixed[self.kept..].iter_mut().zip(&self.runs) {
             let coefs = &self.coefs[run.start as usize..][..run.length as usize];
             *out = sum_of_products(coefs, &even[run.first as usize..][..run.length as usize]);
+        }
+    }
+
+    /// The first modes alone, made of as many even ones: what lies beyond in them is left out.
+    pub fn first(&self, modes: usize) -> ModeMixture {
+        let kept = self.kept.min(modes);
+        let row = |mixed: usize| {
+            let parts: Vec<(usize, f64)> = self.parts(mixed).filter(|(part, _)| *part < modes).collect();
+            let first = parts.first().map_or(kept, |part| part.0);
+            (first, parts.into_iter().map(|part| part.1).collect())
+        };
+        let rows: Vec<(usize, Vec<f64>)> = (0..modes - kept).map(row).collect();
+        ModeMixture::new(kept, &rows)
+    }
+
+    /// Takes amplitudes of the mixed modes, in any unit, to those of the even ones: the transpose of
+    /// [`apply`](Self::apply).
+    ///
+    /// # Real-time
+    /// As [`apply`](Self::apply).
+    #[inline(always)]
+    pub fn unmix(&self, mixed: &[f32], even: &mut [f32]) {
+        even.fill(0.0);
+        even[..self.kept].copy_from_slice(&mixed[..self.kept]);
+        for (amplitude, run) in mixed[self.kept..].iter().zip(&self.runs) {
+            let coefs = &self.coefs[run.start as usize..][..run.length as usize];
+            let even = &mut even[run.first as usize..][..run.length as usize];
+            even.iter_mut().zip(coefs).for_each(|(even, coef)| *even += coef * amplitude);
         }
     }
 
@@ -89,6 +120,7 @@ impl ModeMixture {
 }
 
 /// `sum a b` in eight partial sums, which the compiler keeps in vector registers.
+#[inline(always)]
 fn sum_of_products(a: &[f32], b: &[f32]) -> f32 {
     let mut sums = [0.0_f32; 8];
     let (a, a_rest) = a.as_chunks::<8>();
@@ -118,5 +150,17 @@ mod tests {
         assert_eq!(rows, [[7.0, 1.0], [4.0, 2.0], [16.0, 8.0]]);
         assert_eq!(mixture.parts(0).collect::<Vec<_>>(), [(1, 0.5), (2, 0.25)]);
         assert_eq!((mixture.modes(), mixture.kept()), (3, 1));
+    }
+
+    #[test]
+    fn amplitudes_come_back_by_the_transpose_and_the_first_modes_stand_alone() {
+        let mixture = ModeMixture::new(1, &[(1, vec![0.5, 0.25]), (2, vec![2.0])]);
+        let mut even = [9.0; 3];
+        mixture.unmix(&[7.0, 4.0, 8.0], &mut even);
+        assert_eq!(even, [7.0, 2.0, 17.0]);
+        let first = mixture.first(2);
+        assert_eq!((first.modes(), first.kept()), (2, 1));
+        assert_eq!(first.parts(0).collect::<Vec<_>>(), [(1, 0.5)]);
+        assert_eq!(mixture.first(1).modes(), 1);
     }
 }

@@ -7,9 +7,10 @@
 //! Whoever builds a cymbal chooses the order of its modes and what moves before them as a whole; each step takes what the
 //! one before it returns.
 
+use std::convert::Infallible;
 use std::f64::consts::TAU;
 
-use crate::cache::Shared;
+use crate::cache::{Cache, Shared};
 
 use crate::air_load;
 use crate::build_context::BuildContext;
@@ -18,12 +19,17 @@ use crate::error::SpecError;
 use crate::mode::ModeKind;
 use crate::plate::free_disc::Radiated;
 use crate::plate::{PlateModes, PlateTables, ShellMode};
+use crate::potential::Potential;
 use crate::receiver::Receivers;
+use crate::schema::SCHEMA;
 use crate::shapes::{ShapeIndex, ShapeTable};
 use crate::split::Splitting;
 use crate::surface::{Surface, SurfaceParts};
 use crate::von_karman::{CoupledPair, VonKarman};
 
+use super::hammering::HammeringSpec;
+use super::mixed_potential::MixedPotential;
+use super::mixing::{HammeredModes, MIXED_FROM_HZ, PlainMode};
 use super::modes::{BuiltMode, CymbalModes};
 use super::sounding_plate::SoundingPlate;
 use super::spec::CymbalSpec;
@@ -33,6 +39,9 @@ use super::spec::CymbalSpec;
 /// those with every sample; a stroke a millimetre beside changes them by more.
 const COUPLING_RATE_PER_HZ: f64 = 7.0;
 const MOST_COUPLING_RATE: f64 = 20_000.0;
+
+/// What hammering has made of modes of late.
+static HAMMERED: Cache<HammeredModes> = Cache::new("hammered", SCHEMA, 16);
 
 /// Samples between evaluations of the stretching of modes up to `highest_hz`.
 fn coupling_stride(highest_hz: f64, sample_rate: f64) -> u32 {
@@ -89,7 +98,7 @@ pub struct PlateShapes {
 
 /// The stretching, the coupled modes that it acts on, and the highest of them, Hz.
 struct Coupled {
-    potential: VonKarman,
+    potential: Box<dyn Potential>,
     modes: usize,
     highest_hz: f64,
 }
@@ -101,6 +110,8 @@ pub struct CymbalPlate<'a> {
     known: Shared<SoundingPlate>,
     tables: PlateTables,
     splitting: Splitting,
+    hammering: Option<HammeringSpec>,
+    limit_hz: f64,
     /// Modes up to this are coupled, Hz.
     highest_hz: Option<f64>,
 }
@@ -123,7 +134,8 @@ impl<'a> CymbalPlate<'a> {
         let tables = PlateTables::new(orders, extent);
         let splitting = if ideal.round { Splitting::ROUND } else { spec.evenness };
         let highest_hz = coupled_hz.map(|hz| VonKarman::reach(&known.plate, hz));
-        Ok(CymbalPlate { spec, receivers, known, tables, splitting, highest_hz })
+        let hammering = spec.hammering.filter(|_| !ideal.round);
+        Ok(CymbalPlate { spec, receivers, known, tables, splitting, hammering, limit_hz, highest_hz })
     }
 
     /// The shell modes, by frequency.
@@ -164,17 +176,27 @@ impl<'a> CymbalPlate<'a> {
             if self.is_coupled(shell) {
                 pairs.push(CoupledPair { shell: row, mode: rows.modes.len(), axis: self.axis(shell) });
             }
-            self.push_shell(&mut rows, rigid.len() + row, shell, &radiated[row], mounted(row, shell));
+            self.push_shell(&mut rows, (row, rigid.len() + row), &radiated[row], mounted(row, shell));
             if is_coupled {
                 coupled = rows.modes.len();
             }
         }
-        let coupled = self.highest_hz.filter(|_| !pairs.is_empty()).map(|highest_hz| Coupled {
-            potential: VonKarman::new(plate, &self.tables, &pairs),
-            modes: coupled,
-            highest_hz,
+        let hammered = self.hammering.map(|hammering| self.hammer(&hammering, &rows));
+        let coupled = self.highest_hz.filter(|_| !pairs.is_empty()).map(|highest_hz| {
+            let plain = VonKarman::new(plate, &self.tables, &pairs);
+            let potential: Box<dyn Potential> = match &hammered {
+                Some(hammered) if hammered.mixture.kept() < coupled => {
+                    Box::new(MixedPotential::new(plain, &hammered.mixture, coupled))
+                }
+                _ => Box::new(plain),
+            };
+            Coupled { potential, modes: coupled, highest_hz }
         });
-        let shapes = ShapeTable::new(&radial_rows(rigid, plate, &self.tables), rows.index);
+        if let Some(hammered) = &hammered {
+            rows.mix(hammered);
+        }
+        let shapes = ShapeTable::new(&radial_rows(rigid, plate, &self.tables), rows.index)
+            .with_mixture(hammered.map(|hammered| hammered.mixture.clone()));
         let mut modes = CymbalModes {
             modes: rows.modes,
             loss: self.spec.loss,
@@ -185,15 +207,31 @@ impl<'a> CymbalPlate<'a> {
         (modes, PlateShapes { shapes, transfers: rows.transfers, coupled })
     }
 
+    /// What becomes of the modes by hammering, from [`MIXED_FROM_HZ`] on; they stand in order of their frequency.
+    fn hammer(&self, hammering: &HammeringSpec, rows: &Rows) -> Shared<HammeredModes> {
+        let is_kept = |mode: &&BuiltMode| mode.kind == ModeKind::Rigid || mode.omega < TAU * MIXED_FROM_HZ;
+        let kept = rows.modes.iter().take_while(is_kept).count();
+        let key = (self.spec.plate(), hammering, self.splitting, self.limit_hz);
+        let made = HAMMERED.get(&key, || {
+            let mixed = rows.modes.iter().zip(&rows.index).zip(&rows.shells).skip(kept);
+            let plain: Vec<PlainMode> = mixed
+                .map(|((mode, shape), &shell)| PlainMode {
+                    shell,
+                    m: mode.m,
+                    member: mode.member,
+                    axis: shape.axis,
+                    omega: mode.omega,
+                })
+                .collect();
+            let plate = &self.known.plate;
+            Ok::<_, Infallible>(HammeredModes::new(plate, &self.tables, hammering, kept, &plain))
+        });
+        made.unwrap_or_else(|never| match never {})
+    }
+
     /// Appends the members of one shell mode.
-    fn push_shell(
-        &self,
-        rows: &mut Rows,
-        radial: usize,
-        shell: &ShellMode,
-        radiated: &Radiated,
-        mounted: f64,
-    ) {
+    fn push_shell(&self, rows: &mut Rows, (row, radial): (usize, usize), radiated: &Radiated, mounted: f64) {
+        let shell = &self.known.plate.shells[row];
         let (axis, receivers) = (self.axis(shell), self.receivers);
         // Both faces are in the resistance, one in the area.
         let radius = self.spec.plate().radius();
@@ -212,6 +250,7 @@ impl<'a> CymbalPlate<'a> {
                 choking: 0.0,
                 monopole_area,
             });
+            rows.shells.push(row);
             rows.index.push(ShapeIndex { radial, rows: 1, m: shell.m, member, axis });
             let points = [(receivers.near, 1.0), (receivers.far, receivers.far.distance)];
             for (at, (point, scale)) in points.into_iter().enumerate() {
@@ -228,9 +267,37 @@ struct Rows {
     modes: Vec<BuiltMode>,
     index: Vec<ShapeIndex>,
     transfers: [Vec<[f64; 2]>; 2],
+    /// Which of the plate's shell modes; 0 of a rigid motion.
+    shells: Vec<usize>,
 }
 
 impl Rows {
+    /// Mixes the modes from those kept on. How they go around stays that of the plain ones.
+    fn mix(&mut self, hammered: &HammeredModes) {
+        let kept = hammered.mixture.kept();
+        let plain = self.modes.split_off(kept);
+        for (k, (&omega, &name)) in hammered.omegas.iter().zip(&hammered.names).enumerate() {
+            let mean = |of: fn(&BuiltMode) -> f64| hammered.mean(k, |i| of(&plain[i]));
+            self.modes.push(BuiltMode {
+                omega,
+                radiated: mean(|mode| mode.radiated),
+                mounted: mean(|mode| mode.mounted),
+                monopole_area: mean(|mode| mode.monopole_area),
+                ..plain[name as usize]
+            });
+        }
+        for transfers in &mut self.transfers {
+            let of_plain = transfers.clone();
+            for (k, mixed) in transfers[kept..].iter_mut().enumerate() {
+                let parts = hammered.mixture.parts(k);
+                *mixed = parts.fold([0.0; 2], |[re, im], (i, share)| {
+                    let [of_re, of_im] = of_plain[i];
+                    [re + share * of_re, im + share * of_im]
+                });
+            }
+        }
+    }
+
     /// Appends the members of a rigid motion, which is too slow to be heard.
     fn push_rigid(&mut self, radial: usize, motion: &RigidMotion) {
         let &RigidMotion { m, omega, sigma, .. } = motion;
@@ -247,6 +314,7 @@ impl Rows {
                 choking: 0.0,
                 monopole_area: 0.0,
             });
+            self.shells.push(0);
             self.index.push(ShapeIndex { radial, rows: 1, m, member, axis: 0.0 });
             self.transfers.iter_mut().for_each(|transfers| transfers.push([0.0; 2]));
         }
@@ -283,7 +351,7 @@ impl PlateShapes {
         surface.set_transfers(near.into_iter(), far.into_iter());
         if let Some(Coupled { potential, modes, highest_hz }) = self.coupled {
             let stride = coupling_stride(highest_hz, options.sample_rate);
-            surface.set_potential(Box::new(potential), modes, stride);
+            surface.set_potential(potential, modes, stride);
         }
         surface
     }

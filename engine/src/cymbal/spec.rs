@@ -11,6 +11,8 @@ use crate::numbers::{self, Numbers, Visitor};
 use crate::plate::{Bell, PlateSpec};
 use crate::split::Splitting;
 
+use super::hammering::HammeringSpec;
+
 /// A cymbal's description.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -38,8 +40,11 @@ pub struct CymbalSpec {
     pub stand: Option<Stand>,
     /// What muffles it.
     pub muffler: Muffler,
-    /// How uneven it is.
+    /// How far the members of pairs are apart.
     pub evenness: Splitting,
+    /// How it is hammered, if it is; none of a hi-hat's cymbal.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hammering: Option<HammeringSpec>,
 }
 
 /// A cymbal stand: felts the plate bounces and rocks on.
@@ -89,6 +94,9 @@ impl Numbers for CymbalSpec {
         }
         self.muffler.visit_part("muffler", visitor);
         self.evenness.visit_part("evenness", visitor);
+        if let Some(hammering) = &mut self.hammering {
+            hammering.visit_part("hammering", visitor);
+        }
     }
 }
 

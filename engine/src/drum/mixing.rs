@@ -6,14 +6,14 @@
 //! known of the even modes goes through the same mixture: shapes, losses, pressures, so that the drum stays reciprocal and
 //! passive.
 //!
-//! Scheme: modes from [`MIXED_FROM`](super::tension_field::MIXED_FROM) times the drum's pitch on are mixed, in order of frequency, in blocks of
-//! 128, then once more in blocks that lie half a block further. Both passes are rotations, so no energy is gained, and
-//! what remains between modes is weaker than their distance. The mixture is worked out in the middle of the range of pitches and
+//! Scheme: modes from [`MIXED_FROM`](super::tension_field::MIXED_FROM) times the drum's pitch on are mixed, in
+//! [blocks]. The mixture is worked out in the middle of the range of pitches and
 //! kept at all of them: tension moves all modes of a head alike. Frequencies, losses and masses follow the even modes' at every pitch.
 //!
 //! Limits: cavity modes, which do not move with the tension, are mixed as they lie in the middle of the range.
 
 use std::f64::consts::PI;
+use std::ops::Range;
 
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
@@ -23,17 +23,11 @@ use crate::drum::heads::{MIDDLE, TunedHead};
 use crate::drum::modes::DrumModes;
 use crate::drum::tension_field::{Harmonic, TensionField, TensionFieldSpec};
 use crate::drum::tuned::{Grid, ModeAtPitch, PitchPosition};
-use crate::math::{eigen, quadrature};
+use crate::math::quadrature;
 use crate::mode::Member;
 use crate::mode_mixture::ModeMixture;
+use crate::mode_mixture::blocks::{self, around, named};
 use crate::split::Splitting;
-
-/// Modes in a block.
-const BLOCK: usize = 128;
-
-/// What is left out of a mixed mode: coefficients at its ends whose squares sum to this. *Converged*: at most a
-/// thousandth of a mode's energy.
-const LEFT_OUT: f64 = 1e-3;
 
 /// The even modes of a drum, members of pairs one by one, and what becomes of them.
 #[derive(Serialize, Deserialize)]
@@ -100,7 +94,8 @@ impl MixedModes {
         let kept = even.iter().filter(|mode| mode.pair < drum.kept).count();
         let mixed = &even[kept..];
         let problem = Problem::new(drum, spec, mixed, axis);
-        let (omegas, rows) = problem.solve();
+        let even_omegas: Vec<f64> = (0..mixed.len()).map(|i| problem.mode(i).omega).collect();
+        let (omegas, rows) = blocks::solve(&even_omegas, |modes| problem.couplings(modes));
         MixedModes::tabulate(drum, &even, kept, &omegas, rows)
     }
 
@@ -269,58 +264,17 @@ impl<'a> Problem<'a> {
         0.5 * sum
     }
 
-    /// Angular frequencies, ascending, and each mode's coefficients over the even modes from a first one on.
-    fn solve(&self) -> (Vec<f64>, Vec<(usize, Vec<f64>)>) {
-        let count = self.mixed.len();
-        let mut squares: Vec<f64> = (0..count).map(|i| self.mode(i).omega.powi(2)).collect();
-        let mut rows: Vec<(usize, Vec<f64>)> = (0..count).map(|i| (i, vec![1.0])).collect();
-        for offset in [0, BLOCK / 2] {
-            for start in (offset..count).step_by(BLOCK) {
-                self.rotate(start..(start + BLOCK).min(count), offset == 0, &mut squares, &mut rows);
-            }
-        }
-        let mut order: Vec<usize> = (0..count).collect();
-        order.sort_by(|&a, &b| squares[a].total_cmp(&squares[b]));
-        let omegas = order.iter().map(|&i| squares[i].max(0.0).sqrt()).collect();
-        let rows = order.iter().map(|&i| trimmed(&rows[i])).collect();
-        (omegas, rows)
-    }
-
-    /// Solves one block in terms of what the modes are by now.
-    fn rotate(
-        &self,
-        block: std::ops::Range<usize>,
-        first_pass: bool,
-        squares: &mut [f64],
-        rows: &mut [(usize, Vec<f64>)],
-    ) {
-        let (start, size) = (block.start, block.len());
-        let low = block.clone().map(|i| rows[i].0).min().unwrap_or(start);
-        let high = block.clone().map(|i| rows[i].0 + rows[i].1.len()).max().unwrap_or(block.end);
-        let width = high - low;
-        // Coefficients of the block's modes over the even ones they are made of, `[even mode][mode]`.
-        let mut basis = DMatrix::zeros(width, size);
-        for (column, (first, row)) in rows[block.clone()].iter().enumerate() {
-            for (i, coef) in row.iter().enumerate() {
-                basis[(first - low + i, column)] = *coef;
-            }
-        }
-        let mut stiffness = DMatrix::zeros(width, width);
-        for i in 0..width {
+    /// What the fields add to the stiffness among some modes, 1/s2.
+    fn couplings(&self, modes: Range<usize>) -> DMatrix<f64> {
+        let first = modes.start;
+        let mut couplings = DMatrix::zeros(modes.len(), modes.len());
+        for i in 0..modes.len() {
             for j in 0..=i {
-                let coupling = self.coupling(low + i, low + j);
-                stiffness[(i, j)] = coupling;
-                stiffness[(j, i)] = coupling;
+                couplings[(i, j)] = self.coupling(first + i, first + j);
+                couplings[(j, i)] = couplings[(i, j)];
             }
-            stiffness[(i, i)] += self.mode(low + i).omega.powi(2);
         }
-        let matrix = if first_pass { stiffness } else { basis.transpose() * stiffness * &basis };
-        let solved = eigen::symmetric(matrix);
-        let vectors = basis * &solved.vectors;
-        for k in 0..size {
-            squares[start + k] = solved.values[k];
-            rows[start + k] = (low, vectors.column(k).iter().copied().collect());
-        }
+        couplings
     }
 }
 
@@ -345,62 +299,6 @@ fn radial(drum: &DrumModes, head: &TunedHead, far: bool, first: usize, radii: &[
             radial
         })
         .collect()
-}
-
-/// Means around the circle of two shapes `a cos(m theta) + b sin(m theta)` with `cos(l theta)` and `sin(l theta)`, for the
-/// `l` for which they are not zero.
-fn around((m, a): (u32, [f64; 2]), (n, b): (u32, [f64; 2])) -> impl Iterator<Item = (u32, [f64; 2])> {
-    let together = a[0] * b[0] + a[1] * b[1];
-    let apart = a[0] * b[0] - a[1] * b[1];
-    // sin(m) cos(n) and cos(m) sin(n).
-    let (up, down) = (a[1] * b[0], a[0] * b[1]);
-    let difference = if m == n {
-        [if m == 0 { together } else { 0.5 * together }, 0.0]
-    } else {
-        let sign = if m > n { 0.25 } else { -0.25 };
-        [0.25 * together, sign * (up - down)]
-    };
-    let sum = if m + n == 0 { [0.0; 2] } else { [0.25 * apart, 0.25 * (up + down)] };
-    [(m.abs_diff(n), difference), (m + n, sum)].into_iter()
-}
-
-/// A row without the weak coefficients at its ends, and again of unit length.
-fn trimmed((first, row): &(usize, Vec<f64>)) -> (usize, Vec<f64>) {
-    let cut = |from_end: bool| {
-        let mut sum = 0.0;
-        let squares = row.iter().map(|coef| coef * coef);
-        let weak = |square: f64, sum: &mut f64| {
-            *sum += square;
-            *sum <= 0.5 * LEFT_OUT
-        };
-        if from_end {
-            squares.rev().take_while(|&square| weak(square, &mut sum)).count()
-        } else {
-            squares.take_while(|&square| weak(square, &mut sum)).count()
-        }
-    };
-    let (head, tail) = (cut(false), cut(true));
-    let kept = &row[head..row.len() - tail];
-    let length = kept.iter().map(|coef| coef * coef).sum::<f64>().sqrt();
-    (first + head, kept.iter().map(|coef| coef / length).collect())
-}
-
-/// For each row the even mode it is most of, no two the same.
-fn named(rows: &[(usize, Vec<f64>)]) -> Vec<usize> {
-    let mut claims: Vec<(f64, usize, usize)> = Vec::new();
-    for (k, (first, row)) in rows.iter().enumerate() {
-        claims.extend(row.iter().enumerate().map(|(i, coef)| (coef * coef, k, first + i)));
-    }
-    claims.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)).then(a.2.cmp(&b.2)));
-    let (mut names, mut taken) = (vec![None; rows.len()], vec![false; rows.len()]);
-    for (_, k, part) in claims {
-        if names[k].is_none() && !taken[part] {
-            names[k] = Some(part);
-            taken[part] = true;
-        }
-    }
-    let mut free = (0..rows.len()).filter(|&part| !taken[part]).collect::<Vec<_>>().into_iter();
-    names.into_iter().map(|name| name.or_else(|| free.next()).unwrap_or(0)).collect()
 }
 
 #[cfg(test)]

@@ -19,13 +19,11 @@
 //! Source: Morse & Ingard, Theoretical Acoustics, ch. 5 (perturbed membranes); Worland, J. Acoust. Soc. Am. 127, 2010
 //! (drum heads of uneven tension).
 
-use std::f64::consts::TAU;
-
 use serde::{Deserialize, Serialize};
 
 use crate::math::bessel;
 use crate::numbers::{Numbers, Visitor};
-use crate::split::hash;
+use crate::random_field::{self, Component};
 
 /// How uneven the tension of a drum's heads is.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -50,17 +48,6 @@ impl Numbers for TensionFieldSpec {
 /// that they lie far apart and only the two of a pair meet, which are [split](crate::split) instead.
 pub const MIXED_FROM: f64 = 2.2;
 
-/// Components weaker than this, over the strongest possible one, are left out.
-const WEAKEST: f64 = 0.02;
-
-/// One shape of the field, `J_l(kappa r) (cos part cos(l theta) + sin part sin(l theta))`, `r` a share of the radius.
-#[derive(Debug, Clone, Copy)]
-struct Component {
-    l: u32,
-    kappa: f64,
-    parts: [f64; 2],
-}
-
 /// The field along the radius, for one number of periods around.
 #[derive(Debug, Clone)]
 pub struct Harmonic {
@@ -81,7 +68,7 @@ impl TensionField {
     /// Draws the field of one head (`head` tells the heads of a drum apart) at radii (shares of the head's) with weights (dimensionless) such that
     /// `sum weight f = int f 2 r dr`. Allocates.
     pub fn new(spec: &TensionFieldSpec, head: u32, radii: &[f64], weights: &[f64]) -> TensionField {
-        let mut components = components(spec, head);
+        let mut components = random_field::components(spec.rms, spec.correlation, spec.seed, head);
         components.push(Component { l: 0, kappa: 0.0, parts: [-pull(&components, radii, weights), 0.0] });
         let most = components.iter().map(|component| component.l).max().unwrap_or(0);
         let empty = || [vec![0.0; radii.len()], vec![0.0; radii.len()]];
@@ -113,35 +100,6 @@ impl TensionField {
     }
 }
 
-/// Draws the components.
-fn components(spec: &TensionFieldSpec, head: u32) -> Vec<Component> {
-    let fall = |kappa: f64| (-0.25 * (kappa * spec.correlation).powi(2)).exp();
-    let highest = 2.0 * (-WEAKEST.ln()).sqrt() / spec.correlation;
-    let mut components = Vec::new();
-    let mut square = 0.0;
-    for l in 0.. {
-        let zeros = bessel::zeros_prime(l, 2 + (highest / 2.8) as u32);
-        let Some(first) = zeros.first().filter(|&&first| first <= highest || l == 0) else { break };
-        debug_assert!(*first > 0.0);
-        for (s, kappa) in zeros.into_iter().filter(|&kappa| kappa <= highest).enumerate() {
-            // Mean square of J_l(kappa r) over the disc.
-            let mean = (1.0 - (f64::from(l) / kappa).powi(2)) * bessel::j(l, kappa).powi(2);
-            let around = if l == 0 { 1.0 } else { 0.5 };
-            let draw = normal(spec.seed, l, s as u32, head);
-            let parts = draw.map(|draw| draw * fall(kappa) / (mean * around).sqrt());
-            let parts = if l == 0 { [parts[0], 0.0] } else { parts };
-            square += parts.map(|part| part * part * mean * around).iter().sum::<f64>();
-            components.push(Component { l, kappa, parts });
-        }
-    }
-    // The rms is of this head, not of all that could be drawn.
-    let scale = if square > 0.0 { spec.rms / square.sqrt() } else { 0.0 };
-    for component in &mut components {
-        component.parts = component.parts.map(|part| scale * part);
-    }
-    components
-}
-
 /// Relative tension that the mode `(0, 1)` feels.
 fn pull(components: &[Component], radii: &[f64], weights: &[f64]) -> f64 {
     let zero = bessel::zero(0, 1);
@@ -155,16 +113,10 @@ fn pull(components: &[Component], radii: &[f64], weights: &[f64]) -> f64 {
     components.iter().filter(|component| component.l == 0).map(felt).sum()
 }
 
-/// Two independent draws from a normal distribution (Box & Muller).
-fn normal(seed: u32, l: u32, s: u32, head: u32) -> [f64; 2] {
-    let [u, v] = [10, 11].map(|what| hash(seed, l, s, what + 16 * head));
-    let (sin, cos) = (TAU * v).sin_cos();
-    let size = (-2.0 * (1.0 - u).ln()).sqrt();
-    [size * cos, size * sin]
-}
-
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::TAU;
+
     use super::*;
     use crate::math::quadrature::GaussLegendre;
 

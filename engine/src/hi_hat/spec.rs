@@ -77,6 +77,12 @@ impl HiHatSpec {
                     "is given, accepted: none, a hi-hat's cymbals are held by clutch and seat",
                 ));
             }
+            if half.hammering.is_some() {
+                return Err(SpecError::refused(
+                    &format!("{name}.hammering"),
+                    "is given, accepted: none, the rims of a hi-hat meet by the orders of turned cymbals",
+                ));
+            }
         }
         // Rims of different radii would not meet.
         let widths = (self.bottom.diameter - self.top.diameter).abs();

@@ -4,6 +4,7 @@
 
 use crate::build_context::Idealization;
 use crate::contact::Material;
+use crate::cymbal::hammering::HammeringSpec;
 use crate::cymbal::spec::{CymbalSpec, Stand};
 use crate::damping::{EdgeSpec, LossLaw, Muffler};
 use crate::drum::spec::{DrumSpec, HeadContact, HeadSpec, PitchOf, ResonantSpec, ShellSpec};
@@ -310,37 +311,33 @@ fn bronze(diameter_in: f64, mass: f64, bow: f64, (radius, rise): (f64, f64)) -> 
         // A strip of tape near the edge. *By ear*.
         muffler: Muffler::Gel { sigma: fitted::CYMBAL_TAPE_SIGMA, radius: 0.85, angle: 2.3 },
         evenness: Splitting::CYMBAL,
+        hammering: None,
     }
+}
+
+/// A cymbal hammered in its own way.
+fn hammered(cymbal: CymbalSpec, seed: u32) -> InstrumentSpec {
+    let hammering =
+        HammeringSpec { rms: fitted::HAMMERING_RMS, correlation: fitted::HAMMERING_CORRELATION, seed };
+    InstrumentSpec::Cymbal(CymbalSpec { hammering: Some(hammering), ..cymbal })
 }
 
 /// A 16 in crash.
 fn crash() -> InstrumentSpec {
-    InstrumentSpec::Cymbal(bronze(
-        16.0,
-        1.10,
-        fitted::CRASH_BOW,
-        (fitted::CRASH_BELL_RADIUS, fitted::CRASH_BELL_RISE),
-    ))
+    hammered(bronze(16.0, 1.10, fitted::CRASH_BOW, (fitted::CRASH_BELL_RADIUS, fitted::CRASH_BELL_RISE)), 1)
 }
 
 /// A 20 in ride.
 fn ride() -> InstrumentSpec {
-    InstrumentSpec::Cymbal(bronze(
-        20.0,
-        2.50,
-        fitted::RIDE_BOW,
-        (fitted::RIDE_BELL_RADIUS, fitted::RIDE_BELL_RISE),
-    ))
+    hammered(bronze(20.0, 2.50, fitted::RIDE_BOW, (fitted::RIDE_BELL_RADIUS, fitted::RIDE_BELL_RISE)), 2)
 }
 
 /// A 10 in splash.
 fn splash() -> InstrumentSpec {
-    InstrumentSpec::Cymbal(bronze(
-        10.0,
-        0.25,
-        fitted::SPLASH_BOW,
-        (fitted::SPLASH_BELL_RADIUS, fitted::SPLASH_BELL_RISE),
-    ))
+    hammered(
+        bronze(10.0, 0.25, fitted::SPLASH_BOW, (fitted::SPLASH_BELL_RADIUS, fitted::SPLASH_BELL_RISE)),
+        3,
+    )
 }
 
 /// 14 in hats.

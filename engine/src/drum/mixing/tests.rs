@@ -3,6 +3,8 @@ use std::f64::consts::TAU;
 use super::*;
 use crate::drum::spec::DrumSpec;
 use crate::math::bessel;
+use crate::math::eigen;
+use crate::mode_mixture::blocks::BLOCK;
 use crate::reference;
 
 const FIELD: TensionFieldSpec = TensionFieldSpec { rms: 0.05, correlation: 0.3, seed: 7 };
@@ -90,7 +92,8 @@ fn blocks_come_to_what_one_large_problem_does() {
     let even = &even[mixed(&even, &drum)..];
     assert!(even.len() > BLOCK + BLOCK / 2, "{} modes", even.len());
     let problem = Problem::new(&drum, &FIELD, even, axis);
-    let (omegas, rows) = problem.solve();
+    let even_omegas: Vec<f64> = (0..problem.mixed.len()).map(|i| problem.mode(i).omega).collect();
+    let (omegas, rows) = blocks::solve(&even_omegas, |modes| problem.couplings(modes));
     let full = DMatrix::from_fn(even.len(), even.len(), |i, j| {
         problem.coupling(i, j) + if i == j { problem.mode(i).omega.powi(2) } else { 0.0 }
     });
