@@ -5,7 +5,7 @@
 //! modes up to a frequency that the quality chooses ([`VonKarman`](crate::von_karman::VonKarman)); above, they stay linear. The
 //! rigid motions are too slow to be heard. The plate stands in free air ([`FreeDisc`](crate::plate::free_disc::FreeDisc)).
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_2_PI, TAU};
 
 pub mod assembly;
 pub mod hammering;
@@ -59,11 +59,14 @@ const FELT_RADIUS: f64 = 0.014;
 
 /// Decay rate (1/s) that the stand's felts give to a mode of unit shape at them, at an angular frequency (rad/s).
 ///
-/// The felts are the spring on which the plate bounces, `k = M omega_b^2`, of loss factor `1 / q` at every frequency, as wool has
-/// it; a mode of the mass `M` loses `k / (2 M q omega)`. At the bounce itself that is the bounce's own decay rate.
+/// The felts are the spring on which the plate bounces, `k = M omega_b^2` at the bounce, with a loss factor of `1 / q`, which wool has
+/// at every frequency. With such a loss the stiffness grows as `omega^alpha`, `alpha = 2 / pi atan(1 / q)` (Kramers & Kronig).
+/// A mode of the mass `M` loses `k / (2 M q omega)`; at the bounce itself that is the bounce's own decay rate.
 fn felt_loss(stand: &Stand, omega: f64) -> f64 {
     let bounce = TAU * stand.bounce_hz;
-    bounce * bounce / (2.0 * stand.q * omega)
+    let alpha = FRAC_2_PI * stand.q.recip().atan();
+    let stiffness = bounce * bounce * (omega / bounce).powf(alpha);
+    stiffness / (2.0 * stand.q * omega)
 }
 
 impl Cymbal {

@@ -67,3 +67,13 @@ fn a_hand_that_the_modes_follow_in_turns_sounds_as_one_that_they_follow_in_every
         assert!(rises(&energy) <= 1e-5 + 1.25 * rises(&kept), "{name}");
     }
 }
+
+#[test]
+fn felts_damp_the_bounce_as_it_is_damped_and_all_else_less_and_less() {
+    let stand = reference::cymbal("crash").stand.unwrap();
+    let bounce = TAU * stand.bounce_hz;
+    assert!((felt_loss(&stand, bounce) / (bounce / (2.0 * stand.q)) - 1.0).abs() < 1e-12);
+    // An octave up the stiffness is 2^(2/pi atan(1/3)) = 1.152 times as large, the loss 1.152 / 2 times.
+    let octave = felt_loss(&stand, 2.0 * bounce) / felt_loss(&stand, bounce);
+    assert!((octave - 0.5762).abs() < 1e-3, "{octave}");
+}
