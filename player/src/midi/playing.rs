@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
+use overhear_engine::hi_hat::TOUCHING;
 use overhear_engine::kit_spec::Kind;
 use overhear_engine::slot::{SLOTS, Slot};
 use overhear_engine::strike::{Strike, Striker};
@@ -266,18 +267,29 @@ impl Playing {
     /// What a note of a velocity (0 to 1) does with the pedal of the hi-hat in a slot, if it does, and the speed of the
     /// foot, m/s.
     ///
+    /// A stroke names closed or open cymbals. Where a controller plays the pedal, the foot is where the controller says if that
+    /// is closed or open as the note names it, otherwise where the note says. A note that only moves the pedal then does
+    /// nothing.
+    ///
     /// # Real-time
     /// Table look-ups; no allocation, no lock.
     pub fn foot(&self, note: u8, velocity: f32, channel: u8) -> Option<(Slot, Foot, f64)> {
         let heard = velocity > 0.0 && self.hears(channel);
         let (slot, foot) = self.document.notes.foot(self.reference(note).filter(|_| heard)?)?;
         let speed = FOOT.0 * libm::pow(FOOT.1 / FOOT.0, f64::from(velocity.min(1.0)));
+        let foot = match (foot, self.state.pedal) {
+            (Foot::Position(named), Some(controlled)) => {
+                self.stroke(note)?;
+                // The note says whether the rims touch, the controller by how much.
+                let agree = (named > TOUCHING) == (controlled > TOUCHING);
+                Foot::Position(if agree { controlled } else { named })
+            }
+            _ => foot,
+        };
         Some((slot, foot, speed))
-            .filter(|_| !(self.state.pedal.is_some() && matches!(foot, Foot::Position(_))))
     }
 
-    /// Where a controller brings the pedals of all hi-hats, 0 (up) to 1 (down), if it is the one for that; from then on
-    /// strokes leave the pedal where it is.
+    /// Where a controller brings the pedals of all hi-hats, 0 (up) to 1 (down), if it is the one for that.
     ///
     /// # Real-time
     /// No allocation, no lock.

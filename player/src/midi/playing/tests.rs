@@ -191,7 +191,23 @@ fn two_hi_hats_have_pedals_of_their_own_and_share_the_controller() {
     assert_eq!(stepped(&playing, 42), Some((hat, Foot::Position(0.8))));
     assert_eq!(playing.pedal(4, 0.25, 9), Some(0.25));
     assert_eq!(playing.pedal_at(), Some(0.25));
-    assert_eq!(stepped(&playing, 42), None, "a foot is there");
+    for (controlled, note, brought) in [
+        (0.25, 42, 0.8),
+        (0.25, 46, 0.25),
+        (0.55, 46, 0.55),
+        (0.55, 42, 0.8),
+        (0.9, 42, 0.9),
+        (0.9, 46, 0.4),
+        (0.9, 100, 0.5),
+    ] {
+        playing.pedal(4, controlled as f32, 9);
+        let Some((slot, Foot::Position(pedal))) = stepped(&playing, note) else {
+            panic!("note {note} leaves the pedal");
+        };
+        assert_eq!(slot, hat, "note {note}");
+        assert!((pedal - brought).abs() < 1e-6, "note {note} at {controlled}: {pedal}, not {brought}");
+    }
+    assert_eq!(stepped(&playing, 98), None, "a stroke that names no opening leaves the pedal");
 }
 
 #[test]
