@@ -2,19 +2,20 @@
 
 use crate::hi_hat::rigid::Weights;
 
-/// Longest time from the note to the end of the foot's way, s: that of a foot that opens. *By ear*: in a third of it the release
-/// of closed cymbals is as loud as a soft stroke. It is less than the 5 ms in which a note has to sound as it is named.
+/// Longest time from the note to the end of the foot's way, s: that of a foot that opens. *Converged*: in a third of it the
+/// release of closed cymbals is as loud as a soft stroke. It is less than the 5 ms in which a note has to sound as it is named.
 pub const ARRIVAL: f64 = 3e-3;
 
-/// Time in which the ringing is taken away, s. *By ear*: a fade too short to soften the stroke, and long enough not to click.
+/// Time in which the ringing is taken away, s. *Converged*: steps between samples are a third of those of the ringing at most, and
+/// in 0.4 ms the stroke is 3 to 4 dB softer.
 const CALMING: f64 = 2.5e-4;
 
-/// Share of the amplitude that it leaves. *Derived*: 40 ms after a foot of 1 m/s has closed them, a tenth to a twentieth of the
-/// energy of ringing cymbals is left.
+/// Share of the amplitude that it leaves. *Derived*: a foot of 1 m/s leaves 0.09 and 0.15 of the energy of strokes of 4.7 and
+/// 2 m/s 80 ms after it has set out; this is 0.04, that of a foot that has rested for a while.
 const LEFT: f64 = 0.2;
 
-/// Time of the way on which the rims touch, s, for a foot that closes. *By ear*: the stick lands on closed cymbals, and the
-/// rims are 3 dB or more softer than a soft stroke.
+/// Time of the way on which the rims touch, s, for a foot that closes. *Converged*: in 1 ms the stick lands on cymbals that
+/// still close, and the first 2 ms are 1 to 7 dB softer; in 0.1 ms the landing of the rims is 5 dB louder.
 const CLOSING: f64 = 2.5e-4;
 
 /// Most equilibria on the way. *Converged*: with 6, opening after a soft stroke is 8 dB louder, by the steps alone.
