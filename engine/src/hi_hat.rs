@@ -18,6 +18,7 @@
 //! No real-time model of a hi-hat is published; the parts are as elsewhere in this crate. Energy: all contacts are discrete
 //! gradients of one potential, solved together with the strikers through both bodies.
 
+mod arriving;
 mod attached;
 pub mod foot;
 pub mod half;
@@ -44,6 +45,7 @@ use crate::math::roots;
 use crate::mode::{ModeInfo, ModeKind};
 use crate::surface::Surface;
 
+pub use pair::arrival::ARRIVAL;
 pub use rim_points::POINTS;
 pub use spec::HiHatSpec;
 
@@ -137,7 +139,7 @@ impl HiHat {
     fn move_pedal(&mut self, send: impl FnOnce(&mut Foot)) {
         self.surface.with(|pair: &mut Pair, site| {
             send(pair.foot_mut());
-            if pair.foot().moves() {
+            if pair.is_moved() {
                 pair.engage(site.body.modal());
             }
         });
@@ -219,7 +221,7 @@ impl Instrument for HiHat {
     fn finish_controls(&mut self) {
         let moved = [&mut self.tuning, &mut self.muffling].map(Glide::jump);
         self.stale |= moved.contains(&true) | self.hand.jump();
-        if let Some(pair) = self.surface.attachment_mut::<Pair>().filter(|pair| pair.foot().moves()) {
+        if let Some(pair) = self.surface.attachment_mut::<Pair>().filter(|pair| pair.is_moved()) {
             pair.come_to_rest();
         }
         let rubbing = self.rubbing_now();
@@ -263,6 +265,19 @@ impl Pedal for HiHat {
         self.pedal = pedal;
         let rod = self.rod(pedal);
         self.move_pedal(|foot| foot.go(rod, speed));
+    }
+
+    fn arrive(&mut self, pedal: f64) {
+        if pedal.is_nan() {
+            return;
+        }
+        let pedal = pedal.clamp(0.0, 1.0);
+        if pedal == self.pedal && !self.pair().is_some_and(Pair::is_moved) {
+            return;
+        }
+        self.pedal = pedal;
+        let rod = self.rod(pedal);
+        self.surface.with(|pair: &mut Pair, site| pair.arrive(rod, site.body.modal()));
     }
 
     fn stamp(&mut self, speed: f64) {

@@ -89,6 +89,12 @@ pub trait Pedal {
     /// Linear in the number of modes.
     fn press(&mut self, pedal: f64, speed: f64);
 
+    /// Brings it to a place within [`ARRIVAL`](crate::hi_hat::ARRIVAL), as a foot that was sent there before.
+    ///
+    /// # Real-time
+    /// Linear in the number of modes.
+    fn arrive(&mut self, pedal: f64);
+
     /// Brings it down at up to a speed (m/s); one that is down already is lifted first.
     ///
     /// # Real-time

@@ -54,7 +54,8 @@ pub fn reach(kind: Kind) -> (f64, f64) {
 /// What a note does with a hi-hat's pedal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Foot {
-    /// It is brought there, 0 (up) to 1 (down), unless a controller plays the pedal.
+    /// It is there, 0 (up) to 1 (down), within milliseconds. Where a controller plays the pedal, see
+    /// [`Playing::foot`](crate::midi::playing::Playing::foot).
     Position(f64),
     /// It is brought down as fast as the note is loud.
     Chick,
@@ -80,7 +81,7 @@ pub struct Row {
     pub name: String,
     /// What it means.
     pub meaning: Meaning,
-    /// Where a hi-hat's pedal is brought before the stroke, 0 (up) to 1 (down), unless a controller plays the pedal.
+    /// Position of a hi-hat's pedal at the stroke, 0 (up) to 1 (down).
     pub pedal: Option<f64>,
 }
 

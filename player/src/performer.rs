@@ -13,7 +13,6 @@ mod sounding;
 use std::sync::Arc;
 
 use overhear_engine::error::SpecError;
-use overhear_engine::hi_hat::foot::SPEED;
 use overhear_engine::kit::{Arrangement, Control, Kit, Microphone, RenderWorkers, Routing, Stereo};
 use overhear_engine::kit_spec::Kind;
 use overhear_engine::piece::Piece;
@@ -251,8 +250,8 @@ impl Performer {
             self.start();
         }
         flushed(|| match foot {
-            // As fast as can be: a drummer's foot would have been there before the stroke.
-            Foot::Position(pedal) => self.kit.press_pedal(slot, pedal, SPEED.2),
+            // A drummer's foot is there before the stroke.
+            Foot::Position(pedal) => self.kit.arrive_pedal(slot, pedal),
             Foot::Chick => self.kit.stamp_pedal(slot, speed),
             Foot::Splash => self.kit.splash_pedal(slot, speed),
         });

@@ -36,6 +36,10 @@ fn played() -> HiHatSpec {
     }
 }
 
+fn energy(sound: &[f32]) -> f64 {
+    sound.iter().map(|x| f64::from(x * x)).sum()
+}
+
 fn edge(speed: f64) -> Strike {
     stroke(Striker::Stick, speed, 0.97, 0.3)
 }
@@ -74,6 +78,7 @@ enum Event {
     Press(f64, f64),
     Stamp(f64),
     Splash(f64),
+    Arrive(f64),
 }
 
 fn any_event() -> impl Strategy<Value = Event> {
@@ -85,6 +90,7 @@ fn any_event() -> impl Strategy<Value = Event> {
         3 => (0.0..=1.0, 0.05..2.5).prop_map(|(pedal, speed)| Event::Press(pedal, speed)),
         1 => (0.05..2.5).prop_map(Event::Stamp),
         1 => (0.05..2.5).prop_map(Event::Splash),
+        3 => (0.0..=1.0).prop_map(Event::Arrive),
     ]
 }
 
@@ -100,6 +106,7 @@ fn play(hat: &mut Piece, event: &Event) {
         Event::Press(pedal, speed) => hat.press_pedal(pedal, speed),
         Event::Stamp(speed) => hat.stamp_pedal(speed),
         Event::Splash(speed) => hat.splash_pedal(speed),
+        Event::Arrive(pedal) => hat.arrive_pedal(pedal),
     }
 }
 
@@ -120,6 +127,12 @@ fn energy_never_rises_but_by_the_work_of_strikers_and_pedal() {
             for _ in 0..*blocks {
                 let out = render(&mut hat, 32.0 / RATE, RATE);
                 prop_assert!(out.iter().all(|x| x.is_finite()));
+                if hat.is_asleep() {
+                    // All accounts begin anew.
+                    prop_assert!(hat.energy() < 1e-9);
+                    before = unpaid(&mut hat);
+                    continue;
+                }
                 let after = unpaid(&mut hat);
                 largest = largest.max(hat.energy() + hat.surface_mut().brought_energy());
                 // Of single precision, over what has gone through it.
@@ -276,6 +289,38 @@ fn chick_and_splash_of_a_cap_hi_hat_are_a_fifth_louder_when_faster() {
 }
 
 #[test]
+fn a_foot_that_a_note_calls_for_ends_the_ringing_softer_than_the_stroke_and_without_a_click() {
+    let steepest =
+        |sound: &[f32]| sound.windows(2).fold(0.0_f32, |most, two| most.max((two[1] - two[0]).abs()));
+    let shoulder = |speed| stroke(Striker::Shoulder, speed, 0.97, 0.0);
+    for speed in [0.8, 1.4, 2.7, 5.2] {
+        let mut hat = piece("hi-hat", RATE);
+        hat.arrive_pedal(0.8);
+        hat.strike(&shoulder(speed));
+        let struck = energy(&render(&mut hat, 0.02, RATE));
+        hat.press_pedal(0.4, SPEED.1);
+        hat.reset();
+        hat.strike(&shoulder(speed));
+        render(&mut hat, 0.15, RATE);
+        let before = render(&mut hat, 0.04, RATE);
+        hat.arrive_pedal(0.8);
+        let fade = render(&mut hat, 0.00025, RATE);
+        let landing = energy(&render(&mut hat, 0.02, RATE));
+        render(&mut hat, 0.02, RATE);
+        let after = render(&mut hat, 0.04, RATE);
+        let click = f64::from(steepest(&fade) / steepest(&before));
+        let [softer, fallen] =
+            [(landing, struck), (energy(&after), energy(&before))].map(|(a, b)| 10.0 * (a / b).log10());
+        println!(
+            "{speed} m/s: fade {click:.2} as steep, landing {softer:.1} dB, ringing {fallen:.1} dB after 40 ms"
+        );
+        assert!(click < 1.0 && click > 0.01, "{speed} m/s: {click} times as steep as the ringing");
+        assert!(softer < -2.0 && softer > -40.0, "{speed} m/s: {softer} dB over a stroke");
+        assert!(fallen < -8.0, "{speed} m/s: {fallen} dB");
+    }
+}
+
+#[test]
 fn a_still_pedal_is_still_and_silent_wherever_it_is() {
     let mut hat = piece("hi-hat", RATE);
     for pedal in PLACES {
@@ -321,10 +366,16 @@ fn time_may_be_cut_anywhere_while_the_pedal_moves() {
         3333 => hat.press_pedal(0.9, 1.5),
         7001 => hat.strike(&edge(2.0)),
         9100 => hat.splash_pedal(1.0),
+        10_015 => {
+            hat.arrive_pedal(0.8);
+            hat.strike(&edge(3.0));
+        }
+        10_050 => hat.press_pedal(0.7, 1.0),
+        11_111 => hat.arrive_pedal(0.3),
         12_500 => hat.stamp_pedal(0.8),
         _ => {}
     };
-    let moments = [0, 1000, 3333, 7001, 9100, 12_500, 20_000];
+    let moments = [0, 1000, 3333, 7001, 9100, 10_015, 10_050, 11_111, 12_500, 20_000];
     let mut chance = Chance::new(3);
     let (mut a, mut b) = (vec![0.0; 20_000], vec![0.0; 20_000]);
     for window in moments.windows(2) {

@@ -70,6 +70,14 @@ impl Attachment for Pair {
         self.rims.begin_count();
     }
 
+    fn calms(&mut self) -> Option<f32> {
+        self.pedal.arrival.and_then(|arrival| arrival.calms())
+    }
+
+    fn calmed(&mut self, body: &StruckBody) {
+        self.follow_calm(body.modal());
+    }
+
     fn put(&mut self, point: usize, radius: f64, angle: f64) {
         self.put_striker(point, radius, angle);
     }
@@ -91,7 +99,9 @@ impl Attachment for Pair {
     }
 
     fn displacement(&self, point: usize) -> f64 {
-        self.rigid[0].at(&self.strikers[point].weights)
+        let weights = &self.strikers[point].weights;
+        let carried: f64 = self.carried.iter().zip(weights).map(|(carried, weight)| carried * weight).sum();
+        self.rigid[0].at(weights) - carried
     }
 
     fn preload_offset(&self, point: usize, coupling: f64, free: &FreeStep) -> f64 {
@@ -183,6 +193,7 @@ impl Attachment for Pair {
         self.lower.modal.reset();
         self.come_to_rest();
         self.begin_count();
+        self.carried = [0.0; 3];
         self.pedal.work = 0.0;
     }
 }

@@ -71,6 +71,17 @@ impl Foot {
         (self.turn, self.end) = (None, None);
     }
 
+    /// Stands still at `y`, m, until it is moved on.
+    pub fn put(&mut self, y: f64) {
+        (self.y, self.v) = (y, 0.0);
+    }
+
+    /// Stops, with another goal (m).
+    pub fn stop_for(&mut self, target: f64) {
+        self.go(target, SPEED.1);
+        self.v = 0.0;
+    }
+
     /// Moves down to a position (m) at up to a speed (m/s) without slowing down before it. A foot that is lower than `from` (m)
     /// moves up there first.
     pub fn stamp(&mut self, from: f64, target: f64, fastest: f64) {

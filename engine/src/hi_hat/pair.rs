@@ -23,6 +23,7 @@
 //! Neglected: the stiffness of clutch and seat against deflection of the shells (they hold the mean displacement); motion along
 //! the rims; the air between.
 
+pub(super) mod arrival;
 mod pedal;
 mod rest;
 mod state;
@@ -37,7 +38,7 @@ use crate::surface::body::SoundingBody;
 use crate::surface::contacts::STRIKER_PLACES;
 
 use super::foot::Foot;
-use super::rigid::Rigid;
+use super::rigid::{Rigid, Weights};
 use super::rim_points::{self, POINTS};
 
 use pedal::Pedal;
@@ -76,6 +77,8 @@ pub struct Pair {
     pub(super) rims: RimState,
     pub(super) pedal: Pedal,
     pub(super) strikers: [StrikerPlace; STRIKER_PLACES],
+    /// Heave and tilts by which the upper cymbal was displaced together with the strikers at it, m.
+    pub(super) carried: Weights,
     /// Whether both are at rest as rigid bodies.
     pub(super) still: bool,
     /// Whether rims may meet.
@@ -101,6 +104,7 @@ impl Pair {
             rims: RimState::new(parts.law, parts.lasting_loss, parts.depth),
             pedal: Pedal::up(),
             strikers: [StrikerPlace::default(); STRIKER_PLACES],
+            carried: [0.0; 3],
             still: true,
             engaged: false,
             followed: None,
@@ -132,6 +136,11 @@ impl Pair {
     /// The foot on the pedal.
     pub fn foot(&self) -> &Foot {
         &self.pedal.foot
+    }
+
+    /// Whether the foot moves or will move.
+    pub fn is_moved(&self) -> bool {
+        self.pedal.foot.moves() || self.pedal.arrival.is_some()
     }
 
     /// The foot on the pedal, to be moved.
@@ -206,6 +215,7 @@ impl Pair {
 
     /// Comes to rest with the foot at its goal; the shells stay as they are.
     pub fn come_to_rest(&mut self) {
+        self.pedal.arrival = None;
         self.pedal.foot.jump();
         let Balance { rest, places, compression } = self.statics.balance(
             self.pedal.foot.place(),

@@ -85,7 +85,12 @@ impl Rigid {
         }
     }
 
-    /// Heave's speed, m/s; for tests.
+    /// Displaces it by this heave and these tilts, m; its speed stays.
+    pub fn displace(&mut self, by: &Weights) {
+        self.parts.iter_mut().zip(by).for_each(|(part, by)| part.q += by);
+    }
+
+    /// Sets the speeds of heave and tilts, m/s.
     pub fn set_speed(&mut self, speed: [f64; 3]) {
         self.parts.iter_mut().zip(speed).for_each(|(part, v)| part.v = v);
     }

@@ -10,7 +10,7 @@ use super::rigid::Rigid;
 const PUSHED: (f64, f64) = (5e-3, 2.0);
 
 /// Energy below which touching cymbals are at rest, J: 10 dB below that at which a piece sleeps.
-const STILL: f64 = 1e-11;
+pub(super) const STILL: f64 = 1e-11;
 
 /// Result of the check.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,7 +39,10 @@ impl Pair {
         if !finite {
             return Settled::Broken;
         }
-        if self.pedal.goal_place != self.pedal.foot.place() {
+        if !strikers {
+            self.carried = [0.0; 3];
+        }
+        if self.pedal.arrival.is_none() && self.pedal.goal_place != self.pedal.foot.place() {
             let Pair { statics, pedal, rims, rigid, .. } = self;
             let goal = statics.balance(pedal.foot.place(), &pedal.goal.preload, &rims.law, rigid).rest;
             pedal.set_out(goal);

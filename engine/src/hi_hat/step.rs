@@ -65,7 +65,9 @@ impl Pair {
             return;
         }
         let (before, old) = (self.held(), self.pedal.rest.bend);
-        self.pedal.foot.step(self.dt);
+        if !self.step_arrival() {
+            self.pedal.foot.step(self.dt);
+        }
         if self.pedal.lead() {
             for (j, d) in self.rims.compression.iter_mut().enumerate() {
                 *d += self.pedal.rest.bend[j] - old[j];

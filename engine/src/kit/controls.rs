@@ -131,6 +131,17 @@ impl Kit {
         }
     }
 
+    /// Brings a hi-hat's pedal to a position, 0 (up) to 1 (down), as a foot that was sent there before; see
+    /// [`Piece::arrive_pedal`]. A NaN is ignored.
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn arrive_pedal(&mut self, slot: Slot, pedal: f64) {
+        if !pedal.is_nan() {
+            self.step_on(slot, |_| pedal, |hat| hat.arrive_pedal(pedal));
+        }
+    }
+
     /// Stamps on a hi-hat's pedal, at up to a speed (m/s); see [`Piece::stamp_pedal`].
     ///
     /// # Real-time

@@ -49,6 +49,20 @@ impl Piece {
         }
     }
 
+    /// Brings a hi-hat's pedal to a place, 0 (up, open) to 1 (down, clamped), within
+    /// [`ARRIVAL`](crate::hi_hat::ARRIVAL), as a foot that was sent there before; cymbals at rest are there at once.
+    ///
+    /// # Real-time
+    /// No allocation, no lock; linear in the number of modes.
+    pub fn arrive_pedal(&mut self, pedal: f64) {
+        if self.instrument.pedal_mut().is_some() {
+            self.wake();
+        }
+        if let Some(own) = self.instrument.pedal_mut() {
+            own.arrive(pedal);
+        }
+    }
+
     /// Stamps on a hi-hat's pedal: brings it down at up to a speed (m/s); one that is down already is lifted first.
     ///
     /// # Real-time

@@ -75,7 +75,7 @@ fn controllers(document: &KitDocument) -> String {
     let mut text = String::from("\n## Controllers and pressure\n\n| message | what it does |\n|---|---|\n");
     let _ = writeln!(
         text,
-        "| CC {PEDAL_CONTROLLER} | the pedal of every hi-hat: 0 up, 127 down; after the first message notes no longer move the pedal |"
+        "| CC {PEDAL_CONTROLLER} | the pedal of every hi-hat: 0 up, 127 down; closed and open notes take its position where it agrees with the note, and otherwise the note's |"
     );
     for controller in POSITION_CONTROLLERS {
         let moved = |slot| document.notes.position_controller(slot) == Some(controller);

@@ -4,10 +4,12 @@
 //! controllers, the position and stick parameters and unevenness of the hand are added to what the kit's notes say.
 //! Nothing here touches the engine: what comes out is a [`Played`] note or a [`Grip`] for the performer to pass on.
 
+mod arm;
+
 use std::collections::BTreeMap;
-use std::f64::consts::TAU;
 use std::sync::Arc;
 
+use overhear_engine::hi_hat::TOUCHING;
 use overhear_engine::kit_spec::Kind;
 use overhear_engine::slot::{SLOTS, Slot};
 use overhear_engine::strike::{Strike, Striker};
@@ -16,6 +18,7 @@ use super::assignments::{Assignment, Assignments};
 use super::maps::NoteMap;
 use crate::kit_document::KitDocument;
 use crate::midi_map::{Foot, POSITION_CONTROLLERS, Stroke, reach};
+use arm::{Arm, Limb};
 
 /// Stick speed of the softest note, m/s. *By ear*: the faintest tap a pad reports.
 pub const SOFTEST: f64 = 0.4;
@@ -167,6 +170,8 @@ struct PlayingState {
     pedal: Option<f64>,
     /// Strokes so far: the unevenness of each is drawn from its number.
     strokes: u64,
+    /// Strokes of hands so far.
+    by_hand: u64,
 }
 
 impl PlayingState {
@@ -177,6 +182,7 @@ impl PlayingState {
         gripped: [false; SLOTS],
         pedal: None,
         strokes: 0,
+        by_hand: 0,
     };
 }
 
@@ -239,9 +245,11 @@ impl Playing {
         self.state.strokes = self.state.strokes.wrapping_add(1);
         let speed = stick_speed(velocity + fine, self.style.dynamics, self.style.curve);
         let aimed = self.aimed(&stroke, aim) + self.style.offsets[slot];
-        let (radius, angle) = self.placed(aimed.clamp(0.0, 1.0), stroke.angle);
+        let limb = self.next_limb(stroke.striker);
+        let arm = Arm { limb, stroke: self.state.strokes };
+        let (radius, angle) = arm.placed((aimed.clamp(0.0, 1.0), stroke.angle), self.style.position_spread);
         let strike = Strike {
-            speed: speed * self.uneven_speed(),
+            speed: speed * arm.uneven_speed(self.style.speed_spread),
             radius,
             angle,
             striker: self.style.strikers[slot].unwrap_or(stroke.striker),
@@ -266,18 +274,29 @@ impl Playing {
     /// What a note of a velocity (0 to 1) does with the pedal of the hi-hat in a slot, if it does, and the speed of the
     /// foot, m/s.
     ///
+    /// A stroke names closed or open cymbals. Where a controller plays the pedal, the foot is where the controller says if that
+    /// is closed or open as the note names it, otherwise where the note says. A note that only moves the pedal then does
+    /// nothing.
+    ///
     /// # Real-time
     /// Table look-ups; no allocation, no lock.
     pub fn foot(&self, note: u8, velocity: f32, channel: u8) -> Option<(Slot, Foot, f64)> {
         let heard = velocity > 0.0 && self.hears(channel);
         let (slot, foot) = self.document.notes.foot(self.reference(note).filter(|_| heard)?)?;
         let speed = FOOT.0 * libm::pow(FOOT.1 / FOOT.0, f64::from(velocity.min(1.0)));
+        let foot = match (foot, self.state.pedal) {
+            (Foot::Position(named), Some(controlled)) => {
+                self.stroke(note)?;
+                // The note says whether the rims touch, the controller by how much.
+                let agree = (named > TOUCHING) == (controlled > TOUCHING);
+                Foot::Position(if agree { controlled } else { named })
+            }
+            _ => foot,
+        };
         Some((slot, foot, speed))
-            .filter(|_| !(self.state.pedal.is_some() && matches!(foot, Foot::Position(_))))
     }
 
-    /// Where a controller brings the pedals of all hi-hats, 0 (up) to 1 (down), if it is the one for that; from then on
-    /// strokes leave the pedal where it is.
+    /// Where a controller brings the pedals of all hi-hats, 0 (up) to 1 (down), if it is the one for that.
     ///
     /// # Real-time
     /// No allocation, no lock.
@@ -422,33 +441,13 @@ impl Playing {
         })
     }
 
-    /// A place near the one aimed at.
-    fn placed(&self, radius: f64, angle: f64) -> (f64, f64) {
-        let spread = self.style.position_spread;
-        if spread == 0.0 {
-            return (radius, angle);
+    /// The limb of the present stroke: hands alternate.
+    fn next_limb(&mut self, striker: Striker) -> Limb {
+        if matches!(striker, Striker::FeltBeater | Striker::PlasticBeater) {
+            return Limb::Foot;
         }
-        // Uniform in a disc whose mean distance from its centre is the spread: 2/3 of its radius.
-        let away = 1.5 * spread * self.drawn(0).sqrt();
-        let (across, along) = libm::sincos(TAU * self.drawn(1));
-        let (sin, cos) = libm::sincos(angle);
-        let (x, y) = (radius * cos + away * along, radius * sin + away * across);
-        (libm::hypot(x, y).min(1.0), libm::atan2(y, x))
-    }
-
-    /// Ratio of a stroke's speed to what is asked: uniform, with the spread as its mean size.
-    fn uneven_speed(&self) -> f64 {
-        let spread = self.style.speed_spread;
-        if spread == 0.0 { 1.0 } else { libm::pow(10.0, (4.0 * self.drawn(2) - 2.0) * spread / 20.0) }
-    }
-
-    /// A number in 0 to 1 that belongs to the present stroke: the same in every rendering (SplitMix64, Steele et al.
-    /// 2014).
-    fn drawn(&self, which: u64) -> f64 {
-        let mut z = (4 * self.state.strokes + which).wrapping_mul(0x9E37_79B9_7F4A_7C15);
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+        self.state.by_hand = self.state.by_hand.wrapping_add(1);
+        if self.state.by_hand % 2 == 1 { Limb::Right } else { Limb::Left }
     }
 }
 

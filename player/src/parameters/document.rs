@@ -146,7 +146,7 @@ fn playing(manner: Manner) -> &'static str {
         Manner::Dynamics => "Speed of the stick for a note at full velocity.",
         Manner::Curve => "Exponent of the velocity curve; above 1 soft notes become softer.",
         Manner::PositionSpread => {
-            "Average distance of strokes from their intended position, relative to the radius."
+            "Average distance of strokes by hand from their intended position, relative to the radius; hands alternate."
         }
         Manner::SpeedSpread => "Average deviation of strokes from their intended speed.",
         Manner::Map => "Instrument that sends the notes; see `docs/midi.md`.",

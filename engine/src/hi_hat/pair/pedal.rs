@@ -2,6 +2,7 @@
 
 use crate::hi_hat::foot::Foot;
 
+use super::arrival::Arrival;
 use super::rest::Rest;
 
 /// Samples over which the equilibrium follows the rod: a block.
@@ -10,6 +11,8 @@ const FOLLOWING: u32 = 32;
 /// The foot, and the equilibrium of the pair.
 pub(crate) struct Pedal {
     pub(crate) foot: Foot,
+    /// The way that a note has sent the foot on.
+    pub(crate) arrival: Option<Arrival>,
     /// Present equilibrium, the one it moves to, and the samples left until then.
     pub(crate) rest: Rest,
     pub(crate) goal: Rest,
@@ -28,6 +31,7 @@ impl Pedal {
     pub(crate) fn up() -> Pedal {
         Pedal {
             foot: Foot::new(0.0),
+            arrival: None,
             rest: Rest::OPEN,
             goal: Rest::OPEN,
             way: 0,
@@ -40,12 +44,18 @@ impl Pedal {
 
     /// Whether the rod or the equilibrium moves.
     pub(crate) fn moves(&self) -> bool {
-        self.foot.moves() || self.way > 0
+        self.foot.moves() || self.way > 0 || self.arrival.is_some()
     }
 
     /// Starts to move to the equilibrium of the present position of the rod.
     pub(crate) fn set_out(&mut self, goal: Rest) {
-        (self.goal, self.goal_place, self.way) = (goal, self.foot.place(), FOLLOWING);
+        self.goal_place = self.foot.place();
+        self.lead_to(goal, FOLLOWING);
+    }
+
+    /// Starts to move to an equilibrium, within so many samples.
+    pub(crate) fn lead_to(&mut self, goal: Rest, samples: u32) {
+        (self.goal, self.way) = (goal, samples);
     }
 
     /// Takes the equilibrium of the present position of the rod at once.

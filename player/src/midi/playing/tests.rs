@@ -160,6 +160,39 @@ fn unevenness_is_as_large_as_asked_and_repeats() {
 }
 
 #[test]
+fn hands_alternate_and_a_beater_keeps_its_place() {
+    let mut playing = playing();
+    let aimed = playing.note_on(36, 1.0, 9).unwrap().strike;
+    playing.reset();
+    playing.style.position_spread = 0.05;
+    playing.style.speed_spread = 1.0;
+    // Strokes of the foot in between take no hand's turn.
+    let mut hands = [const { Vec::new() }; 2];
+    for count in 0..4000 {
+        hands[count % 2].push(playing.note_on(38, 1.0, 9).unwrap().strike);
+        if count % 3 == 0 {
+            let foot = playing.note_on(36, 1.0, 9).unwrap().strike;
+            assert_eq!(
+                (foot.radius, foot.angle),
+                (aimed.radius, aimed.angle),
+                "a beater away from its place"
+            );
+        }
+    }
+    let mean =
+        |hand: &[Strike], of: &dyn Fn(&Strike) -> f64| hand.iter().map(of).sum::<f64>() / hand.len() as f64;
+    let sides = hands.each_ref().map(|hand| mean(hand, &|strike| strike.radius * strike.angle.sin()));
+    let apart = sides[0] - sides[1];
+    assert!((apart - 0.05).abs() < 0.004, "{apart} of the radius between the hands");
+    let speeds = hands.each_ref().map(|hand| mean(hand, &|strike| 20.0 * strike.speed.log10()));
+    let stronger = speeds[0] - speeds[1];
+    assert!((stronger - 0.6).abs() < 0.1, "{stronger} dB between the hands");
+    playing.reset();
+    let again = playing.note_on(38, 1.0, 9).unwrap().strike;
+    assert_eq!(again, hands[0][0], "the first stroke after a reset is the right hand's");
+}
+
+#[test]
 fn parameters_move_the_place_and_change_the_striker() {
     let mut playing = playing();
     let snare = standard_slot("snare").index();
@@ -191,7 +224,23 @@ fn two_hi_hats_have_pedals_of_their_own_and_share_the_controller() {
     assert_eq!(stepped(&playing, 42), Some((hat, Foot::Position(0.8))));
     assert_eq!(playing.pedal(4, 0.25, 9), Some(0.25));
     assert_eq!(playing.pedal_at(), Some(0.25));
-    assert_eq!(stepped(&playing, 42), None, "a foot is there");
+    for (controlled, note, brought) in [
+        (0.25, 42, 0.8),
+        (0.25, 46, 0.25),
+        (0.55, 46, 0.55),
+        (0.55, 42, 0.8),
+        (0.9, 42, 0.9),
+        (0.9, 46, 0.4),
+        (0.9, 100, 0.5),
+    ] {
+        playing.pedal(4, controlled as f32, 9);
+        let Some((slot, Foot::Position(pedal))) = stepped(&playing, note) else {
+            panic!("note {note} leaves the pedal");
+        };
+        assert_eq!(slot, hat, "note {note}");
+        assert!((pedal - brought).abs() < 1e-6, "note {note} at {controlled}: {pedal}, not {brought}");
+    }
+    assert_eq!(stepped(&playing, 98), None, "a stroke that names no opening leaves the pedal");
 }
 
 #[test]

@@ -1,0 +1,152 @@
+//! Arrival of a foot that a note calls for.
+//!
+//! A note names a finished sound: "closed hi-hat" means cymbals that a foot has closed before the stick lands. Nothing announces
+//! the note, so the foot moves after it, faster than any foot.
+//!
+//! Model: through the air the rod and the upper cymbal are displaced at once, which no force resists and which makes no sound.
+//! The rest of the way, on which the rims touch, leads through static equilibria: over each step the rod, both cymbals as rigid
+//! bodies, and the static deflection of the shells move from one to the next. A landing at the speed of such a foot would
+//! be louder than the stroke; cymbals that are led have no momentum to land with. Cymbals at rest take the last equilibrium at
+//! once.
+//!
+//! A foot that closes open cymbals in time takes most of their ringing before the stick lands. Here this is taken in a quarter
+//! of a millisecond: displacements and velocities of both shells fall together, as a sound that is faded. What is left strikes
+//! the rims, the bark of a hi-hat that is closed.
+//!
+//! Energy: the change by the displacements is part of the [pedal's work](Pair::pedal_work). The fading only takes energy.
+//! Strikers are carried with the upper cymbal, so that its displacement changes no contact with them.
+
+use crate::modal::ModalBody;
+
+use super::pair::Pair;
+use super::pair::arrival::Arrival;
+use super::rigid::Weights;
+use super::rim_points::POINTS;
+use super::settling::STILL;
+
+/// Gap that the rims keep when they are displaced through the air, m. *Derived*: the way of 5 m/s in a sample.
+const CLEARANCE: f64 = 2e-4;
+
+impl Pair {
+    /// Brings the rod to `end` (m), within [`ARRIVAL`](super::ARRIVAL).
+    ///
+    /// # Real-time
+    /// Linear in the number of modes.
+    pub fn arrive(&mut self, end: f64, top: &ModalBody) {
+        self.engage(top);
+        let quiet = self.held_energy() + top.energy() < STILL;
+        let before = self.held();
+        self.pedal.arrival = None;
+        self.pedal.foot.stop_for(end);
+        self.rigid.iter_mut().for_each(|rigid| rigid.set_speed([0.0; 3]));
+        if quiet {
+            let from = self.rigid[0].place();
+            self.come_to_rest();
+            let to = self.rigid[0].place();
+            self.carried = std::array::from_fn(|i| self.carried[i] + to[i] - from[i]);
+            self.engage(top);
+        } else {
+            let touching = self.statics.depth.iter().sum::<f64>() / POINTS as f64;
+            let closes = self.clamped() == 0.0 && end > touching;
+            self.pedal.arrival = Some(Arrival::new(end, closes, self.dt));
+            if !closes {
+                self.set_out_for(end);
+            }
+        }
+        self.pedal.work += self.held() - before;
+    }
+
+    /// Follows the upper cymbal, of whose motion a sample's share was taken.
+    pub(super) fn follow_calm(&mut self, top: &ModalBody) {
+        let Some(arrival) = &mut self.pedal.arrival else { return };
+        arrival.calming -= 1;
+        let Arrival { end, share, calming, .. } = *arrival;
+        let before = self.held();
+        self.lower.modal.scale(share);
+        self.rims.compression = self.overlaps(top);
+        if calming == 0 {
+            self.set_out_for(end);
+        }
+        self.pedal.work += self.held() - before;
+    }
+
+    /// Displaces rod and cymbals to where the rims are about to touch, or to `end` (m) if they do not touch there. Rims that
+    /// touch stay where they are.
+    fn cross_air(&mut self, end: f64) {
+        if self.rims.compression.iter().any(|&d| d > -CLEARANCE) {
+            return;
+        }
+        let [above, below] = [0, 1].map(|which: usize| self.rigid[which].place());
+        let y = self.statics.weights.iter().zip(&self.rims.compression).fold(end, |y, (weights, d)| {
+            let rigid: f64 =
+                weights.iter().zip(above.iter().zip(&below)).map(|(w, (a, b))| w * (a - b)).sum();
+            y.min(rigid - d - CLEARANCE)
+        });
+        self.pedal.foot.put(y);
+        self.displace(&[[y - above[0], -above[1], -above[2]], below.map(|place| -place)]);
+    }
+
+    /// Displaces both cymbals by heave and tilts (m), and the strikers with the upper one.
+    fn displace(&mut self, by: &[Weights; 2]) {
+        self.rigid.iter_mut().zip(by).for_each(|(rigid, by)| rigid.displace(by));
+        self.carried.iter_mut().zip(&by[0]).for_each(|(carried, by)| *carried += by);
+        for (d, weights) in self.rims.compression.iter_mut().zip(&self.statics.weights) {
+            *d += weights.iter().zip(by[0].iter().zip(&by[1])).map(|(w, (a, b))| w * (a - b)).sum::<f64>();
+        }
+    }
+
+    /// Starts the way to `end` (m), through the air at once.
+    fn set_out_for(&mut self, end: f64) {
+        self.cross_air(end);
+        let y = self.pedal.foot.place();
+        let places = self.statics.balance(y, &self.pedal.goal.preload, &self.rims.law, &self.rigid).places;
+        let deviation = [0, 1].map(|which: usize| {
+            let present = self.rigid[which].place();
+            std::array::from_fn(|i| present[i] - places[which][i])
+        });
+        if let Some(arrival) = &mut self.pedal.arrival {
+            (arrival.places, arrival.deviation) = (places, deviation);
+        }
+    }
+
+    /// Advances an arrival by a sample; false if there is none.
+    pub(super) fn step_arrival(&mut self) -> bool {
+        let Some(mut arrival) = self.pedal.arrival else { return false };
+        if arrival.calming > 0 {
+            return true;
+        }
+        if arrival.left == 0 {
+            self.begin_step(&mut arrival);
+        }
+        arrival.left -= 1;
+        let over = arrival.left == 0 && arrival.steps == 0;
+        self.pedal.foot.put(if over { arrival.end } else { self.pedal.foot.place() + arrival.rod });
+        self.displace(&arrival.shift);
+        if arrival.left == 0 && !self.pedal.goal_place.is_nan() {
+            // To rounding the rod is where the goal is: nothing has to be led there again.
+            self.pedal.goal_place = self.pedal.foot.place();
+        }
+        self.pedal.arrival = Some(arrival).filter(|_| !over);
+        true
+    }
+
+    /// Finds the next equilibrium on the way, and sets out for it.
+    fn begin_step(&mut self, arrival: &mut Arrival) {
+        let y = self.pedal.foot.place();
+        let goal = y + (arrival.end - y) / f64::from(arrival.steps);
+        let next = self.statics.balance(goal, &self.pedal.goal.preload, &self.rims.law, &self.rigid);
+        let (samples, whole) = (f64::from(arrival.samples), f64::from(arrival.whole));
+        arrival.rod = (goal - y) / samples;
+        for (which, shift) in arrival.shift.iter_mut().enumerate() {
+            for (i, shift) in shift.iter_mut().enumerate() {
+                let led = next.places[which][i] - arrival.places[which][i];
+                *shift = (led - arrival.deviation[which][i] / whole) / samples;
+            }
+        }
+        arrival.places = next.places;
+        arrival.left = arrival.samples;
+        arrival.steps -= 1;
+        self.pedal.goal_place = goal;
+        self.pedal.lead_to(next.rest, arrival.samples);
+    }
+}

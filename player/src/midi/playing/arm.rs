@@ -1,0 +1,78 @@
+//! Unevenness of the limbs that play: where strokes land, and how fast.
+
+use std::f64::consts::TAU;
+
+/// What swings the striker of a stroke.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Limb {
+    /// The hand of the first stroke, and of every other one after it.
+    Right,
+    Left,
+    /// On the pedal of a beater, which always meets the same place.
+    Foot,
+}
+
+impl Limb {
+    /// Side of a hand: 1 to the right, -1 to the left.
+    fn side(self) -> f64 {
+        match self {
+            Limb::Right => 1.0,
+            Limb::Left => -1.0,
+            Limb::Foot => 0.0,
+        }
+    }
+}
+
+/// Distance of a hand's mean place from where both are aimed, over the mean distance of single strokes. *Assumed*, from
+/// no measurement.
+const HAND_APART: f64 = 0.5;
+
+/// Radius of the disc around a hand's mean place, over the same. *Derived*: the mean distance from a point at the share `x` of
+/// the radius `R` of a disc is `2 R / 3 (1 + 3 x^2 / 4)`, to a thousandth for `x` below a half; here it is 1.
+const HAND_REACH: f64 = 1.362;
+
+/// How much faster the right hand is than both in the mean, over the mean deviation of single strokes, both in dB. *Assumed*, from no
+/// measurement.
+const HAND_STRONGER: f64 = 0.3;
+
+/// A limb at a stroke, counted from the latest reset: its unevenness is drawn from the number.
+pub(super) struct Arm {
+    pub(super) limb: Limb,
+    pub(super) stroke: u64,
+}
+
+impl Arm {
+    /// A place near the one aimed at (share of the radius, rad), at a mean distance of `spread` (share of the radius).
+    pub(super) fn placed(&self, (radius, angle): (f64, f64), spread: f64) -> (f64, f64) {
+        if spread == 0.0 || self.limb == Limb::Foot {
+            return (radius, angle);
+        }
+        // Uniform in a disc on the hand's side. The angle runs from the player to the right.
+        let away = HAND_REACH * spread * self.drawn(0).sqrt();
+        let (across, along) = libm::sincos(TAU * self.drawn(1));
+        let (sin, cos) = libm::sincos(angle);
+        let aside = HAND_APART * spread * self.limb.side();
+        let (x, y) = (radius * cos + away * along, radius * sin + away * across + aside);
+        (libm::hypot(x, y).min(1.0), libm::atan2(y, x))
+    }
+
+    /// Ratio of a stroke's speed to what is asked: uniform in dB around that of the limb, with the spread (dB) as its mean size.
+    pub(super) fn uneven_speed(&self, spread: f64) -> f64 {
+        if spread == 0.0 {
+            return 1.0;
+        }
+        let stronger = HAND_STRONGER * self.limb.side();
+        // Half the width, so that the mean size (width^2 + stronger^2) / (2 width) is 1.
+        let width = 1.0 + (1.0 - stronger * stronger).sqrt();
+        libm::pow(10.0, (width * (2.0 * self.drawn(2) - 1.0) + stronger) * spread / 20.0)
+    }
+
+    /// A number in 0 to 1 that belongs to the present stroke: the same in every rendering (SplitMix64, Steele et al.
+    /// 2014).
+    fn drawn(&self, which: u64) -> f64 {
+        let mut z = (4 * self.stroke + which).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
