@@ -24,7 +24,7 @@ use nice_plug_egui::{
 use overhear_engine::slot::Slot;
 
 use crate::guard::caught;
-use crate::host_parameters::{HostParameters, SMALLEST_WINDOW};
+use crate::host_parameters::HostParameters;
 use crate::monitor::{AUDIBLE, Viewer};
 use overhear_player::NAME;
 use overhear_player::builder::Shapes;
@@ -58,7 +58,7 @@ mod window;
 use pace::{Pace, Pulse};
 use panels::{Hands, Inputs, Panels};
 use watch::Watch;
-use window::Farewell;
+use window::{Farewell, resize_hint};
 
 /// The framework's own way of asking for frames would do so before the window is shown.
 const NEVER: Duration = Duration::from_secs(24 * 60 * 60);
@@ -115,11 +115,6 @@ impl OverhearEditor {
 fn window_of(parameters: &HostParameters) -> Arc<EguiEditorState> {
     let (width, height) = parameters.window();
     EguiEditorState::from_size(LogicalSize::new(f64::from(width), f64::from(height)), parameters.view().zoom)
-}
-
-fn resize_hint() -> ResizeHint {
-    let (width, height) = SMALLEST_WINDOW;
-    ResizeHint::RESIZABLE.with_min_logical_size(LogicalSize::new(width as f32, height as f32))
 }
 
 impl Editor for OverhearEditor {

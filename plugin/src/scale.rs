@@ -9,7 +9,7 @@ use crossbeam::atomic::AtomicCell;
 /// Smallest and largest scale that is believed. *By ear*, of sight: no screen has others, and a window beyond is none.
 const SANE: (f64, f64) = (0.5, 8.0);
 
-/// Whether a screen can have this scale.
+/// Whether a screen can have this scale, a factor.
 pub fn is_sane(factor: f64) -> bool {
     (SANE.0..=SANE.1).contains(&factor)
 }
@@ -24,22 +24,22 @@ pub struct Scale {
 }
 
 impl Scale {
-    /// What the host has told of the window that it opens next.
+    /// What the host has told of the window that it opens next, a factor.
     pub fn told(&self) -> Option<f64> {
         self.told.load()
     }
 
-    /// Takes in what the host tells, or that it has told nothing.
+    /// Takes in what the host tells, a factor, or that it has told nothing.
     pub fn tell(&self, factor: Option<f64>) {
         self.told.store(factor.filter(|factor| is_sane(*factor)));
     }
 
-    /// Takes in what the open window is drawn at, or that there is none.
+    /// Takes in what the open window is drawn at, a factor, or that there is none.
     pub fn draw(&self, factor: Option<f64>) {
         self.drawn.store(factor);
     }
 
-    /// Pixels to a point of the open window, or of the one that would be opened now.
+    /// Pixels to a point of the open window, or of the one that would be opened now: a factor.
     pub fn present(&self) -> f64 {
         self.drawn.load().or_else(|| self.told()).unwrap_or(1.0)
     }

@@ -14,16 +14,16 @@ use std::sync::mpsc::{self, Receiver, Sender};
 use std::thread::{self, ThreadId};
 use std::time::Duration;
 
-use nice_plug::editor::dpi::{NativeSize, PhysicalSize};
+use nice_plug::editor::dpi::{LogicalSize, NativeSize, PhysicalSize};
 use nice_plug::editor::{
     EditorHandle, HostMainThreadCaller, HostMethods, Modifiers, ParentWindowHandle, SpawnedEditor,
     VirtualKeyCode,
 };
+use nice_plug::prelude::ResizeHint;
 use nice_plug_egui::{EguiEditorHandle, baseview};
 
-use super::resize_hint;
 use crate::guard::caught;
-use crate::host_parameters::HostParameters;
+use crate::host_parameters::{HostParameters, SMALLEST_WINDOW};
 use crate::scale;
 
 /// Longest wait for the thread of a closed window. *By ear*, of patience: a host that closes a window should not hang.
@@ -31,6 +31,12 @@ const LONGEST_FAREWELL: Duration = Duration::from_secs(2);
 
 /// Longest side of a window, pixels: what graphics drivers draw at least, and twice what the widest screens have.
 const MOST_PIXELS: u32 = 16_384;
+
+/// The sizes that windows take.
+pub fn resize_hint() -> ResizeHint {
+    let (width, height) = SMALLEST_WINDOW;
+    ResizeHint::RESIZABLE.with_min_logical_size(LogicalSize::new(width as f32, height as f32))
+}
 
 /// Holds on to the graphics driver for as long as the process lasts. baseview opens it for every window and lets it go
 /// after, and whenever Mesa is loaded anew it writes down its functions' names once more, some kilobytes that stay.

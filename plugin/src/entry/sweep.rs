@@ -34,7 +34,7 @@ pub fn buffer(frames: usize) -> Vec<f32> {
     samples
 }
 
-/// What is in a [`buffer`], behind which nothing was written.
+/// Samples of a [`buffer`], full scale 1, behind which nothing was written.
 pub fn written(mut samples: Vec<f32>, frames: usize) -> Vec<f32> {
     assert!(samples[frames..].iter().all(|sample| sample.is_nan()), "something was written behind a buffer");
     samples.truncate(frames);
@@ -156,7 +156,7 @@ impl Chance {
         sound
     }
 
-    /// Nothing is heard.
+    /// Whether nothing is heard of samples, full scale 1.
     pub fn is_silent<'a>(mut samples: impl Iterator<Item = &'a f32>) -> bool {
         samples.all(|sample| sample.abs() < SILENT)
     }

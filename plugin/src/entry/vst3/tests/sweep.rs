@@ -385,6 +385,20 @@ impl<P: Vst3Plugin> Sweep<P> {
 }
 
 #[test]
+fn ten_thousand_moves_of_a_controller_in_a_buffer_are_taken() {
+    let mut sweep = Sweep::<Overhear>::new(1);
+    sweep.set_up();
+    let mut id = 0;
+    // SAFETY: there is room for an id.
+    unsafe { assert_eq!(sweep.guard.getMidiControllerAssignment(0, 9, 16, &mut id), kResultOk) };
+    let points = (0..10_000).map(|point| (point * FRAMES as i32 / 10_000, f64::from(point % 100) / 100.0));
+    let moves = vec![ComWrapper::new(Queue(id, points.collect()))];
+    sweep.process(Vec::new(), moves, FRAMES, false);
+    // SAFETY: the call a host makes.
+    assert_eq!(unsafe { sweep.guard.getParamNormalized(id) }, 0.99);
+}
+
+#[test]
 fn a_sweep_of_random_events_and_calls_neither_aborts_nor_leaks_nor_stays_loud() {
     Sweep::<Overhear>::new(1).whole();
     Sweep::<OverhearMulti>::new(BUSES).whole();
