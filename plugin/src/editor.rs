@@ -13,8 +13,8 @@ use std::time::Duration;
 use cpu_time::ThreadTime;
 use glow::HasContext;
 use nice_plug::context::gui::GuiContext;
-use nice_plug::editor::dpi::{LogicalSize, NativeSize, PhysicalSize};
-use nice_plug::editor::{HostMethods, SpawnedEditor};
+use nice_plug::editor::dpi::{LogicalSize, NativeSize};
+use nice_plug::editor::{EditorHandle, HostMethods, SpawnedEditor};
 use nice_plug::prelude::*;
 use nice_plug_egui::baseview::{HandlerError, WindowSize};
 use nice_plug_egui::{
@@ -24,7 +24,7 @@ use nice_plug_egui::{
 use overhear_engine::slot::Slot;
 
 use crate::guard::caught;
-use crate::host_parameters::{HostParameters, SMALLEST_WINDOW};
+use crate::host_parameters::HostParameters;
 use crate::monitor::{AUDIBLE, Viewer};
 use overhear_player::NAME;
 use overhear_player::builder::Shapes;
@@ -58,7 +58,7 @@ mod window;
 use pace::{Pace, Pulse};
 use panels::{Hands, Inputs, Panels};
 use watch::Watch;
-use window::Farewell;
+use window::{Farewell, resize_hint};
 
 /// The framework's own way of asking for frames would do so before the window is shown.
 const NEVER: Duration = Duration::from_secs(24 * 60 * 60);
@@ -117,11 +117,6 @@ fn window_of(parameters: &HostParameters) -> Arc<EguiEditorState> {
     EguiEditorState::from_size(LogicalSize::new(f64::from(width), f64::from(height)), parameters.view().zoom)
 }
 
-fn resize_hint() -> ResizeHint {
-    let (width, height) = SMALLEST_WINDOW;
-    ResizeHint::RESIZABLE.with_min_logical_size(LogicalSize::new(width as f32, height as f32))
-}
-
 impl Editor for OverhearEditor {
     type Handle = window::Handle;
 
@@ -135,12 +130,22 @@ impl Editor for OverhearEditor {
     ) -> Result<SpawnedEditor<window::Handle>, Box<dyn Error>> {
         caught("Editor::spawn", Err("the window broke".into()), || {
             window::keep_driver();
-            let (farewell, ended) = Farewell::new();
+            let parameters = &self.sources.parameters;
+            let (farewell, end) = Farewell::new();
             let editor = self.egui_editor(self.window(), farewell).ok_or("no editor")?;
-            editor
-                .spawn(parent, wait_for_parent, fallback_scale_factor, gui_context, host)
-                .map(|spawned| window::closing_whole(spawned, ended))
-                .inspect_err(|error| nice_error!("The window cannot open, but the kit still plays: {error}"))
+            let host = host.map(|host| end.untold(host));
+            // Opened at a scale, the framework's window would have the pixels of another.
+            let spawned =
+                editor.spawn(parent, wait_for_parent, None, gui_context, host).inspect_err(|error| {
+                    nice_error!("The window cannot open, but the kit still plays: {error}")
+                })?;
+            let spawned = window::closing_whole(spawned, end, parameters.clone());
+            if let Some(scale) = fallback_scale_factor.or_else(|| parameters.scale().told())
+                && let Err(error) = spawned.handle.set_fallback_scale_factor(scale, &spawned.window)
+            {
+                nice_warn!("The window opens without the host's scale: {error}");
+            }
+            Ok(spawned)
         })
     }
 
@@ -154,13 +159,12 @@ impl Editor for OverhearEditor {
 }
 
 impl OverhearEditor {
-    /// Size of the window with its zoom, physical pixels.
+    /// Size of the window with its zoom, in the pixels of the host.
     fn present_size(&self) -> NativeSize<u32> {
         let window = self.window();
-        let (size, zoom) = (window.physical_size(), window.user_scale_factor());
-        let zoomed = |points: u32| (points as f32 * zoom).round() as u32;
-        let size = PhysicalSize::new(zoomed(size.width), zoomed(size.height));
-        NativeSize::from_size(size.into(), 1.0)
+        let (size, zoom) = (window.logical_size(), f64::from(window.user_scale_factor()));
+        let zoomed = LogicalSize::new(f64::from(size.width) * zoom, f64::from(size.height) * zoom);
+        NativeSize::from_size(zoomed.into(), self.sources.parameters.scale().present())
     }
 }
 
@@ -169,6 +173,8 @@ struct App {
     sources: Sources,
     farewell: Farewell,
     gui: Option<GuiContext>,
+    /// From the beginning on.
+    context: Option<egui::Context>,
     panels: Panels,
     /// From the first frame on.
     watch: Option<Watch>,
@@ -187,6 +193,7 @@ impl App {
             sources,
             farewell,
             gui: None,
+            context: None,
             panels: Panels::new(Library::default(), view, document),
             watch: None,
             pace: Pace::default(),
@@ -204,7 +211,7 @@ impl NiceEguiApp for App {
         gui: GuiContext,
         frame: &mut Frame,
     ) -> Result<(), HandlerError> {
-        self.farewell.carry();
+        self.farewell.carry(frame.baseview_window());
         self.guarded("the window's beginning", |app| app.begin(context, gui, frame));
         Ok(())
     }
@@ -214,9 +221,15 @@ impl NiceEguiApp for App {
     }
 
     fn resized(&mut self, size: WindowSize) {
+        if self.farewell.bid() {
+            return;
+        }
         self.guarded("the window's size", |app| {
-            let size = size.logical;
-            app.sources.parameters.set_window((size.width.round() as u32, size.height.round() as u32));
+            let (points, parameters) = (size.logical, &app.sources.parameters);
+            parameters.set_window((points.width.round() as u32, points.height.round() as u32));
+            // The zoom is part of what the size counts as a scale.
+            let zoom = app.context.as_ref().map_or(1.0, egui::Context::zoom_factor);
+            parameters.scale().draw(Some(size.scale_factor / f64::from(zoom)));
         });
     }
 }
@@ -236,6 +249,8 @@ impl App {
         let light = self.sources.parameters.view().light;
         theme::choose(&context, light);
         self.gui = Some(gui);
+        self.context = Some(context);
+        self.sources.parameters.scale().draw(Some(frame.baseview_window().scale_factor()));
         if draws_in_software(frame) {
             self.pace = Pace::in_software();
         }

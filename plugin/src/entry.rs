@@ -16,4 +16,6 @@ const TAIL: f64 = 60.0;
 
 mod clap;
 mod scratch;
+#[cfg(test)]
+mod sweep;
 mod vst3;

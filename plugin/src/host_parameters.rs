@@ -15,6 +15,7 @@ use overhear_engine::error::SpecError;
 
 use crate::guard::caught;
 use crate::outputs::Used;
+use crate::scale::Scale;
 use crate::view::View;
 use overhear_player::deadline::Deadlines;
 use overhear_player::kit_document::KitDocument;
@@ -62,6 +63,8 @@ pub struct HostParameters {
     used: AtomicU32,
     /// Sample rate at which no kit can be built, Hz, as bits; 0 if there is a kit.
     refused: AtomicU32,
+    /// Of the screen, for the editor: no parameter either.
+    scale: Scale,
 }
 
 impl Default for HostParameters {
@@ -80,6 +83,7 @@ impl Default for HostParameters {
             resumes: AtomicBool::new(false),
             used: AtomicU32::new(Used::ALL.0),
             refused: AtomicU32::new(0),
+            scale: Scale::default(),
         }
     }
 }
@@ -250,6 +254,11 @@ impl HostParameters {
     /// Logical size of the editor's window.
     pub fn window(&self) -> WindowSize {
         self.window.load()
+    }
+
+    /// How many pixels a point of the editor's window has.
+    pub fn scale(&self) -> &Scale {
+        &self.scale
     }
 
     /// How the editor's window looks at the kit.

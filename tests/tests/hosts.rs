@@ -20,6 +20,9 @@ mod midi;
 mod multi;
 #[path = "hosts/resources.rs"]
 mod resources;
+#[cfg(target_os = "linux")]
+#[path = "hosts/scale.rs"]
+mod scale;
 #[path = "hosts/score.rs"]
 mod score;
 #[path = "hosts/songs.rs"]
@@ -28,6 +31,9 @@ mod songs;
 mod state;
 #[path = "hosts/vst3.rs"]
 mod vst3;
+#[cfg(target_os = "linux")]
+#[path = "hosts/vst3_window.rs"]
+mod vst3_window;
 #[cfg(target_os = "linux")]
 #[path = "hosts/window.rs"]
 mod window;

@@ -229,11 +229,26 @@ impl Instance {
     /// # Errors
     /// If the plugin has no editor for X11 or cannot open it; what `parent` returns.
     pub fn open_editor<T>(&mut self, parent: impl FnOnce(u32, u32) -> Result<(u32, T)>) -> Result<T> {
+        self.open_editor_scaled(None, parent)
+    }
+
+    /// As [`open_editor`](Self::open_editor), told how many pixels of the screen a point has.
+    ///
+    /// # Errors
+    /// As there, and if the plugin refuses the scale.
+    pub fn open_editor_scaled<T>(
+        &mut self,
+        scale: Option<f64>,
+        parent: impl FnOnce(u32, u32) -> Result<(u32, T)>,
+    ) -> Result<T> {
         let gui: PluginGui = self.extension()?;
         let handle = self.plugin.plugin_handle();
         let configuration = GuiConfiguration { api_type: GuiApiType::X11, is_floating: false };
         ensure!(gui.is_api_supported(&handle, configuration), "the editor cannot be embedded in X11");
         gui.create(&handle, configuration)?;
+        if let Some(scale) = scale {
+            gui.set_scale(&handle, scale).with_context(|| format!("the editor refuses the scale {scale}"))?;
+        }
         let GuiSize { width, height } = gui.get_size(&handle).context("the editor has no size")?;
         let (window, made) = parent(width, height)?;
         // SAFETY: the window lives until the editor has been closed, or its server is gone.

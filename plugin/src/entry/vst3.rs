@@ -2,7 +2,7 @@
 //!
 //! A guard is an object with all interfaces of the framework's, which it owns and passes calls on to. Its own are: it
 //! prepares scratch when processing is set up, completes what a host brings to `process`, and tells units, the names of
-//! notes, what MIDI controllers there are, and which parameters have steps.
+//! notes, what MIDI controllers there are, and which parameters have steps. Windows have a guard of their own.
 #![allow(non_snake_case)]
 
 use std::cell::UnsafeCell;
@@ -394,6 +394,7 @@ pass_on!(IProcessContextRequirementsTrait {
 });
 
 mod units;
+mod view;
 
 pass_on!(IInfoListenerTrait {
     setChannelContextInfos(list: *mut IAttributeList) -> tresult;

@@ -141,7 +141,7 @@ fn a_hand_at_the_window_strikes_the_kit_and_moves_a_parameter_by_gestures_of_the
 }
 
 /// Size of the editor's own window.
-fn own_size(parent: &Parent) -> (u32, u32) {
+pub fn own_size(parent: &Parent) -> (u32, u32) {
     let tree = parent.connection.query_tree(parent.window).unwrap().reply().unwrap();
     let own = *tree.children.first().expect("the editor's window");
     let shape = parent.connection.get_geometry(own).unwrap().reply().unwrap();

@@ -1,6 +1,8 @@
 //! The editor in a window of a host.
 
 use std::collections::HashSet;
+use std::process::Command;
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -25,8 +27,16 @@ pub struct Parent {
     pub size: (u32, u32),
 }
 
+/// Holds on to the display for as long as the process lasts: a server that is left by its last client starts anew, and takes
+/// nobody meanwhile.
+fn keep_display() {
+    static DISPLAY: OnceLock<Option<RustConnection>> = OnceLock::new();
+    DISPLAY.get_or_init(|| x11rb::connect(None).ok().map(|(connection, _)| connection));
+}
+
 impl Parent {
     pub fn new(width: u32, height: u32) -> Parent {
+        keep_display();
         let (connection, screen) =
             x11rb::connect(None).expect("a display: run `cargo xtask test`, which brings its own");
         let root = connection.setup().roots[screen].root;
@@ -46,7 +56,12 @@ impl Parent {
 
     /// One with the editor in it.
     pub fn around(instance: &mut Instance) -> Parent {
-        let opened = instance.open_editor(|width, height| {
+        Parent::scaled(instance, None)
+    }
+
+    /// One with the editor in it, on a screen with so many pixels to a point.
+    pub fn scaled(instance: &mut Instance, scale: Option<f64>) -> Parent {
+        let opened = instance.open_editor_scaled(scale, |width, height| {
             let parent = Parent::new(width, height);
             Ok((parent.window, parent))
         });
@@ -99,11 +114,59 @@ fn the_editor_opens_draws_and_closes_while_it_plays() {
         assert_eq!(parent.children(), 1);
         instance.close_editor().unwrap();
     }
-    // Gone while its editor is open.
-    let parent = Parent::around(&mut instance);
-    thread::sleep(Duration::from_millis(300));
-    drop(instance);
-    drop(parent);
+}
+
+#[test]
+fn an_instance_that_goes_takes_its_open_window_and_its_threads_along() {
+    let _turn = alone();
+    let mut threads = usize::MAX;
+    for round in 0..3 {
+        let mut instance = instance();
+        let parent = Parent::around(&mut instance);
+        parent.wait_for_text(&mut instance, &format!("round {round}"));
+        assert_eq!(parent.children(), 1);
+        drop(instance);
+        assert_eq!(parent.children(), 0, "round {round}: the window is still there");
+        let left = fewest_threads(1, Duration::from_secs(2));
+        // The first window may leave threads of the graphics driver behind.
+        assert!(left <= threads, "round {round}: {left} threads, {threads} after the first");
+        threads = left;
+    }
+}
+
+/// Set where [`windows_open_and_close`] is to do so.
+const OPENS: &str = "OVERHEAR_TEST_OPENS";
+
+/// Runs in a process of its own, whose log another test reads: see below.
+#[test]
+#[ignore = "runs in the process of another test"]
+fn windows_open_and_close() {
+    if std::env::var_os(OPENS).is_none() {
+        return;
+    }
+    let mut instance = instance();
+    for round in 0..30 {
+        let parent = Parent::around(&mut instance);
+        // Some windows close before they are drawn.
+        if round % 3 > 0 {
+            parent.wait_for_text(&mut instance, &format!("round {round}"));
+        }
+        instance.close_editor().unwrap();
+        assert_eq!(parent.children(), 0, "round {round}");
+    }
+}
+
+#[test]
+fn a_window_that_closes_logs_nothing() {
+    let _turn = alone();
+    keep_display();
+    let mut test = Command::new(std::env::current_exe().unwrap());
+    test.args(["--exact", "window::windows_open_and_close", "--ignored", "--nocapture"]).env(OPENS, "");
+    let done = test.output().unwrap();
+    let (said, logged) = (String::from_utf8_lossy(&done.stdout), String::from_utf8_lossy(&done.stderr));
+    assert!(done.status.success() && said.contains("1 passed"), "{said}{logged}");
+    let lines: Vec<_> = said.lines().chain(logged.lines()).filter(|line| line.contains("X11")).collect();
+    assert!(lines.is_empty(), "{} lines, the first: {}", lines.len(), lines[0]);
 }
 
 /// Hosts make their own window between creating the editor and showing it.
@@ -179,6 +242,60 @@ fn a_window_goes_on_drawing_while_the_kit_rings() {
         instance.close_editor()
     };
     instance.run_beside(48_000.0, 1..=256, |processor| play(processor, &stop), look).expect("it plays");
+}
+
+/// Processor time of this process so far, s.
+fn processor_time() -> f64 {
+    // SAFETY: plain data, valid when it is zero, and room for it.
+    let usage = unsafe {
+        let mut usage: libc::rusage = std::mem::zeroed();
+        assert_eq!(libc::getrusage(libc::RUSAGE_SELF, &mut usage), 0);
+        usage
+    };
+    [usage.ru_utime, usage.ru_stime].map(|time| time.tv_sec as f64 + 1e-6 * time.tv_usec as f64).iter().sum()
+}
+
+#[test]
+fn a_host_that_stops_the_audio_in_mid_ring_leaves_a_window_at_rest() {
+    /// How long it may take to notice, and how long is measured, s.
+    const NOTICED: Duration = Duration::from_secs(2);
+    const MEASURED: Duration = Duration::from_secs(4);
+    let _turn = alone();
+    let mut instance = instance();
+    let (rings, stop) = (AtomicBool::new(false), AtomicBool::new(false));
+    let ring = |processor: &mut Processor| {
+        let [mut left, mut right] = [vec![0.0; 512], vec![0.0; 512]];
+        let strike = |key| Event { offset: 0, what: What::NoteOn { channel: 9, key, velocity: 1.0 } };
+        processor.process(&[strike(49), strike(51)], &mut left, &mut right)?;
+        for _ in 0..40 {
+            processor.process(&[], &mut left, &mut right)?;
+            // So that the window sees it.
+            thread::sleep(Duration::from_millis(10));
+        }
+        let peak = left.iter().fold(0.0_f32, |peak, sample| peak.max(sample.abs()));
+        rings.store(true, Ordering::Release);
+        while !stop.load(Ordering::Acquire) {
+            thread::sleep(Duration::from_millis(50));
+        }
+        Ok(peak)
+    };
+    let look = |instance: &mut Instance| {
+        let _stop = Stop(&stop);
+        let parent = Parent::around(instance);
+        parent.wait_for_text(instance, "at first");
+        while !rings.load(Ordering::Acquire) {
+            thread::sleep(Duration::from_millis(10));
+        }
+        thread::sleep(NOTICED);
+        let before = processor_time();
+        thread::sleep(MEASURED);
+        let share = (processor_time() - before) / MEASURED.as_secs_f64();
+        println!("a window at rest takes {:.2} % of a core", 100.0 * share);
+        assert!(share < 0.02, "{:.1} % of a core", 100.0 * share);
+        instance.close_editor()
+    };
+    let peak = instance.run_beside(48_000.0, 1..=512, ring, look).expect("it plays");
+    assert!(peak > 0.01, "nothing rang: {peak}");
 }
 
 /// Memory that is allocated and not freed, bytes: of the whole process, the plugin and the graphics driver included. Unlike what

@@ -7,6 +7,8 @@
 //!   [`steps`](super::steps).
 //! * Notes and controllers of a call without samples wait for the first sample of the next one. The framework would lose
 //!   them.
+//! * Events after a buffer's end, or before one that precedes them in the list, are moved to where they may be: the framework
+//!   would render up to the time of a value, beyond the host's buffer.
 //! * System exclusive messages without bytes are left out: the framework panics on them where that cannot be caught.
 
 use std::ffi::c_void;
@@ -33,7 +35,10 @@ const MOST_VALUES: usize = 32 * COUNT;
 /// Most events that wait for the next buffer.
 const MOST_WAITING: usize = 1024;
 
-/// Size of the largest event that waits, words: all that waits are plain data.
+/// Most events of a buffer that can be moved; what is beyond is left out, as no host that works has any.
+const MOST_MOVED: usize = 16_384;
+
+/// Size of the largest event that waits or is moved, words: all of them are plain data.
 const WORDS: usize = 8;
 
 /// Status of a program change, in the upper half of MIDI's first byte.
@@ -47,6 +52,8 @@ pub struct Input {
     scaled: Vec<Scaled>,
     /// From calls without samples.
     waiting: Vec<[u64; WORDS]>,
+    /// Copies with another time.
+    moved: Vec<[u64; WORDS]>,
     order: Vec<*const clap_event_header>,
 }
 
@@ -66,6 +73,7 @@ impl Input {
             values: Vec::with_capacity(MOST_VALUES),
             scaled: Vec::with_capacity(MOST_VALUES),
             waiting: Vec::with_capacity(MOST_WAITING),
+            moved: Vec::with_capacity(MOST_MOVED),
             order: Vec::with_capacity(MOST_EVENTS),
         }
     }
@@ -86,16 +94,20 @@ impl Input {
     ) -> Option<clap_input_events> {
         self.values.clear();
         self.scaled.clear();
+        self.moved.clear();
         self.order.clear();
         let (size, get) = (events.size?, events.get?);
         // SAFETY: as promised; the list owns what it returns for the length of the call.
         unsafe {
             let count = size(events);
             let event = |index| get(events, index);
-            let is_fine = |header| frames > 0 && !must_change(header, parameters);
-            if self.waiting.is_empty()
-                && count as usize <= MOST_EVENTS
-                && (0..count).all(|index| is_fine(event(index)))
+            let mut latest = 0;
+            let is_fine = |header: *const clap_event_header| {
+                let in_place =
+                    header.as_ref().is_some_and(|known| known.time == placed(known, &mut latest, frames));
+                frames > 0 && in_place && !must_change(header, parameters)
+            };
+            if self.waiting.is_empty() && count as usize <= MOST_EVENTS && (0..count).map(event).all(is_fine)
             {
                 return None;
             }
@@ -103,19 +115,21 @@ impl Input {
                 self.order
                     .extend(self.waiting.iter().map(|words| words.as_ptr().cast::<clap_event_header>()));
             }
-            let mut called_for = None;
+            let (mut called_for, mut latest) = (None, 0);
             for index in 0..count {
                 let header = event(index);
-                let time = header.as_ref().map(|header| header.time);
+                let Some(known) = header.as_ref() else { continue };
+                let (sent, now) = (known.time, placed(known, &mut latest, frames));
                 // Values act before whatever else happens at their sample, wherever the host cuts its buffers.
-                if let Some(now) = time.filter(|_| time != called_for) {
-                    called_for = time;
-                    let together = |&at: &u32| event(at).as_ref().is_some_and(|other| other.time == now);
+                if called_for != Some(sent) {
+                    called_for = Some(sent);
+                    let together = |&at: &u32| event(at).as_ref().is_some_and(|other| other.time == sent);
                     for at in (index..count).take_while(together) {
                         let Some((number, channel)) = program_of(event(at)) else { continue };
                         parameters.with_program(number, channel, |program| self.call(program, now));
                     }
                 }
+                let header = if sent == now { header } else { self.moved(header, now) };
                 if frames == 0 && waits(header) {
                     self.wait(header);
                 } else if !is_empty_message(header) {
@@ -125,6 +139,21 @@ impl Input {
         }
         let context = ptr::from_ref(self).cast_mut().cast::<c_void>();
         Some(clap_input_events { ctx: context, size: Some(listed), get: Some(at) })
+    }
+
+    /// A copy of an event at another time, or null if there is no room for it.
+    ///
+    /// # Safety
+    /// `header` is valid.
+    unsafe fn moved(&mut self, header: *const clap_event_header, time: u32) -> *const clap_event_header {
+        // SAFETY: as promised.
+        match unsafe { copied(header, time) } {
+            Some(words) if self.moved.len() < MOST_MOVED => {
+                self.moved.push(words);
+                self.moved.last().map_or(ptr::null(), |words| words.as_ptr().cast())
+            }
+            _ => ptr::null(),
+        }
     }
 
     /// Lists the values of a program, all or none.
@@ -191,13 +220,8 @@ impl Input {
         if self.waiting.len() == MOST_WAITING {
             return;
         }
-        let mut words = [0_u64; WORDS];
-        // SAFETY: as promised, the event is plain data and fits.
-        unsafe {
-            let size = (*header).size as usize;
-            ptr::copy_nonoverlapping(header.cast::<u8>(), words.as_mut_ptr().cast::<u8>(), size);
-            (*words.as_mut_ptr().cast::<clap_event_header>()).time = 0;
-        }
+        // SAFETY: as promised.
+        let Some(words) = (unsafe { copied(header, 0) }) else { return };
         self.waiting.push(words);
     }
 
@@ -227,8 +251,32 @@ impl Input {
     }
 }
 
+/// When an event may happen in a buffer of `frames` samples: not after its end, and not before what precedes it in the list.
+fn placed(header: &clap_event_header, latest: &mut u32, frames: u32) -> u32 {
+    *latest = header.time.min(frames.saturating_sub(1)).max(*latest);
+    *latest
+}
+
+/// An event of plain data at another time, if it is not too large.
+///
+/// # Safety
+/// `header` is valid.
+unsafe fn copied(header: *const clap_event_header, time: u32) -> Option<[u64; WORDS]> {
+    let mut words = [0_u64; WORDS];
+    // SAFETY: as promised; what is copied fits, and begins with a header.
+    unsafe {
+        let size = (*header).size as usize;
+        if !(size_of::<clap_event_header>()..=size_of_val(&words)).contains(&size) {
+            return None;
+        }
+        ptr::copy_nonoverlapping(header.cast::<u8>(), words.as_mut_ptr().cast::<u8>(), size);
+        (*words.as_mut_ptr().cast::<clap_event_header>()).time = time;
+    }
+    Some(words)
+}
+
 fn push(order: &mut Vec<*const clap_event_header>, header: *const clap_event_header) {
-    if order.len() < MOST_EVENTS {
+    if order.len() < MOST_EVENTS && !header.is_null() {
         order.push(header);
     }
 }

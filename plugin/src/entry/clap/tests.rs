@@ -14,6 +14,7 @@ use overhear_player::kit_document::standard_slot;
 
 mod calls;
 mod panics;
+mod sweep;
 
 pub(in crate::entry) const FRAMES: usize = 512;
 const PORTS: usize = 1 + OUTPUTS;

@@ -1,8 +1,12 @@
 //! Parameters: those of the table with their steps, and behind them the MIDI controllers.
 
+use std::ptr;
+
+use nice_plug::wrapper::vst3::vst3::ComPtr;
 use nice_plug::wrapper::vst3::vst3::Steinberg::Vst::ParameterInfo_::ParameterFlags_;
 use overhear_player::parameters::stepped;
 
+use super::view::View;
 use super::*;
 
 impl<P: Vst3Plugin> Guard<P> {
@@ -19,10 +23,17 @@ impl<P: Vst3Plugin> IEditControllerTrait for Guard<P> {
     pass_on!(@ IEditControllerTrait normalizedParamToPlain(id: ParamID, value: ParamValue) -> ParamValue);
     pass_on!(@ IEditControllerTrait plainParamToNormalized(id: ParamID, value: ParamValue) -> ParamValue);
     pass_on!(@ IEditControllerTrait setComponentHandler(handler: *mut IComponentHandler) -> tresult);
-    pass_on!(@ IEditControllerTrait createView(name: FIDString) -> ViewPointer);
     pass_on!(@ IEditControllerTrait getParamValueByString(
         id: ParamID, text: *mut TChar, value: *mut ParamValue
     ) -> tresult);
+
+    unsafe fn createView(&self, name: FIDString) -> ViewPointer {
+        // SAFETY: passed on; what the framework makes comes with a count of its own.
+        caught("IEditControllerTrait::createView", ptr::null_mut(), || unsafe {
+            let view = ComPtr::from_raw(self.framework.createView(name));
+            view.map_or(ptr::null_mut(), |view| View::around(view, self.parameters.clone()))
+        })
+    }
 
     unsafe fn getParameterCount(&self) -> int32 {
         (self.proper() + controllers::COUNT) as int32

@@ -15,6 +15,7 @@ use overhear_player::kit_document::standard_slot;
 
 mod calls;
 mod panics;
+mod sweep;
 
 const BUSES: usize = 1 + OUTPUTS;
 

@@ -5,17 +5,9 @@ use clap_sys::events::{clap_event_midi_sysex, clap_event_param_value};
 use clap_sys::ext::params::{CLAP_PARAM_IS_STEPPED, clap_param_info};
 use overhear_player::parameters::{COUNT, host_id, parameters};
 
+use super::sweep::Sent;
 use super::*;
-
-/// An event of one of the forms that the tests send.
-#[repr(C)]
-union Sent {
-    header: clap_event_header,
-    note: clap_event_note,
-    midi: clap_event_midi,
-    sysex: clap_event_midi_sysex,
-    value: clap_event_param_value,
-}
+use crate::entry::sweep::{buffer, written};
 
 fn header<T>(type_: u16) -> clap_event_header {
     clap_event_header {
@@ -53,23 +45,26 @@ fn value(id: u32, value: f64) -> Sent {
     }
 }
 
-unsafe extern "C" fn count(list: *const clap_input_events) -> u32 {
+pub(super) unsafe extern "C" fn count(list: *const clap_input_events) -> u32 {
     // SAFETY: the list's context is the vector.
     unsafe { (*(*list).ctx.cast::<Vec<Sent>>()).len() as u32 }
 }
 
-unsafe extern "C" fn get(list: *const clap_input_events, index: u32) -> *const clap_event_header {
+pub(super) unsafe extern "C" fn get(list: *const clap_input_events, index: u32) -> *const clap_event_header {
     // SAFETY: as above; every form begins with its header.
     unsafe { ptr::from_ref(&(&(*(*list).ctx.cast::<Vec<Sent>>()))[index as usize].header) }
 }
 
-unsafe extern "C" fn refuse(_list: *const clap_output_events, _event: *const clap_event_header) -> bool {
+pub(super) unsafe extern "C" fn refuse(
+    _list: *const clap_output_events,
+    _event: *const clap_event_header,
+) -> bool {
     false
 }
 
 /// One buffer of so many samples with events.
 fn call(instance: &Instance, samples: usize, events: Vec<Sent>) -> (clap_process_status, Vec<f32>) {
-    let mut sound = [vec![0.0_f32; samples], vec![0.0; samples]];
+    let mut sound = [buffer(samples), buffer(samples)];
     let mut table = sound.each_mut().map(|channel| channel.as_mut_ptr());
     let mut port = port(table.as_mut_ptr(), CHANNELS as u32);
     let input = clap_input_events {
@@ -91,7 +86,8 @@ fn call(instance: &Instance, samples: usize, events: Vec<Sent>) -> (clap_process
     };
     // SAFETY: everything the call points to lives here.
     let status = unsafe { (*instance.plugin).process.unwrap()(instance.plugin, &call) };
-    (status, sound[0].clone())
+    let sound = sound.map(|channel| written(channel, samples));
+    (status, sound.into_iter().next().unwrap())
 }
 
 fn instance() -> Instance {
@@ -164,6 +160,29 @@ fn ten_thousand_controllers_and_messages_without_bytes_are_taken() {
     assert!(call(&instance(), FRAMES, flood) == plain);
     let beyond: Vec<_> = (0..100_000).map(|_| hollow(0)).chain([midi(SNARE)]).collect();
     assert!(call(&instance(), FRAMES, beyond) == plain);
+}
+
+#[test]
+fn events_after_the_end_or_out_of_order_happen_within_the_buffer() {
+    let at = |time: u32, mut event: Sent| {
+        event.header.time = time;
+        event
+    };
+    let (id, last) = (host_id("master"), FRAMES as u32 - 1);
+    let played = |events: Vec<Sent>| {
+        let instance = instance();
+        let now = call(&instance, FRAMES, events);
+        (now, call(&instance, FRAMES, Vec::new()))
+    };
+    let late = played(vec![at(last, midi(SNARE))]);
+    assert!(late.1.1.iter().any(|sample| *sample != 0.0));
+    for time in [last + 1, last + 100, u32::MAX] {
+        assert!(played(vec![at(time, midi(SNARE))]) == late, "a note at {time}");
+        assert!(played(vec![at(time, value(id, 0.5))]) == played(vec![at(last, value(id, 0.5))]), "{time}");
+        call(&instance(), 0, vec![at(time, value(id, 0.5))]);
+    }
+    let ordered = played(vec![at(300, midi(SNARE)), at(300, value(id, 0.1)), at(300, midi(CRASH))]);
+    assert!(played(vec![at(300, midi(SNARE)), at(10, value(id, 0.1)), at(0, midi(CRASH))]) == ordered);
 }
 
 #[test]

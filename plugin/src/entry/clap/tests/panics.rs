@@ -96,7 +96,7 @@ fn a_panic_of_an_instance_is_kept_from_the_host() {
     assert!(loud(struck(&mut instance, 1, |_, _| {})));
 }
 
-unsafe extern "C" fn write(stream: *const clap_ostream, bytes: *const c_void, size: u64) -> i64 {
+pub(super) unsafe extern "C" fn write(stream: *const clap_ostream, bytes: *const c_void, size: u64) -> i64 {
     // SAFETY: the context is the vector of `saved`.
     unsafe {
         let given = std::slice::from_raw_parts(bytes.cast::<u8>(), size as usize);
@@ -105,7 +105,7 @@ unsafe extern "C" fn write(stream: *const clap_ostream, bytes: *const c_void, si
     size as i64
 }
 
-unsafe extern "C" fn read(stream: *const clap_istream, into: *mut c_void, size: u64) -> i64 {
+pub(super) unsafe extern "C" fn read(stream: *const clap_istream, into: *mut c_void, size: u64) -> i64 {
     // SAFETY: the context is the slice of `loaded`.
     unsafe {
         let rest = &mut *(*stream).ctx.cast::<&[u8]>();

@@ -10,7 +10,7 @@ use overhear_player::parameters::{COUNT, host_id, parameters};
 use super::*;
 
 /// The events of one buffer.
-struct Listed(Vec<Event>);
+pub(super) struct Listed(pub(super) Vec<Event>);
 
 impl Class for Listed {
     type Interfaces = (IEventList,);
