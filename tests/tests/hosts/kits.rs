@@ -242,7 +242,7 @@ fn kits_that_come_and_go_while_it_plays_end_in_the_last_one() {
         Ok(())
     };
     let (blocks, finite, last) = instance.run_beside(RATE, 1..=FRAMES as u32, play, change).unwrap();
-    assert!(finite && blocks > 50, "{blocks} blocks");
+    assert!(finite && blocks > 10, "{blocks} blocks");
     assert!(last > 1e-3, "the last piece is silent");
     assert_eq!(instance.save_state().unwrap(), states[0]);
 }
