@@ -167,8 +167,9 @@ fn what_is_kept_is_found_by_what_it_follows_from_and_by_nothing_else() {
 #[test]
 fn another_version_of_the_equations_or_of_a_library_finds_nothing_of_this_one() {
     let name = |mark: &str| name_of("drum", mark, b"key");
-    assert_ne!(name(SCHEMA), name(&format!("0{}", &SCHEMA[1..])));
-    assert_ne!(name(SCHEMA), name(&format!("1{}", &SCHEMA[1..])));
+    // No digit of a digest is an x.
+    assert_ne!(name(SCHEMA), name(&format!("x{}", &SCHEMA[1..])));
+    assert_ne!(name(SCHEMA), name(&format!("{SCHEMA}x")));
     assert_ne!(name(SCHEMA), name_of("plate", SCHEMA, b"key"));
     assert_ne!(name(SCHEMA), name_of("drum", SCHEMA, b"kez"));
     // The digest is that of every source of the engine and of the lock file, however their lines end: FNV-1a of 64 bits.
