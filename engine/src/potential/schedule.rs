@@ -3,9 +3,9 @@
 /// Window of the peaks that decide about rest, s: some periods of the slowest coupled mode.
 const WINDOW: f64 = 0.05;
 
-/// Share of the energy under which a potential rests. *Converged* on the crash: 3e-4 moves no third
-/// octave of a soft stroke by 0.06 dB, 1e-3 some by 0.2 dB.
-const NEGLIGIBLE: f64 = 3e-4;
+/// Share of the energy under which a potential rests. *Converged* on the crash: 2e-4 moves no third
+/// octave of a soft stroke by 0.1 dB, 3e-4 one by 0.11 dB, 1e-3 some by 0.2 dB.
+const NEGLIGIBLE: f64 = 2e-4;
 
 /// Share of the energy under which a potential is weak. *Converged* on the crash: no third octave moves by
 /// 0.09 dB.
