@@ -59,8 +59,8 @@ const FELT_RADIUS: f64 = 0.014;
 
 /// Decay rate (1/s) that the stand's felts give to a mode of unit shape at them, at an angular frequency (rad/s).
 ///
-/// The felts are the spring on which the plate bounces, `k = M omega_b^2` at the bounce, with a loss factor of `1 / q`, which wool has
-/// at every frequency. With such a loss the stiffness grows as `omega^alpha`, `alpha = 2 / pi atan(1 / q)` (Kramers & Kronig).
+/// The felts are the spring on which the plate bounces, `k = M omega_b^2` at the bounce, with a loss factor of `1 / q`,
+/// *assumed* to be the same at every frequency. With such a loss the stiffness grows as `omega^alpha`, `alpha = 2 / pi atan(1 / q)` (Kramers & Kronig).
 /// A mode of the mass `M` loses `k / (2 M q omega)`; at the bounce itself that is the bounce's own decay rate.
 fn felt_loss(stand: &Stand, omega: f64) -> f64 {
     let bounce = TAU * stand.bounce_hz;

@@ -139,10 +139,10 @@ fitted! {
     CYMBAL_TAPER = 0.8, "1", "pieces.crash.taper";
         to "recorded crashes and splashes"; tried "1 (as thick everywhere) and 0.8"; moves "high modes of every cymbal";
     HAMMERING_RMS = 0.05, "1", "pieces.crash.hammering.rms";
-        to "spread of the fine spectrum of recorded crashes and splashes, 1.5 to 12 kHz"; tried "0.05";
+        to "spread of the fine spectrum of recorded crashes and splashes, 1.5 to 12 kHz"; tried "0.05 only";
         moves "how much orders mix: texture and highs of every cymbal on a stand";
     HAMMERING_CORRELATION = 0.1, "1", "pieces.crash.hammering.correlation";
-        to "by eye: marks of a hammer, 2 cm"; tried "0.1"; moves "how many orders mix";
+        to "by eye: marks of a hammer, 2 cm"; tried "0.1 only"; moves "how many orders mix";
     CYMBAL_TAPE_SIGMA = 40.0, "1/s", "pieces.crash.muffler.sigma_1_s";
         to "by ear: a strip of tape near the edge"; tried "not recorded"; moves "what full muffling takes";
     HAND_SIGMA = 70.0, "1/s", "hand_sigma";

@@ -211,7 +211,7 @@ impl<'a> CymbalPlate<'a> {
     fn hammer(&self, hammering: &HammeringSpec, rows: &Rows) -> Shared<HammeredModes> {
         let is_kept = |mode: &&BuiltMode| mode.kind == ModeKind::Rigid || mode.omega < TAU * MIXED_FROM_HZ;
         let kept = rows.modes.iter().take_while(is_kept).count();
-        let key = (self.spec.plate(), hammering, self.splitting, self.limit_hz);
+        let key = (self.spec.plate(), hammering, self.splitting, self.limit_hz, kept);
         let made = HAMMERED.get(&key, || {
             let mixed = rows.modes.iter().zip(&rows.index).zip(&rows.shells).skip(kept);
             let plain: Vec<PlainMode> = mixed

@@ -2,6 +2,8 @@
 //!
 //! With `C` the mixture, the plain modes' displacements are `C^T q`, and the mixed modes' forces `C` times the plain ones': the gradient
 //! of the same energy.
+//!
+//! Limits: parts of the mixed modes above the highest plain mode of the potential are left out.
 
 use crate::modal::simd::Kernels;
 use crate::modal::{Row, zero_row};

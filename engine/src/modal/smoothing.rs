@@ -4,8 +4,8 @@
 //! change of the frequency. The height of the step is added to the sound and taken back along a straight line within a block,
 //! so that a pitch that glides from block to block is heard without steps.
 //!
-//! Other pieces receive the smoothed sound too. What is added is no motion of any mode, so that while a piece is retuned the
-//! exchange between pieces is passive up to it.
+//! Limits: other pieces receive the smoothed sound too. What is added to it belongs to no mode. While a piece is retuned, the
+//! exchange of energy between pieces is not shown to be passive.
 
 use super::{Pressure, RECEIVERS};
 use crate::block::BLOCK;
