@@ -10,6 +10,7 @@ use std::f64::consts::{FRAC_2_PI, TAU};
 pub mod assembly;
 pub mod hammering;
 pub mod hand;
+pub mod lobes;
 pub mod mixed_potential;
 pub mod mixing;
 pub mod modes;
@@ -46,11 +47,11 @@ pub struct Cymbal {
 
 /// The plate's motions on its stand: a bounce and a rock.
 fn rigid(stand: &Stand) -> [RigidMotion; 2] {
-    let motion = |m, shape, hz: f64| {
+    let motion = |m, shape, hz: f64, q: f64| {
         let omega = TAU * hz;
-        RigidMotion { m, shape, omega, sigma: omega / (2.0 * stand.q) }
+        RigidMotion { m, shape, omega, sigma: omega / (2.0 * q) }
     };
-    [motion(0, |_| 1.0, stand.bounce_hz), motion(1, |r| 2.0 * r, stand.rock_hz)]
+    [motion(0, |_| 1.0, stand.bounce_hz, stand.q), motion(1, |r| 2.0 * r, stand.rock_hz, stand.rock_q)]
 }
 
 /// Root mean square radius of the ring of felt that carries a cymbal, m: felts are 35 to 40 mm wide, with a hole of 10.

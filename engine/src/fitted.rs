@@ -145,6 +145,13 @@ fitted! {
         to "by eye: marks of a hammer, 2 cm"; tried "0.1 only"; moves "how many orders mix";
     CYMBAL_TAPE_SIGMA = 40.0, "1/s", "pieces.crash.muffler.sigma_1_s";
         to "by ear: a strip of tape near the edge"; tried "not recorded"; moves "what full muffling takes";
+    ENERGY_TRANSPORT = 0.008, "1", "energy_transport";
+        to "the exact coupling to 8 kHz: energies of bands from 2 to 8 kHz after strokes on crash and splash"; tried "0.004 to 0.02";
+        moves "how fast hard strokes brighten every cymbal on a stand, above the coupled modes";
+    TRANSPORT_BETWEEN = 0.1, "1", "transport_between";
+        to "the exact coupling after strokes at 0.3 to 3 m/s"; tried "0 to 0.15"; moves "how soon soft strokes stop brightening";
+    TRANSPORT_WITHIN = 1.0, "1", "transport_within";
+        to "the same"; tried "0.5 to 3"; moves "how soon the modes of a band are equally loud";
     HAND_SIGMA = 70.0, "1/s", "hand_sigma";
         to "by ear: a choked crash is gone in a fifth of a second"; tried "not recorded"; moves "every choke";
     // Hi-hat.

@@ -46,6 +46,7 @@ pub mod patch_factors;
 
 // What they are made of: a body of modes, forces, contacts, strikers, the air about.
 pub mod potential;
+pub mod transport;
 pub mod strike;
 pub mod stick;
 pub mod contact;

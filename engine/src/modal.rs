@@ -20,6 +20,7 @@
 //!
 //! Modes at or above half the sample rate are silent: they do not move and have no compliance.
 
+pub mod bands;
 mod coefs;
 mod direct;
 mod energy;
@@ -31,6 +32,7 @@ mod retuning;
 mod input_vector;
 mod row;
 pub mod smoothing;
+pub mod sway;
 pub mod simd;
 
 use simd::Kernels;

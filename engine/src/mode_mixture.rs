@@ -5,6 +5,8 @@
 
 pub mod blocks;
 
+use std::ops::Range;
+
 use serde::{Deserialize, Serialize};
 
 /// The run of coefficients of one mixed mode.
@@ -106,8 +108,19 @@ impl ModeMixture {
     /// # Real-time
     /// As [`apply`](Self::apply).
     pub fn apply_rows<const N: usize>(&self, even: &[[f32; N]], mixed: &mut [[f32; N]]) {
-        mixed[..self.kept].copy_from_slice(&even[..self.kept]);
-        for (out, run) in mixed[self.kept..].iter_mut().zip(&self.runs) {
+        self.apply_some(even, mixed, 0..self.modes());
+    }
+
+    /// [`apply_rows`](Self::apply_rows) to some of the modes, of values in any units.
+    ///
+    /// # Real-time
+    /// As [`apply`](Self::apply).
+    pub fn apply_some<const N: usize>(&self, even: &[[f32; N]], mixed: &mut [[f32; N]], modes: Range<usize>) {
+        let kept = modes.start.min(self.kept)..modes.end.min(self.kept);
+        mixed[kept.clone()].copy_from_slice(&even[kept]);
+        let runs = modes.start.max(self.kept)..modes.end.max(self.kept);
+        let (first, last) = (runs.start - self.kept, runs.end - self.kept);
+        for (out, run) in mixed[runs].iter_mut().zip(&self.runs[first..last]) {
             let coefs = &self.coefs[run.start as usize..][..run.length as usize];
             *out = [0.0; N];
             for (coef, row) in coefs.iter().zip(&even[run.first as usize..]) {

@@ -52,6 +52,7 @@ mod sound;
 
 use crate::modal::coupled_modes::CoupledModes;
 use crate::modal::simd::rim_harmonics::{Amplitudes, RimHarmonics};
+use crate::modal::sway::Sway;
 use crate::modal::{InputVector, ModalBody, Pressure, RECEIVERS, ReceiverWeights, Row, zero_row};
 
 use safety::Safety;
@@ -157,7 +158,7 @@ impl NonlinearForce {
         potential: Box<dyn Potential>,
         modes: usize,
         stride: u32,
-        (body, weights): (&ModalBody, &ReceiverWeights),
+        body: &ModalBody,
         sample_rate: f64,
     ) -> NonlinearForce {
         let mut force = NonlinearForce {
@@ -176,7 +177,7 @@ impl NonlinearForce {
             gradient: zero_row(modes),
             exchanged: 0.0,
         };
-        force.follow(body, weights);
+        force.follow(body);
         force
     }
 
@@ -247,10 +248,17 @@ impl NonlinearForce {
     ///
     /// # Real-time
     /// Linear in the modes it acts on.
-    pub fn follow(&mut self, body: &ModalBody, weights: &ReceiverWeights) {
-        body.update(&mut self.coupled, weights, self.schedule.ahead());
+    pub fn follow(&mut self, body: &ModalBody) {
+        body.update(&mut self.coupled, self.schedule.ahead());
         body.connect(&mut self.input);
         self.stiffening = 1.0 + 0.5 * body.compliance(&self.input, &self.input);
+    }
+
+    /// Follows receiver weights that have moved by a step.
+    pub fn sway(&mut self, body: &ModalBody, sway: &Sway) {
+        for (receiver, [direct, slow]) in sway.step_along(body, &self.input).into_iter().enumerate() {
+            self.sound.sway(receiver, direct, slow);
+        }
     }
 
     /// Acts from now on, until it becomes negligible.
@@ -291,10 +299,10 @@ impl NonlinearForce {
         let due = self.schedule.is_due();
         if due {
             if self.schedule.set_out(self.stiffness, self.safety.is_astray()) {
-                body.update(&mut self.coupled, weights, self.schedule.ahead());
+                body.update(&mut self.coupled, self.schedule.ahead());
             }
             body.save(&mut self.coupled);
-            self.evaluate(body);
+            self.evaluate(body, weights);
             body.connect(&mut self.input);
             self.stiffening = 1.0 + 0.5 * body.compliance(&self.input, &self.input);
             self.sound.follow(body, weights, &self.input);
@@ -368,14 +376,14 @@ impl NonlinearForce {
         (force, self.sound.heard(force, self.dt))
     }
 
-    fn evaluate(&mut self, body: &mut ModalBody) {
+    fn evaluate(&mut self, body: &mut ModalBody, weights: &ReceiverWeights) {
         body.predict(&self.coupled, &mut self.predicted);
         let found = self.potential.evaluate(&self.predicted, &mut self.gradient);
         let (energy, depth) = (self.stiffness * found.energy, self.stiffness * found.depth);
         let lost = self.safety.is_lost();
         if let Some(kept) = self.safety.slows(depth) {
             // Only velocities: a dome that is half inside out gains energy by a smaller deflection.
-            self.sound.rescale_velocity(body.rescale_velocity(&self.coupled, kept));
+            self.sound.rescale_velocity(body.rescale_velocity(&mut self.coupled, weights, kept));
         }
         let stretch = self.schedule.stretch(self.dt);
         self.scalar.shift_to(depth, stretch);
@@ -398,13 +406,13 @@ impl NonlinearForce {
             self.scalar.psi = psi - ahead;
             self.safety.forget();
         } else if found_anew {
-            self.find_anew(body, psi - ahead, kinetic);
+            self.find_anew((body, weights), psi - ahead, kinetic);
         } else {
             let held = self.scalar.psi * self.scalar.psi;
             let whole = if self.potential.is_convex() { kinetic + energy } else { kinetic };
             let error = 0.5 * (held - (psi - ahead).powi(2)).abs() / whole.max(f64::MIN_POSITIVE);
             self.safety.strays(error, stretch);
-            self.exchange(body, psi - ahead, kinetic);
+            self.exchange((body, weights), psi - ahead, kinetic);
         }
         if let Some(window) = self.schedule.count(energy, kinetic, self.dt) {
             self.safety.look(&window);
@@ -417,18 +425,18 @@ impl NonlinearForce {
 
     /// Sets a `psi` that was lost to its true value. The energy it gains is taken from the velocities: a lost `psi` may hold as
     /// little as `-C`, and the body then moves too fast.
-    fn find_anew(&mut self, body: &mut ModalBody, target: f64, kinetic: f64) {
+    fn find_anew(&mut self, (body, weights): (&mut ModalBody, &ReceiverWeights), target: f64, kinetic: f64) {
         let missing = 0.5 * (target * target - self.scalar.psi * self.scalar.psi);
         if missing > 0.0 && kinetic > 0.0 {
             let factor = (1.0 - missing / kinetic).max(0.0).sqrt() as f32;
-            self.sound.rescale_velocity(body.rescale_velocity(&self.coupled, factor));
+            self.sound.rescale_velocity(body.rescale_velocity(&mut self.coupled, weights, factor));
         }
         self.scalar.psi = target;
         self.safety.forget();
     }
 
     /// Moves `psi` toward its true value, and exchanges the energy with the velocities.
-    fn exchange(&mut self, body: &mut ModalBody, target: f64, kinetic: f64) {
+    fn exchange(&mut self, (body, weights): (&mut ModalBody, &ReceiverWeights), target: f64, kinetic: f64) {
         if kinetic <= 0.0 || !target.is_finite() {
             return;
         }
@@ -441,7 +449,7 @@ impl NonlinearForce {
         let given = kinetic * (1.0 - f64::from(factor) * f64::from(factor));
         let square = psi * psi + 2.0 * given;
         if factor != 1.0 && square > 0.0 {
-            self.sound.rescale_velocity(body.rescale_velocity(&self.coupled, factor));
+            self.sound.rescale_velocity(body.rescale_velocity(&mut self.coupled, weights, factor));
             self.scalar.psi = square.sqrt();
             self.exchanged += given.abs();
         }

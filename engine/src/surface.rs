@@ -25,6 +25,7 @@ pub mod rim;
 mod sample;
 mod strike_log;
 mod striking;
+pub mod swing;
 pub mod wires;
 
 use std::any::Any;
@@ -37,6 +38,7 @@ use crate::potential::{NonlinearForce, Potential};
 use crate::rim::Rim;
 use crate::shapes::ShapeTable;
 use crate::snapshot::{StrikeSnapshot, WireSnapshot};
+use crate::transport::{Transport, TransportSpec};
 
 use attachment::{Attachment, Site};
 use body::{SoundingBody, StruckBody};
@@ -46,6 +48,7 @@ use local_compliance::LocalHeadCompliance;
 use observer::ForceObservers;
 use rim::AttachedRim;
 use strike_log::StrikeLog;
+use swing::Swing;
 use wires::SnareWires;
 
 /// Parts of a surface.
@@ -77,6 +80,8 @@ pub struct Surface {
     log: StrikeLog,
     /// Steps by changed modes.
     smoothing: Smoothing,
+    /// Its swing, if it hangs.
+    swing: Option<Swing>,
 }
 
 impl Surface {
@@ -93,7 +98,13 @@ impl Surface {
             local_compliance: None,
             log: StrikeLog::default(),
             smoothing: Smoothing::default(),
+            swing: None,
         }
+    }
+
+    /// Lets the body swing. Allocates.
+    pub fn set_swing(&mut self, swing: Swing) {
+        self.swing = Some(swing);
     }
 
     /// Attaches something. Allocates.
@@ -134,6 +145,21 @@ impl Surface {
     /// Lets a potential act on the first `modes`, evaluated once in `stride` samples. Allocates.
     pub fn set_potential(&mut self, potential: Box<dyn Potential>, modes: usize, stride: u32) {
         self.body.set_potential(potential, modes, stride);
+    }
+
+    /// Lets energy be carried through the modes above those that the potential acts on, once a block. Allocates.
+    pub fn set_transport(&mut self, spec: TransportSpec) {
+        self.body.set_transport(spec);
+    }
+
+    /// The transport of energy above the coupled modes, if there is one.
+    pub fn transport(&self) -> Option<&Transport> {
+        self.body.transport()
+    }
+
+    /// The transport of energy above the coupled modes, to be set.
+    pub fn transport_mut(&mut self) -> Option<&mut Transport> {
+        self.body.transport_mut()
     }
 
     /// Lets a high band observe the forces of contact points from `first` on: 0 for those of strikers. Allocates.
@@ -293,6 +319,7 @@ impl Surface {
     /// Updates everything that depends on the modes or the transfers.
     fn follow(&mut self) {
         self.body.follow();
+        self.swing.iter_mut().for_each(Swing::follow);
         self.attachments.iter_mut().for_each(|attachment| attachment.follow(&self.body));
         for n in 0..self.contacts.present().len() {
             self.connect(self.contacts.present()[n]);
@@ -309,6 +336,20 @@ impl Surface {
         mut out: [&mut [f32]; RECEIVERS],
         incident: Option<IncidentPressure<'_>>,
     ) {
+        let Some(mut swing) = self.swing.take() else { return self.render_run(out, incident) };
+        let (samples, mut done) = (out[0].len(), 0);
+        while done < samples {
+            let run = swing.run(samples - done);
+            let heard = incident.map(|incident| &incident[done..done + run]);
+            self.render_run(out.each_mut().map(|out| &mut out[done..done + run]), heard);
+            swing.advance(run, &mut self.body);
+            done += run;
+        }
+        self.swing = Some(swing);
+    }
+
+    /// Renders a run in which receiver weights stay as they are.
+    fn render_run(&mut self, mut out: [&mut [f32]; RECEIVERS], incident: Option<IncidentPressure<'_>>) {
         let mut done = 0;
         let engaged = self.attachments.iter().any(|attachment| attachment.is_engaged());
         while (!self.contacts.is_empty() || engaged) && done < out[0].len() {
@@ -356,6 +397,9 @@ impl Surface {
         if !finite {
             self.reset();
         }
+        if let Some(impulse) = self.body.carry() {
+            self.smoothing.hold(impulse);
+        }
         let struck = self.is_struck();
         if !struck && self.body.is_inside_out() {
             // Turned back, as by a drummer. The rest of its motion is cut off.
@@ -363,6 +407,9 @@ impl Surface {
         }
         if !struck {
             self.park();
+        }
+        if let Some(swing) = &mut self.swing {
+            swing.begin_block(self.body.sound_mut());
         }
         finite
     }
@@ -404,6 +451,9 @@ impl Surface {
         self.observers.bands_mut().for_each(HighBand::reset);
         self.contacts.reset();
         self.attachments.iter_mut().for_each(|attachment| attachment.reset(&mut self.contacts));
+        if self.swing.as_mut().is_some_and(|swing| swing.reset(self.body.sound_mut())) {
+            self.follow();
+        }
         (self.log.brought, self.log.departed) = (0.0, 0.0);
     }
 }

@@ -22,7 +22,7 @@ const ATTACK: f64 = 0.3;
 /// and each multiplies roundings.
 const BOW: f64 = 0.6;
 
-/// When energies are compared, s.
+/// When energies are compared, s; chaotic takes end with the last.
 const LOOKS: [f64; 2] = [0.05, 0.3];
 
 /// What a piece struck at 4 m/s sounds like, and its energy at [`LOOKS`], J.
@@ -38,7 +38,8 @@ fn sound(slot: Slot, calm: bool) -> (Vec<f32>, [f64; 2]) {
     let usual = hear::default_strike(&document, slot);
     let (striker, radius) = if linear { (Striker::Stick, BOW) } else { (usual.striker, usual.radius) };
     piece.strike(&Strike { speed: 4.0, striker, radius, ..usual });
-    let mut out = vec![0.0; (LENGTH * RATE) as usize];
+    let length = if calm { LENGTH } else { LOOKS[1] };
+    let mut out = vec![0.0; (length * RATE) as usize];
     let mut done = 0;
     let energies = LOOKS.map(|seconds| {
         let until = (seconds * RATE) as usize;

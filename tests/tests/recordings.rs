@@ -3,6 +3,10 @@
 use overhear::building::Pace;
 use overhear::kit_document::KitDocument;
 use overhear_measure::realism::{self, PieceReport, RecordingChain, SPEEDS};
+use overhear_tests::Chance;
+
+/// Drums of which recordings are known.
+const DRUMS: [&str; 4] = ["kick", "snare", "rack-tom", "floor-tom"];
 
 /// Pieces struck softly to hard, bounced, through each recording chain.
 fn bounced(names: &[&str]) -> Vec<PieceReport> {
@@ -16,8 +20,12 @@ fn bounced(names: &[&str]) -> Vec<PieceReport> {
 
 #[test]
 fn drums_brighten_with_the_stroke_as_recorded_ones_do() {
-    let pieces = bounced(&["kick", "snare", "rack-tom", "floor-tom"]);
-    assert_eq!(pieces.len(), 4 * RecordingChain::ALL.len());
+    // Two of them, drawn anew in every run.
+    let mut chance = Chance::new(Chance::seeds(&[])[0]);
+    let first = chance.below(DRUMS.len());
+    let second = (first + 1 + chance.below(DRUMS.len() - 1)) % DRUMS.len();
+    let pieces = bounced(&[first, second].map(|drum| DRUMS[drum]));
+    assert_eq!(pieces.len(), 2 * RecordingChain::ALL.len());
     for piece in &pieces {
         let slope = piece.slope.as_ref().expect("known of every drum");
         println!("{} {}: {:?} octaves per 20 dB", piece.piece, piece.heard.name(), slope.value);

@@ -13,10 +13,12 @@ use std::f64::consts::TAU;
 use crate::cache::{Cache, Shared};
 
 use crate::air_load;
+use crate::block::BLOCK;
 use crate::build_context::BuildContext;
 use crate::damping::Thermoelastic;
 use crate::error::SpecError;
 use crate::mode::ModeKind;
+use crate::mode_mixture::ModeMixture;
 use crate::plate::free_disc::Radiated;
 use crate::plate::{PlateModes, PlateTables, ShellMode};
 use crate::potential::Potential;
@@ -24,10 +26,13 @@ use crate::receiver::Receivers;
 use crate::schema::SCHEMA;
 use crate::shapes::{ShapeIndex, ShapeTable};
 use crate::split::Splitting;
+use crate::surface::swing::Swing;
 use crate::surface::{Surface, SurfaceParts};
+use crate::transport::TransportSpec;
 use crate::von_karman::{CoupledPair, VonKarman};
 
 use super::hammering::HammeringSpec;
+use super::lobes::Lobes;
 use super::mixed_potential::MixedPotential;
 use super::mixing::{HammeredModes, MIXED_FROM_HZ, PlainMode};
 use super::modes::{BuiltMode, CymbalModes};
@@ -94,6 +99,7 @@ pub struct PlateShapes {
     /// and imaginary part.
     pub transfers: [Vec<[f64; 2]>; 2],
     coupled: Option<Coupled>,
+    swing: Option<Swing>,
 }
 
 /// The stretching, the coupled modes that it acts on, and the highest of them, Hz.
@@ -112,6 +118,8 @@ pub struct CymbalPlate<'a> {
     splitting: Splitting,
     hammering: Option<HammeringSpec>,
     limit_hz: f64,
+    /// Whether it swings on its stand.
+    swings: bool,
     /// Modes up to this are coupled, Hz.
     highest_hz: Option<f64>,
 }
@@ -135,7 +143,14 @@ impl<'a> CymbalPlate<'a> {
         let splitting = if ideal.round { Splitting::ROUND } else { spec.evenness };
         let highest_hz = coupled_hz.map(|hz| VonKarman::reach(&known.plate, hz));
         let hammering = spec.hammering.filter(|_| !ideal.round);
-        Ok(CymbalPlate { spec, receivers, known, tables, splitting, hammering, limit_hz, highest_hz })
+        let swings = !ideal.linear;
+        Ok(CymbalPlate { spec, receivers, known, tables, splitting, hammering, limit_hz, swings, highest_hz })
+    }
+
+    /// What is known of the plate.
+    #[cfg(test)]
+    pub fn known(&self) -> &Shared<SoundingPlate> {
+        &self.known
     }
 
     /// The shell modes, by frequency.
@@ -168,7 +183,7 @@ impl<'a> CymbalPlate<'a> {
     ) -> (CymbalModes, PlateShapes) {
         let mut rows = Rows::default();
         rigid.iter().enumerate().for_each(|(radial, motion)| rows.push_rigid(radial, motion));
-        let SoundingPlate { plate, radiated } = &*self.known;
+        let SoundingPlate { plate, radiated, .. } = &*self.known;
         let mut pairs = Vec::new();
         let mut coupled = 0;
         for &Ordered { shell: row, is_coupled } in order {
@@ -195,8 +210,11 @@ impl<'a> CymbalPlate<'a> {
         if let Some(hammered) = &hammered {
             rows.mix(hammered);
         }
-        let shapes = ShapeTable::new(&radial_rows(rigid, plate, &self.tables), rows.index)
-            .with_mixture(hammered.map(|hammered| hammered.mixture.clone()));
+        let mixture = hammered.map(|hammered| hammered.mixture.clone());
+        let moved = coupled.as_ref().map_or(0, |coupled| coupled.modes);
+        let swing = self.swing(rigid, (&rows, moved), mixture.as_ref());
+        let shapes =
+            ShapeTable::new(&radial_rows(rigid, plate, &self.tables), rows.index).with_mixture(mixture);
         let mut modes = CymbalModes {
             modes: rows.modes,
             loss: self.spec.loss,
@@ -204,7 +222,30 @@ impl<'a> CymbalPlate<'a> {
             mass: self.spec.mass,
         };
         modes.damp(&self.spec.muffler, &shapes);
-        (modes, PlateShapes { shapes, transfers: rows.transfers, coupled })
+        (modes, PlateShapes { shapes, transfers: rows.transfers, coupled, swing })
+    }
+
+    /// The swing of a cymbal that rocks: rigid motions of one nodal diameter. Its first modes are `coupled`. What is linear does not
+    /// swing, for a swing modulates.
+    fn swing(
+        &self,
+        rigid: &[RigidMotion],
+        (rows, coupled): (&Rows, usize),
+        mixture: Option<&ModeMixture>,
+    ) -> Option<Swing> {
+        let rock = rigid.iter().position(|motion| motion.m == 1).filter(|_| self.swings)?;
+        let members = |motion: &RigidMotion| Splitting::ROUND.members(motion.m, 0).count();
+        let [first, still] = [rock, rigid.len()].map(|n| rigid[..n].iter().map(members).sum::<usize>());
+        let lobes = Lobes::new(
+            self.known.clone(),
+            mixture.cloned(),
+            (&rows.index, &rows.shells, still),
+            self.receivers,
+            rows.transfers.clone(),
+        );
+        // The slope of the rock's shape over the radius.
+        let slope = (rigid[rock].shape)(1.0) / self.spec.plate().radius();
+        Some(Swing::new(Box::new(lobes), [first, first + 1], slope, (rows.modes.len(), coupled)))
     }
 
     /// What becomes of the modes by hammering, from [`MIXED_FROM_HZ`] on; they stand in order of their frequency.
@@ -337,21 +378,32 @@ impl PlateShapes {
     }
 
     /// The struck cymbal, at rest. Allocates.
-    pub fn into_surface(self, spec: &CymbalSpec, modes: &CymbalModes, context: &BuildContext) -> Surface {
+    pub fn into_surface(self, spec: &CymbalSpec, built: &CymbalModes, context: &BuildContext) -> Surface {
         let BuildContext { options, ideal, .. } = context;
         let mut surface = Surface::new(SurfaceParts {
-            modes: (0..modes.modes.len()).map(|k| modes.bare(k, 1.0)).collect(),
+            modes: (0..built.modes.len()).map(|k| built.bare(k, 1.0)).collect(),
             shapes: self.shapes,
-            transfer: vec![[0.0; 2]; modes.modes.len()],
+            transfer: vec![[0.0; 2]; built.modes.len()],
             material: spec.alloy,
             lossless: ideal.lossless,
             sample_rate: options.sample_rate,
         });
         let [near, far] = self.transfers;
         surface.set_transfers(near.into_iter(), far.into_iter());
+        if let Some(swing) = self.swing {
+            surface.set_swing(swing);
+        }
         if let Some(Coupled { potential, modes, highest_hz }) = self.coupled {
             let stride = coupling_stride(highest_hz, options.sample_rate);
             surface.set_potential(potential, modes, stride);
+            if spec.stand.is_some() {
+                surface.set_transport(TransportSpec {
+                    rigid: built.modes.iter().take_while(|mode| mode.kind == ModeKind::Rigid).count(),
+                    coupled: modes,
+                    inertia: spec.mass * spec.plate().thickness().powi(2),
+                    interval: BLOCK as f64 / options.sample_rate,
+                });
+            }
         }
         surface
     }

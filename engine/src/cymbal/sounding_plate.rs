@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::air_load;
 use crate::error::SpecError;
-use crate::plate::free_disc::{FreeDisc, Radiated};
+use crate::plate::free_disc::{FarPattern, FreeDisc, Radiated};
 use crate::plate::{PlateModes, PlateSpec, PlateTables};
 use crate::radiation::Radiator;
 use crate::receiver::Receivers;
@@ -18,6 +18,8 @@ pub struct SoundingPlate {
     pub plate: PlateModes,
     /// `[shell]`.
     pub radiated: Vec<Radiated>,
+    /// What is heard of each from far away in every direction, `[shell]`.
+    pub patterns: Vec<FarPattern>,
 }
 
 /// What has been worked out of late.
@@ -36,8 +38,9 @@ impl SoundingPlate {
         PLATES.get(&(*plate_spec, receivers, limit_hz), || {
             let plate = PlateModes::new(plate_spec, limit_hz)?;
             let (orders, extent) = plate.table_extent(limit_hz);
-            let radiated = radiate(plate_spec, receivers, &plate, &PlateTables::new(orders, extent));
-            Ok(SoundingPlate { plate, radiated })
+            let tables = PlateTables::new(orders, extent);
+            let (radiated, patterns) = radiate(plate_spec, receivers, &plate, &tables).unzip();
+            Ok(SoundingPlate { plate, radiated, patterns })
         })
     }
 }
@@ -48,18 +51,16 @@ fn radiate(
     receivers: &Receivers,
     plate: &PlateModes,
     tables: &PlateTables,
-) -> Vec<Radiated> {
+) -> impl Iterator<Item = (Radiated, FarPattern)> {
     let highest = plate.shells.last().map_or(0.0, |shell| shell.omega);
     let finest = plate.flat.iter().flatten().map(|flat| flat.root).fold(0.0, f64::max);
     let trace = highest * spec.radius() / air_load::SPEED_OF_SOUND;
     let nodes = 12 + (0.7 * (finest + trace)) as usize;
     let disc = FreeDisc::new(spec.radius(), [receivers.near, receivers.far], nodes);
     let shapes = plate.radial_shapes(tables, disc.radii());
-    let shells = plate.shells.iter().zip(shapes.chunks_exact(nodes));
-    shells
-        .map(|(shell, radial)| {
-            let wave = Radiator { m: shell.m, radial, omega: shell.omega };
-            disc.radiate(&wave, plate.wave_number(shell))
-        })
-        .collect()
+    plate.shells.iter().enumerate().map(move |(at, shell)| {
+        let radial = &shapes[at * nodes..][..nodes];
+        let wave = Radiator { m: shell.m, radial, omega: shell.omega };
+        disc.radiate_around(&wave, plate.wave_number(shell))
+    })
 }

@@ -55,8 +55,10 @@ pub struct Stand {
     pub bounce_hz: f64,
     /// Frequency of the rock, Hz, 0.5 to 100.
     pub rock_hz: f64,
-    /// Quality factor of both, 0.6 to 100.
+    /// Quality factor of the bounce, and of the felts for whatever else moves on them, 0.6 to 100.
     pub q: f64,
+    /// Quality factor of the rock, 0.6 to 100.
+    pub rock_q: f64,
 }
 
 impl Numbers for Stand {
@@ -64,6 +66,7 @@ impl Numbers for Stand {
         visitor.number("bounce_hz", &mut self.bounce_hz, 1.0..=200.0);
         visitor.number("rock_hz", &mut self.rock_hz, 0.5..=100.0);
         visitor.number("q", &mut self.q, 0.6..=100.0);
+        visitor.number("rock_q", &mut self.rock_q, 0.6..=100.0);
     }
 }
 

@@ -19,11 +19,15 @@ pub(super) fn gain(db: f64) -> f32 {
 }
 
 /// A gain that follows its target exponentially, sample by sample.
+///
+/// What decays is its distance: a value of its own would stall where the last bits round away what is left to go, some 100 dB
+/// below, and a level that was moved would never sound as one that was loaded.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Gain {
-    value: f32,
     target: f32,
-    /// Share of the difference left after a sample.
+    /// Where it is, beyond the target.
+    distance: f32,
+    /// Share of the distance left after a sample.
     keep: f32,
 }
 
@@ -35,43 +39,44 @@ pub(super) type GainRuns = [GainRun; SLOTS];
 
 impl Gain {
     pub(super) fn new(sample_rate: f64) -> Gain {
-        Gain { value: 1.0, target: 1.0, keep: (-1.0 / (LEVEL_TIME * sample_rate)).exp() as f32 }
+        Gain { target: 1.0, distance: 0.0, keep: (-1.0 / (LEVEL_TIME * sample_rate)).exp() as f32 }
     }
 
     pub(super) fn set(&mut self, gain: f32) {
+        self.distance += self.target - gain;
         self.target = gain;
     }
 
     /// Whether it is zero and its target too.
     pub(super) fn is_shut(&self) -> bool {
-        self.value == 0.0 && self.target == 0.0
+        self.target == 0.0 && self.rests()
     }
 
     /// Whether it has reached its target.
     pub(super) fn rests(&self) -> bool {
-        self.value == self.target
+        self.distance == 0.0
     }
 
     /// Advances by a run; its values.
     pub(super) fn run(&mut self, samples: usize) -> GainRun {
-        if self.value == self.target {
-            return [self.value; BLOCK];
+        if self.rests() {
+            return [self.target; BLOCK];
         }
         let mut out = [0.0; BLOCK];
         for out in &mut out[..samples] {
-            self.value = self.target + (self.value - self.target) * self.keep;
+            self.distance *= self.keep;
             // -140 dB away counts as reached; the last step is inaudible.
-            if (self.value - self.target).abs() < 1e-7 {
-                self.value = self.target;
+            if self.distance.abs() < 1e-7 {
+                self.distance = 0.0;
             }
-            *out = self.value;
+            *out = self.target + self.distance;
         }
         out
     }
 
     /// Takes its target at once.
     pub(super) fn jump(&mut self) {
-        self.value = self.target;
+        self.distance = 0.0;
     }
 }
 
@@ -115,5 +120,42 @@ impl Pan {
     /// Takes its target at once.
     pub(super) fn jump(&mut self) {
         self.sides.iter_mut().for_each(Gain::jump);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_gain_that_was_moved_is_where_it_was_sent() {
+        for target in [0.0, 0.3, 0.6, 1.0, 3.981] {
+            for from in [0.0, 1.0, 15.8] {
+                let mut moved = Gain::new(48_000.0);
+                moved.set(from);
+                moved.jump();
+                moved.set(target);
+                let longest = (20.0 * LEVEL_TIME * 48_000.0) as usize / BLOCK;
+                for _ in 0..longest {
+                    moved.run(BLOCK);
+                }
+                assert!(moved.rests(), "from {from} to {target}");
+                assert_eq!(moved.run(BLOCK), [target; BLOCK], "from {from}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_gain_goes_on_from_where_it_is() {
+        let mut gain = Gain::new(48_000.0);
+        gain.set(0.2);
+        let mut before = 1.0;
+        for (place, target) in [0.2, 0.9, 0.1, 0.5].into_iter().cycle().take(40).enumerate() {
+            gain.set(target);
+            for value in gain.run(BLOCK) {
+                assert!((value - before).abs() < 0.005, "block {place}: {before} to {value}");
+                before = value;
+            }
+        }
     }
 }

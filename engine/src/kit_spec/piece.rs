@@ -115,9 +115,10 @@ impl InstrumentSpec {
     fn check(&self) -> Result<(), SpecError> {
         match self {
             InstrumentSpec::Drum(drum) => drum.check(),
-            InstrumentSpec::Cymbal(cymbal) if cymbal.stand.is_none() => {
-                Err(SpecError::refused("stand", "is missing, accepted: a stand with bounce_hz, rock_hz, q"))
-            }
+            InstrumentSpec::Cymbal(cymbal) if cymbal.stand.is_none() => Err(SpecError::refused(
+                "stand",
+                "is missing, accepted: a stand with bounce_hz, rock_hz, q, rock_q",
+            )),
             InstrumentSpec::Cymbal(cymbal) => cymbal.check(),
             InstrumentSpec::HiHat(hat) => hat.check(),
         }

@@ -2,6 +2,8 @@
 //!
 //! Sizes are those of the trade. Constants that were chosen by comparing with recordings say so (*fitted*).
 
+use std::f64::consts::{PI, TAU};
+
 use crate::build_context::Idealization;
 use crate::contact::Material;
 use crate::cymbal::hammering::HammeringSpec;
@@ -307,12 +309,34 @@ fn bronze(diameter_in: f64, mass: f64, bow: f64, (radius, rise): (f64, f64)) -> 
         taper: fitted::CYMBAL_TAPER,
         alloy: Material::BRONZE,
         loss: LossLaw::BRONZE,
-        stand: Some(Stand { bounce_hz: 20.0, rock_hz: 5.0, q: 3.0 }),
+        stand: Some(stand(inches(diameter_in) / 2.0, bow + rise)),
         // A strip of tape near the edge. *By ear*.
         muffler: Muffler::Gel { sigma: fitted::CYMBAL_TAPE_SIGMA, radius: 0.85, angle: 2.3 },
         evenness: Splitting::CYMBAL,
         hammering: None,
     }
+}
+
+/// Acceleration of free fall, m/s2.
+const GRAVITY: f64 = 9.81;
+
+/// Radius of the edge of the felt that a cymbal rests on, m. *Trade sizes*: 35 to 40 mm wide.
+const FELT_EDGE: f64 = 0.018;
+
+/// Tilt of a loud stroke, rad.
+const LOUD_TILT: f64 = 0.2;
+
+/// The stand of a cymbal of a radius and a height, m, whose nut is loose.
+///
+/// *Derived*: the felts give by less than a millimetre under the plate, so a tilt of more than some hundredths of a radian stands on
+/// the felt's edge, with the moment `M g f` at every tilt `t`; of one frequency with it at that amplitude is the stiffness
+/// `4 M g f / (pi t)`. The plate, with the moment of inertia `M R^2 / 4`, hangs below by half its height. The bounce and the
+/// qualities are *assumed*: a crash that is let go rocks some times.
+fn stand(radius: f64, height: f64) -> Stand {
+    let edge = 4.0 * FELT_EDGE / (PI * LOUD_TILT);
+    let rock_hz = (GRAVITY * (edge + 0.5 * height) * 4.0 / (radius * radius)).sqrt() / TAU;
+    // As files have it.
+    Stand { bounce_hz: 20.0, rock_hz: (10.0 * rock_hz).round() / 10.0, q: 3.0, rock_q: 6.0 }
 }
 
 /// A cymbal hammered in its own way.

@@ -5,7 +5,7 @@
 
 use super::simd::LANES;
 use super::simd::coupled_modes::{Along, FORCES, PushAndHear};
-use super::{InputVector, ModalBody, Pressure, RECEIVERS, ReceiverWeights, Row, zero_row};
+use super::{InputVector, ModalBody, Pressure, ReceiverWeights, Row, zero_row};
 
 /// Coefficients of the coupled modes of one body, in whole SIMD lanes.
 pub struct CoupledModes {
@@ -19,9 +19,10 @@ pub struct CoupledModes {
     /// `M omega_d^2 / 2`: kinetic energy over the square of the real part, but for terms of the order
     /// of `sigma / omega`.
     kinetic: Row,
-    /// Pressure per change of the real part within a sample, `[receiver]`: the sound of a
-    /// rescaled velocity.
-    rescale_velocity: [Row; RECEIVERS],
+    /// `M omega_d / dt`: the force that changes the real part by one within a sample, N/m, and the forces that would give the
+    /// present velocities, N.
+    force_per_change: Row,
+    forces: Row,
 }
 
 impl CoupledModes {
@@ -35,7 +36,8 @@ impl CoupledModes {
             ahead_re: row(),
             ahead_im: row(),
             kinetic: row(),
-            rescale_velocity: std::array::from_fn(|_| row()),
+            force_per_change: row(),
+            forces: row(),
         }
     }
 
@@ -52,21 +54,18 @@ impl CoupledModes {
 
 impl ModalBody {
     /// Updates the coefficients of [`predict`](Self::predict), for a prediction `samples_ahead` (samples), and of
-    /// [`rescale_velocity`](Self::rescale_velocity), after a change of modes or receiver weights.
+    /// [`rescale_velocity`](Self::rescale_velocity), after a change of modes.
     ///
     /// # Real-time
     /// Linear in the coupled modes, about 50 ns each.
-    pub fn update(&self, coupled: &mut CoupledModes, weights: &ReceiverWeights, samples_ahead: f64) {
+    pub fn update(&self, coupled: &mut CoupledModes, samples_ahead: f64) {
         for (k, mode) in self.modes.iter().enumerate().take(coupled.length) {
             let (omega_d, time) = (mode.omega_d(), samples_ahead * self.dt);
             let (sin, cos) = (omega_d * time).sin_cos();
             let decay = (-mode.sigma * time).exp();
             coupled.ahead_re[k] = (decay * cos) as f32;
             coupled.ahead_im[k] = (decay * sin) as f32;
-            for (rescale_velocity, receiver) in coupled.rescale_velocity.iter_mut().zip(&weights.receivers) {
-                let direct = receiver.direct.get(k).copied().unwrap_or(0.0);
-                rescale_velocity[k] = (f64::from(direct) * mode.mass * omega_d / self.dt) as f32;
-            }
+            coupled.force_per_change[k] = (mode.mass * omega_d / self.dt) as f32;
             coupled.kinetic[k] = (0.5 * mode.mass * omega_d * omega_d) as f32;
         }
     }
@@ -155,12 +154,19 @@ impl ModalBody {
     }
 
     /// Scales the velocities of the coupled modes. Returns the pressure of that change of velocity over the next sample, Pa.
-    pub fn rescale_velocity(&mut self, coupled: &CoupledModes, factor: f32) -> Pressure {
-        let heard = coupled
-            .rescale_velocity
-            .each_ref()
-            .map(|rescale_velocity| (factor - 1.0) * self.kernels.dot(rescale_velocity, &self.state.re));
+    pub fn rescale_velocity(
+        &mut self,
+        coupled: &mut CoupledModes,
+        weights: &ReceiverWeights,
+        factor: f32,
+    ) -> Pressure {
         let n = coupled.length.min(self.state.re.len());
+        let forces = &mut coupled.forces[..n];
+        self.kernels.multiply(forces, &coupled.force_per_change[..n], &self.state.re[..n]);
+        let heard = weights.receivers.each_ref().map(|receiver| {
+            let n = n.min(receiver.direct.len());
+            (factor - 1.0) * self.kernels.dot(&receiver.direct[..n], &forces[..n])
+        });
         self.kernels.scale(&mut self.state.re[..n], factor);
         heard
     }

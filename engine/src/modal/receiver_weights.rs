@@ -56,27 +56,15 @@ impl Receiver {
     #[inline(always)]
     pub(super) fn tune(&mut self, first: usize, modes: &Constants<TOGETHER>, dt: f64) {
         let Receiver { transfer, weight_re, weight_im, direct, slow } = self;
-        let mut transfers = [[0.0; 2]; TOGETHER];
-        transfers.iter_mut().zip(&transfer[first..]).for_each(|(to, from)| *to = *from);
-        let mut new = [[0.0_f32; TOGETHER]; 4];
-        for i in 0..TOGETHER {
-            let (mode, [h_re, h_im]) = (modes.mode(i), transfers[i]);
-            let (omega_d, sigma) = (mode.omega_d(), mode.sigma);
-            let heard = omega_d * dt < std::f64::consts::PI;
-            let (l2_re, l2_im) = (sigma * sigma - omega_d * omega_d, -2.0 * sigma * omega_d);
-            let all = [
-                h_re * l2_im + h_im * l2_re,
-                h_re * l2_re - h_im * l2_im,
-                (h_re * omega_d - h_im * sigma) / (mode.mass * omega_d),
-                h_im / (mode.mass * omega_d),
-            ];
-            for (row, x) in new.iter_mut().zip(all) {
-                row[i] = if heard { x as f32 } else { 0.0 };
-            }
-        }
+        let new = weights_of(&transfer[first..], modes, dt);
         for (row, new) in [weight_re, weight_im, direct, slow].into_iter().zip(&new) {
             row[first..first + TOGETHER].copy_from_slice(new);
         }
+    }
+
+    /// All weights: of the real and the imaginary part of the state, of the force, and of its slow part.
+    pub(super) fn rows_mut(&mut self) -> [&mut Row; 4] {
+        [&mut self.weight_re, &mut self.weight_im, &mut self.direct, &mut self.slow]
     }
 
     /// The weights from mode `first` on, for [`ModalBody::ring`](super::ModalBody::ring).
@@ -84,4 +72,33 @@ impl Receiver {
         let from = |row: &'a [f32]| row.get(first..).unwrap_or_default();
         simd::ring::PressureSum { weight_re: from(&self.weight_re), weight_im: from(&self.weight_im), out }
     }
+}
+
+/// Weights of the modes' transfers at a time step of `dt` (s): of the real and the imaginary part of the state, of the force, and
+/// of its slow part.
+#[inline(always)]
+pub(super) fn weights_of(
+    transfer: &[[f64; 2]],
+    modes: &Constants<TOGETHER>,
+    dt: f64,
+) -> [[f32; TOGETHER]; 4] {
+    let mut transfers = [[0.0; 2]; TOGETHER];
+    transfers.iter_mut().zip(transfer).for_each(|(to, from)| *to = *from);
+    let mut new = [[0.0_f32; TOGETHER]; 4];
+    for i in 0..TOGETHER {
+        let (mode, [h_re, h_im]) = (modes.mode(i), transfers[i]);
+        let (omega_d, sigma) = (mode.omega_d(), mode.sigma);
+        let heard = omega_d * dt < std::f64::consts::PI;
+        let (l2_re, l2_im) = (sigma * sigma - omega_d * omega_d, -2.0 * sigma * omega_d);
+        let all = [
+            h_re * l2_im + h_im * l2_re,
+            h_re * l2_re - h_im * l2_im,
+            (h_re * omega_d - h_im * sigma) / (mode.mass * omega_d),
+            h_im / (mode.mass * omega_d),
+        ];
+        for (row, x) in new.iter_mut().zip(all) {
+            row[i] = if heard { x as f32 } else { 0.0 };
+        }
+    }
+    new
 }

@@ -1,4 +1,4 @@
-//! Steps of the sound where the modes change, spread over a block.
+//! Steps and impulses of the sound where the modes change, spread over a block.
 //!
 //! Modes that change keep their displacement and velocity. What is heard are their accelerations, which step: by twice the
 //! change of the frequency. The height of the step is added to the sound and taken back along a straight line within a block,
@@ -16,6 +16,8 @@ pub struct Smoothing {
     /// Pressure added to the present sample at each receiver, and how much less it is in the next, Pa.
     added: Pressure,
     slope: Pressure,
+    /// Pressure of impulses at each receiver, Pa, the same in every sample.
+    held: Pressure,
     /// Samples until nothing is left.
     left: usize,
 }
@@ -33,6 +35,13 @@ impl Smoothing {
         self.left = BLOCK;
     }
 
+    /// Velocities have changed by impulses: their pressure at each receiver (Pa) is added throughout a block. Called at its
+    /// beginning.
+    pub fn hold(&mut self, impulse: Pressure) {
+        self.held = impulse;
+        self.left = BLOCK;
+    }
+
     /// Whether nothing is left.
     pub fn is_over(&self) -> bool {
         self.left == 0
@@ -44,15 +53,16 @@ impl Smoothing {
         if samples == 0 {
             return;
         }
-        for ((out, added), slope) in out.iter_mut().zip(&mut self.added).zip(&self.slope) {
+        let rows = self.added.iter_mut().zip(&self.slope).zip(&self.held);
+        for (out, ((added, slope), held)) in out.iter_mut().zip(rows) {
             for out in &mut out[..samples] {
-                *out += *added;
+                *out += *added + held;
                 *added -= slope;
             }
         }
         self.left -= samples;
         if self.left == 0 {
-            self.added = Pressure::default();
+            (self.added, self.slope, self.held) = Default::default();
         }
     }
 }
@@ -60,6 +70,22 @@ impl Smoothing {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_impulse_is_held_for_a_block_however_time_is_cut() {
+        let held = |run: usize| {
+            let mut smoothing = Smoothing::default();
+            smoothing.hold([1.0, 0.0, 0.5]);
+            let mut rows = [[0.0_f32; 2 * BLOCK]; RECEIVERS];
+            let [a, b, c] = &mut rows;
+            let runs = a.chunks_mut(run).zip(b.chunks_mut(run)).zip(c.chunks_mut(run));
+            runs.for_each(|((a, b), c)| smoothing.add_to(&mut [a, b, c]));
+            rows
+        };
+        let rows = held(2 * BLOCK);
+        assert!(rows[0][..BLOCK].iter().all(|&x| x == 1.0) && rows[0][BLOCK..].iter().all(|&x| x == 0.0));
+        assert_eq!(held(5), rows);
+    }
 
     #[test]
     fn a_step_becomes_a_line_however_time_is_cut() {

@@ -56,6 +56,15 @@ pub struct Radiated {
     pub air_mass: f64,
 }
 
+/// Directions of a [`FarPattern`]. *Derived*: lobes are `2 pi` of `k a sin(theta)` wide, which is at most 100 below 21 kHz.
+pub const DIRECTIONS: usize = 129;
+
+/// What is heard of a mode from far away as at a metre, over the cosine of the inclination: pressure over modal acceleration,
+/// Pa s2/m, at sines of the inclination from 0 to 1 in even steps, `[direction]`. In proportion to the cosine it is the same from behind, as a
+/// dipole's.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FarPattern(pub Vec<[f32; 2]>);
+
 /// A disc, its modes' shapes on a grid, and points.
 pub struct FreeDisc {
     radius: f64,
@@ -79,6 +88,18 @@ impl FreeDisc {
 
     /// What a mode does to the air; `root` is its wave number times the radius, dimensionless.
     pub fn radiate(&self, mode: &Radiator, root: f64) -> Radiated {
+        self.solve(mode, root).0
+    }
+
+    /// The same, and what is heard from far away in every direction: see [`FarPattern`]; `root` likewise, dimensionless.
+    pub fn radiate_around(&self, mode: &Radiator, root: f64) -> (Radiated, FarPattern) {
+        let (radiated, jump) = self.solve(mode, root);
+        let pattern = self.pattern(mode, &jump);
+        (radiated, pattern)
+    }
+
+    /// What a mode does to the air, and the coefficients of the jump per unit acceleration.
+    fn solve(&self, mode: &Radiator, root: f64) -> (Radiated, DVector<Complex<f64>>) {
         let u = mode.omega * self.radius / SPEED_OF_SOUND;
         let m = mode.m as usize;
         let count = (0.5 * (root.max(u) - m as f64).max(0.0) + MARGIN) as usize;
@@ -99,11 +120,34 @@ impl FreeDisc {
         let field: Vec<Complex<f64>> = (0..self.rule.nodes.len())
             .map(|r| jump.iter().zip(&basis).map(|(a, phi)| a * phi[r]).sum())
             .collect();
-        Radiated {
+        let radiated = Radiated {
             transfers: self.points.map(|point| self.hear(&point, mode, &field)),
             resistance: (mode.omega * load.im).max(0.0),
             air_mass: -load.re,
+        };
+        (radiated, jump)
+    }
+
+    /// The far field of a jump: `i k / 2 i^m a^2 sum jump_i j_n(x) / x` at `x = k a sin(theta)`, times `cos(theta)`.
+    fn pattern(&self, mode: &Radiator, jump: &DVector<Complex<f64>>) -> FarPattern {
+        let (m, k) = (mode.m as usize, mode.omega / SPEED_OF_SOUND);
+        let turn = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)][m % 4];
+        let unit = Complex::new(0.0, 0.5 * k * self.radius * self.radius) * Complex::new(turn.0, turn.1);
+        let mut waves = vec![[0.0; LANES]; m + 2 * jump.len()];
+        let mut pattern = Vec::with_capacity(DIRECTIONS);
+        for first in (0..DIRECTIONS).step_by(LANES) {
+            // On the axis itself the quotient has a limit, which it is next to.
+            let sine = |lane: usize| ((first + lane) as f64 / (DIRECTIONS - 1) as f64).clamp(1e-4, 1.0);
+            let x = std::array::from_fn(|lane| k * self.radius * sine(lane));
+            bessel::lanes::spherical_orders(&x, &mut waves);
+            for lane in 0..LANES.min(DIRECTIONS - first) {
+                let orders = waves[m + 1..].iter().step_by(2);
+                let sum: Complex<f64> = jump.iter().zip(orders).map(|(jump, wave)| jump * wave[lane]).sum();
+                let heard = unit * sum / x[lane];
+                pattern.push([heard.re as f32, heard.im as f32]);
+            }
         }
+        FarPattern(pattern)
     }
 
     /// The basis functions on the grid, `[function][r]`.
@@ -264,6 +308,35 @@ mod tests {
             let power = sides * rule.integrate(square) / (2.0 * DENSITY * SPEED_OF_SOUND);
             let lost = 0.5 * disc(0.0).radiate(&mode, root).resistance / shell.omega.powi(2);
             assert!((power / lost - 1.0).abs() < 1e-3, "({m}, {n}): {power:e} heard, {lost:e} lost");
+        }
+    }
+
+    #[test]
+    fn the_pattern_is_what_is_heard_far_away() {
+        use crate::plate::{PlateModes, PlateTables};
+        let plate = PlateModes::new(&crate::reference::cap_crash(), 9_000.0).unwrap();
+        let (orders, extent) = plate.table_extent(9_000.0);
+        let tables = PlateTables::new(orders, extent);
+        let (nodes, distance) = (120, 400.0);
+        for (m, n) in [(0, 1), (1, 1), (4, 5), (10, 4), (0, 6)] {
+            let i = plate.shells.iter().position(|s| (s.m, s.n) == (m, n)).unwrap();
+            let root = plate.wave_number(&plate.shells[i]);
+            for at in [0_usize, 20, 64, 101] {
+                let inclination = (at as f64 / (DIRECTIONS - 1) as f64).asin();
+                let point = ReceiverPosition { distance, inclination, azimuth: 0.0 };
+                let disc = FreeDisc::new(plate.spec.radius(), [point; 2], nodes);
+                let shapes = plate.radial_shapes(&tables, disc.radii());
+                let radial = &shapes[i * nodes..][..nodes];
+                let mode = Radiator { m, radial, omega: plate.shells[i].omega };
+                let (radiated, FarPattern(pattern)) = disc.radiate_around(&mode, root);
+                let largest = pattern.iter().map(|[re, im]| re.hypot(*im)).fold(0.0, f32::max);
+                for (heard, shown) in radiated.transfers[0].into_iter().zip(pattern[at]) {
+                    let want = distance * heard;
+                    let found = f64::from(shown) * inclination.cos();
+                    let error = (found - want).abs() / f64::from(largest);
+                    assert!(error < 0.01, "({m}, {n}) {at}: {found:e} {want:e}");
+                }
+            }
         }
     }
 

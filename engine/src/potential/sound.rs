@@ -14,6 +14,8 @@ pub(super) struct Sound {
     /// Pressure per unit rate of change of `psibar`, Pa s, and the low-passed force times it, Pa s.
     slow: Pressure,
     lag: Pressure,
+    /// The latest `psibar`.
+    force: f32,
     /// Pressure of the latest exchange with the velocities, Pa, for one sample.
     rescale_velocity: Pressure,
 }
@@ -23,6 +25,14 @@ impl Sound {
     pub(super) fn follow(&mut self, body: &ModalBody, weights: &ReceiverWeights, input: &InputVector) {
         self.direct = weights.direct_at(body, input);
         self.slow = weights.slow_at(body, input);
+    }
+
+    /// Follows receiver weights that have moved, so that the pressures per unit of `psibar` (Pa) and of its rate (Pa s) have changed
+    /// at a receiver. What the force has done is not heard again: only its own changes are.
+    pub(super) fn sway(&mut self, receiver: usize, direct: f32, slow: f32) {
+        self.direct[receiver] += direct;
+        self.slow[receiver] += slow;
+        self.lag[receiver] += self.force * slow;
     }
 
     /// Adds the pressure of scaled velocities, Pa.
@@ -35,6 +45,7 @@ impl Sound {
 
     /// Pressure of a force held over a sample of `dt` s, Pa.
     pub(super) fn heard(&mut self, force: f32, dt: f64) -> Pressure {
+        self.force = force;
         std::array::from_fn(|receiver| {
             // The rate of the slow part; for faster changes the velocity term is right.
             let rate = (force * self.slow[receiver] - self.lag[receiver]) * (1.0 / SLOW_TIME) as f32;
@@ -45,6 +56,6 @@ impl Sound {
 
     /// Forgets the past force.
     pub(super) fn reset(&mut self) {
-        (self.lag, self.rescale_velocity) = (Pressure::default(), Pressure::default());
+        (self.lag, self.force, self.rescale_velocity) = (Pressure::default(), 0.0, Pressure::default());
     }
 }

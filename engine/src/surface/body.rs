@@ -4,9 +4,11 @@
 
 use crate::modal::inaudible_modes::InaudibleModes;
 use crate::modal::simd::Kernels;
+use crate::modal::sway::Sway;
 use crate::modal::{InputVector, ModalBody, Mode, Pressure, RECEIVERS, ReceiverWeights};
 use crate::potential::{NonlinearForce, Potential};
 use crate::shapes::ShapeTable;
+use crate::transport::{Transport, TransportSpec};
 
 use super::incident_field::{AirLoad, IncidentPressure};
 
@@ -70,6 +72,8 @@ pub struct StruckBody {
     shapes: ShapeTable,
     /// The nonlinear force, if it has one.
     nonlinear_force: Option<NonlinearForce>,
+    /// The transport of energy above the modes that the nonlinear force couples, if there is one.
+    transport: Option<Transport>,
     /// The load of the surrounding air, if sound from elsewhere acts on it.
     air: Option<AirLoad>,
     /// Hz.
@@ -80,12 +84,36 @@ impl StruckBody {
     /// A body at rest without nonlinear force and air load; sample rate in Hz. Allocates.
     pub fn new(sound: SoundingBody, shapes: ShapeTable, sample_rate: f64) -> StruckBody {
         let inaudible = InaudibleModes::new(sound.modal.len());
-        StruckBody { sound, inaudible, shapes, nonlinear_force: None, air: None, sample_rate }
+        StruckBody {
+            sound,
+            inaudible,
+            shapes,
+            nonlinear_force: None,
+            transport: None,
+            air: None,
+            sample_rate,
+        }
     }
 
     /// The modes and their receiver weights.
     pub fn sound(&self) -> &SoundingBody {
         &self.sound
+    }
+
+    /// The modes and their receiver weights, to be moved.
+    pub fn sound_mut(&mut self) -> &mut SoundingBody {
+        &mut self.sound
+    }
+
+    /// Moves the receiver weights by a step.
+    ///
+    /// # Real-time
+    /// Linear in the number of modes.
+    pub fn sway(&mut self, sway: &mut Sway) {
+        let SoundingBody { modal, receiver } = &mut self.sound;
+        if modal.sway(sway, receiver) {
+            self.nonlinear_force.iter_mut().for_each(|force| force.sway(modal, sway));
+        }
     }
 
     /// The modes and their motion.
@@ -128,6 +156,16 @@ impl StruckBody {
         self.nonlinear_force.as_mut()
     }
 
+    /// The transport of energy above the coupled modes, if there is one.
+    pub fn transport(&self) -> Option<&Transport> {
+        self.transport.as_ref()
+    }
+
+    /// The transport of energy above the coupled modes, to be set.
+    pub fn transport_mut(&mut self) -> Option<&mut Transport> {
+        self.transport.as_mut()
+    }
+
     /// The nonlinear force while it acts.
     pub fn acting_force(&self) -> Option<&NonlinearForce> {
         self.nonlinear_force.as_ref().filter(|force| force.is_active())
@@ -140,17 +178,21 @@ impl StruckBody {
 
     /// Lets a potential act on the first `modes`, evaluated once in `stride` samples. Allocates.
     pub(super) fn set_potential(&mut self, potential: Box<dyn Potential>, modes: usize, stride: u32) {
-        let body = (&self.sound.modal, &self.sound.receiver);
-        let force = NonlinearForce::new(potential, modes, stride, body, self.sample_rate);
+        let force = NonlinearForce::new(potential, modes, stride, &self.sound.modal, self.sample_rate);
         self.nonlinear_force = Some(force);
         self.update_thresholds();
+    }
+
+    /// Lets energy be carried above the coupled modes. Allocates.
+    pub(super) fn set_transport(&mut self, spec: TransportSpec) {
+        self.transport = Transport::new(spec, &self.sound.modal, &self.sound.receiver);
     }
 
     /// Evaluates the nonlinear force once in `stride` samples; for comparisons.
     pub(super) fn set_stride(&mut self, stride: u32) {
         if let Some(force) = &mut self.nonlinear_force {
             force.set_stride(stride);
-            force.follow(&self.sound.modal, &self.sound.receiver);
+            force.follow(&self.sound.modal);
         }
     }
 
@@ -191,7 +233,8 @@ impl StruckBody {
         self.sound.follow();
         self.update_thresholds();
         let SoundingBody { modal, receiver } = &self.sound;
-        self.nonlinear_force.iter_mut().for_each(|force| force.follow(modal, receiver));
+        self.nonlinear_force.iter_mut().for_each(|force| force.follow(modal));
+        self.transport.iter_mut().for_each(|transport| transport.follow(modal, receiver));
         self.air.iter_mut().for_each(|air| air.follow(modal, receiver));
     }
 
@@ -263,9 +306,11 @@ impl StruckBody {
         self.nonlinear_force.as_ref().map_or(0.0, |force| force.coupling(&self.sound.modal, port))
     }
 
-    /// Energy of the modes and the nonlinear force, J.
+    /// Energy of the modes, the nonlinear force and the transport, J.
     pub(super) fn energy(&self) -> f64 {
-        self.sound.modal.energy() + self.nonlinear_force.as_ref().map_or(0.0, NonlinearForce::energy)
+        self.sound.modal.energy()
+            + self.nonlinear_force.as_ref().map_or(0.0, NonlinearForce::energy)
+            + self.transport.as_ref().map_or(0.0, Transport::pending)
     }
 
     /// Energy of the motion, J; that of the nonlinear force counts as motion.
@@ -287,6 +332,17 @@ impl StruckBody {
         self.nonlinear_force.iter_mut().for_each(NonlinearForce::settle);
     }
 
+    /// Carries the energy of a block above the coupled modes. Returns the sound of that over the block, Pa at each receiver, if any
+    /// mode has changed.
+    pub(super) fn carry(&mut self) -> Option<Pressure> {
+        let transport = self.transport.as_mut()?;
+        if !self.nonlinear_force.as_ref().is_some_and(NonlinearForce::is_active) {
+            transport.rest();
+            return None;
+        }
+        transport.carry(&mut self.sound.modal)
+    }
+
     /// Whether it rests inside out.
     pub(super) fn is_inside_out(&self) -> bool {
         self.nonlinear_force.as_ref().is_some_and(NonlinearForce::is_inside_out)
@@ -296,5 +352,6 @@ impl StruckBody {
     pub fn reset(&mut self) {
         self.sound.modal.reset();
         self.nonlinear_force.iter_mut().for_each(NonlinearForce::reset);
+        self.transport.iter_mut().for_each(Transport::reset);
     }
 }

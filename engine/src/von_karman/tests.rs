@@ -155,7 +155,7 @@ fn both_schemes(size: f64, seconds: f64, rate: f64, stride: u32) -> (Vec<f64>, V
     let mut weights = ReceiverWeights::new(vec![[0.0; 2]; modes]);
     body.tune(&mut weights);
     let potential = Box::new(VonKarman::new(&plate, &tables, &pairs));
-    let mut force = NonlinearForce::new(potential, modes, stride, (&body, &weights), rate);
+    let mut force = NonlinearForce::new(potential, modes, stride, &body, rate);
     body.set_displacements(&to_body(&plate, &pairs, &start, modes));
     force.wake();
     for _ in 0..(seconds * rate).round() as usize {

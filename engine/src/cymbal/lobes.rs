@@ -1,0 +1,286 @@
+//! What a cymbal's modes show of themselves toward receivers while it swings.
+//!
+//! Model: of a mode with `m` nodal diameters, a direction at the inclination `i` and the azimuth `a` from the tilted cymbal's axis
+//! receives its [far pattern](FarPattern) at `i`, times `cos m (a - axis)` or the sine. What a receiver hears is what it hears of
+//! the cymbal at rest, and the difference of the patterns in both directions, spread over its distance.
+//!
+//! Limits: so near that the waves have not parted, the difference is that of the far field. Mean and size are right there, single
+//! modes are not.
+
+use crate::cache::Shared;
+use crate::math::cubic::Stencil;
+use crate::mode::Member;
+use crate::mode_mixture::ModeMixture;
+use crate::plate::free_disc::{DIRECTIONS, FarPattern};
+use crate::receiver::{ReceiverPosition, Receivers};
+use crate::shapes::ShapeIndex;
+use crate::surface::swing::Directivity;
+
+use super::sounding_plate::SoundingPlate;
+
+/// Nodal diameters of any mode are fewer.
+const ORDERS: usize = 160;
+
+/// A plain mode as directions receive it.
+#[derive(Debug, Clone, Copy)]
+struct Lobe {
+    /// Row of its pattern; none of a motion that is not heard.
+    shell: Option<u32>,
+    m: u32,
+    /// Shares of `cos m a` and `sin m a` in what it shows.
+    around: [f32; 2],
+}
+
+/// A direction seen from the tilted cymbal.
+#[derive(Clone)]
+struct Direction {
+    stencil: Stencil,
+    cosine: f64,
+    /// `cos m a` and `sin m a`, `[m]`.
+    around: Vec<[f32; 2]>,
+}
+
+impl Direction {
+    fn new() -> Direction {
+        Direction { stencil: Stencil::at(0.0, DIRECTIONS), cosine: 1.0, around: vec![[1.0, 0.0]; ORDERS] }
+    }
+
+    /// Turns to a vector of unit length.
+    fn turn(&mut self, [x, y, z]: [f64; 3]) {
+        let sine = libm::hypot(x, y).min(1.0);
+        self.stencil = Stencil::at(sine * (DIRECTIONS - 1) as f64, DIRECTIONS);
+        self.cosine = z;
+        let (c, s) = if sine > 1e-9 { (x / sine, y / sine) } else { (1.0, 0.0) };
+        let (mut re, mut im) = (1.0, 0.0);
+        for around in &mut self.around {
+            *around = [re as f32, im as f32];
+            (re, im) = (re * c - im * s, im * c + re * s);
+        }
+    }
+
+    /// What a mode of that pattern shows of itself, Pa s2/m at a metre.
+    fn heard(&self, FarPattern(pattern): &FarPattern, lobe: &Lobe) -> [f32; 2] {
+        let [cos, sin] = self.around[lobe.m as usize];
+        let shown = self.cosine as f32 * (lobe.around[0] * cos + lobe.around[1] * sin);
+        let four = &pattern[self.stencil.first..][..4];
+        let mut sum = [0.0; 2];
+        for (weight, [re, im]) in self.stencil.weights.iter().zip(four) {
+            sum[0] += *weight as f32 * re;
+            sum[1] += *weight as f32 * im;
+        }
+        sum.map(|x| x * shown)
+    }
+}
+
+/// A receiver.
+struct LobeReceiver {
+    /// Toward it from the cymbal at rest, of unit length.
+    toward: [f64; 3],
+    /// Pressure there over that at a metre.
+    spread: f32,
+    now: Direction,
+    /// `[mode]`: what it hears at rest, Pa s2/m, and of that the patterns' part of the plain modes.
+    rest: Vec<[f64; 2]>,
+    plain_at_rest: Vec<[f32; 2]>,
+}
+
+/// The lobes of all modes.
+pub struct Lobes {
+    plate: Shared<SoundingPlate>,
+    mixture: Option<ModeMixture>,
+    lobes: Vec<Lobe>,
+    receivers: [LobeReceiver; 2],
+    /// `[plain mode]` and `[mode]`: what differs from rest, of the near and of the far receiver, Pa s2/m.
+    plain: Vec<[f32; 4]>,
+    mixed: Vec<[f32; 4]>,
+}
+
+impl Lobes {
+    /// Those of a plate, of whose plain modes the first are `rigid` motions; `shells` are the others' rows; `rest` is heard at rest
+    /// from near and, as at a metre, from far, Pa s2/m `[mode]`. Allocates.
+    pub fn new(
+        plate: Shared<SoundingPlate>,
+        mixture: Option<ModeMixture>,
+        (index, shells, rigid): (&[ShapeIndex], &[usize], usize),
+        receivers: &Receivers,
+        rest: [Vec<[f64; 2]>; 2],
+    ) -> Lobes {
+        let lobe = |(k, (shape, &shell)): (usize, (&ShapeIndex, &usize))| {
+            let (sin, cos) = libm::sincos(f64::from(shape.m) * shape.axis);
+            let around = match shape.member {
+                Member::Cosine => [cos, sin],
+                Member::Sine => [-sin, cos],
+            };
+            Lobe { shell: (k >= rigid).then_some(shell as u32), m: shape.m, around: around.map(|x| x as f32) }
+        };
+        let lobes: Vec<Lobe> = index.iter().zip(shells).enumerate().map(lobe).collect();
+        let modes = lobes.len();
+        let [near, far] = rest;
+        let receiver = |point: &ReceiverPosition, spread: f64, rest| LobeReceiver {
+            toward: toward(point),
+            spread: spread as f32,
+            now: Direction::new(),
+            rest,
+            plain_at_rest: vec![[0.0; 2]; modes],
+        };
+        let spread = 1.0 / receivers.near.distance;
+        let receivers = [receiver(&receivers.near, spread, near), receiver(&receivers.far, 1.0, far)];
+        let (plain, mixed) = (vec![[0.0; 4]; modes], vec![[0.0; 4]; modes]);
+        let mut all = Lobes { plate, mixture, lobes, receivers, plain, mixed };
+        all.turn([0.0; 2]);
+        for receiver in &mut all.receivers {
+            for (rest, lobe) in receiver.plain_at_rest.iter_mut().zip(&all.lobes) {
+                let pattern = lobe.shell.map(|shell| &all.plate.patterns[shell as usize]);
+                *rest = pattern.map_or([0.0; 2], |pattern| receiver.now.heard(pattern, lobe));
+            }
+        }
+        all
+    }
+}
+
+/// The vector of unit length toward a point.
+fn toward(point: &ReceiverPosition) -> [f64; 3] {
+    let (sin, cos) = libm::sincos(point.inclination);
+    let (across, along) = libm::sincos(point.azimuth);
+    [sin * along, sin * across, cos]
+}
+
+/// A vector as seen from a disc that is tilted (rad) into the surface toward either axis.
+fn seen_tilted([x, y, z]: [f64; 3], tilt: [f64; 2]) -> [f64; 3] {
+    let size = libm::hypot(tilt[0], tilt[1]);
+    if size == 0.0 {
+        return [x, y, z];
+    }
+    let [u, v] = tilt.map(|part| part / size);
+    let (sin, cos) = libm::sincos(size);
+    // Toward the tilt, and across it, which stays.
+    let (along, across) = (x * u + y * v, y * u - x * v);
+    let turned = along * cos - z * sin;
+    [turned * u - across * v, turned * v + across * u, along * sin + z * cos]
+}
+
+impl Directivity for Lobes {
+    fn turn(&mut self, tilt: [f64; 2]) {
+        for receiver in &mut self.receivers {
+            receiver.now.turn(seen_tilted(receiver.toward, tilt));
+        }
+    }
+
+    fn work(&mut self, part: usize, parts: usize) {
+        let Lobes { plate, mixture, lobes, receivers, plain, mixed } = self;
+        // The plain modes first, then the mixed ones.
+        let half = parts.div_ceil(2);
+        let share = |part: usize, parts: usize| lobes.len() * part / parts..lobes.len() * (part + 1) / parts;
+        if part < half {
+            for k in share(part, half) {
+                let Some(shell) = lobes[k].shell else { continue };
+                let pattern = &plate.patterns[shell as usize];
+                for (receiver, change) in receivers.iter().zip(plain[k].as_chunks_mut::<2>().0) {
+                    let now = receiver.now.heard(pattern, &lobes[k]);
+                    let rest = receiver.plain_at_rest[k];
+                    *change = std::array::from_fn(|i| receiver.spread * (now[i] - rest[i]));
+                }
+            }
+        } else {
+            let range = share(part - half, parts - half);
+            match mixture {
+                Some(mixture) => mixture.apply_some(plain, mixed, range),
+                None => mixed[range.clone()].copy_from_slice(&plain[range]),
+            }
+        }
+    }
+
+    fn write_rest(&self, near: &mut [[f64; 2]], far: &mut [[f64; 2]]) {
+        for (out, receiver) in [near, far].into_iter().zip(&self.receivers) {
+            out.copy_from_slice(&receiver.rest);
+        }
+    }
+
+    fn write(&self, near: &mut [[f64; 2]], far: &mut [[f64; 2]]) {
+        for (at, (out, receiver)) in [near, far].into_iter().zip(&self.receivers).enumerate() {
+            for ((out, rest), change) in out.iter_mut().zip(&receiver.rest).zip(&self.mixed) {
+                *out = [0, 1].map(|i| rest[i] + f64::from(change[2 * at + i]));
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::*;
+    use crate::build_context::BuildOptions;
+    use crate::cymbal::assembly::CymbalPlate;
+    use crate::plate::PlateTables;
+    use crate::plate::free_disc::FreeDisc;
+    use crate::radiation::Radiator;
+    use crate::reference;
+    use crate::split::Splitting;
+
+    #[test]
+    fn what_lies_on_the_axis_of_a_tilted_disc_is_seen_on_it() {
+        let tilt = [0.3_f64, -0.4];
+        // Where it leans into the surface the axis leans to.
+        let axis = [0.6 * 0.5_f64.sin(), -0.8 * 0.5_f64.sin(), 0.5_f64.cos()];
+        let seen = seen_tilted(axis, tilt);
+        assert!(seen[0].abs() < 1e-12 && seen[1].abs() < 1e-12 && (seen[2] - 1.0).abs() < 1e-12, "{seen:?}");
+        let across = seen_tilted([0.8, 0.6, 0.0], tilt);
+        assert!((across[0] - 0.8).abs() < 1e-12 && (across[1] - 0.6).abs() < 1e-12, "{across:?}");
+        assert_eq!(seen_tilted(axis, [0.0; 2]), axis);
+    }
+
+    #[test]
+    fn from_far_away_a_tilted_cymbal_is_heard_as_from_where_it_looks() {
+        let context = reference::standard("splash").context(BuildOptions::new(44_100.0));
+        let spec = reference::cymbal("splash");
+        let plate = CymbalPlate::new(&spec, None, &context).unwrap();
+        let known = plate.known();
+        let shells = &known.plate.shells;
+        let (mut index, mut rows) = (Vec::new(), Vec::new());
+        for (row, shell) in shells.iter().enumerate() {
+            let axis = 0.2 * f64::from(shell.m);
+            for (member, _) in Splitting::ROUND.members(shell.m, shell.n) {
+                index.push(ShapeIndex { radial: row, rows: 1, m: shell.m, member, axis });
+                rows.push(row);
+            }
+        }
+        let count = index.len();
+        let zero = || vec![[0.0; 2]; count];
+        let mut lobes =
+            Lobes::new(known.clone(), None, (&index, &rows, 0), &context.receivers, [zero(), zero()]);
+        let (mut near, mut far) = (zero(), zero());
+        (0..4).for_each(|part| lobes.work(part, 4));
+        lobes.write(&mut near, &mut far);
+        assert!(near.iter().chain(&far).all(|transfer| *transfer == [0.0; 2]), "at rest nothing differs");
+
+        let tilt = [0.21, -0.13];
+        lobes.turn(tilt);
+        (0..4).for_each(|part| lobes.work(part, 4));
+        lobes.write(&mut near, &mut far);
+        // The same by the integral over the disc, at the points that it sees.
+        let [x, y, z] = seen_tilted(toward(&context.receivers.far), tilt);
+        let distance = 200.0;
+        let tilted = ReceiverPosition { distance, inclination: libm::acos(z), azimuth: libm::atan2(y, x) };
+        let level = ReceiverPosition { distance, ..context.receivers.far };
+        let (orders, extent) = known.plate.table_extent(21_000.0);
+        let tables = PlateTables::new(orders, extent);
+        let disc = FreeDisc::new(known.plate.spec.radius(), [tilted, level], 110);
+        let shapes = known.plate.radial_shapes(&tables, disc.radii());
+        for hz in [900.0, 3_000.0, 8_000.0, 15_000.0] {
+            let k = (0..count).find(|&k| shells[rows[k]].omega > TAU * hz).unwrap();
+            let (shell, shape) = (&shells[rows[k]], &index[k]);
+            let radial = &shapes[rows[k] * 110..][..110];
+            let mode = Radiator { m: shell.m, radial, omega: shell.omega };
+            let heard = disc.radiate(&mode, known.plate.wave_number(shell)).transfers;
+            let shown = [&tilted, &level].map(|point| point.toward(shell.m, shape.member, shape.axis));
+            let FarPattern(pattern) = &known.patterns[rows[k]];
+            let largest = pattern.iter().map(|[re, im]| f64::from(re.hypot(*im))).fold(0.0, f64::max);
+            for part in 0..2 {
+                let want = distance * (heard[0][part] * shown[0] - heard[1][part] * shown[1]);
+                let error = (far[k][part] - want).abs() / largest;
+                assert!(error < 0.02, "{hz} Hz: {} {want}", far[k][part]);
+            }
+        }
+    }
+}
