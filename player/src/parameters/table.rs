@@ -4,7 +4,7 @@ use overhear_engine::kit::{Control, Microphone, SILENT_DB};
 
 use super::parameter::{Construction, Drives, Manner, Parameter, Stand};
 use crate::midi::maps::NoteMap;
-use crate::midi::playing::ChokeRule;
+use crate::midi::playing::{CURVE, ChokeRule, FULL_SPEED, POSITION_SPREAD, SPEED_SPREAD};
 use crate::workers;
 
 /// How many there are.
@@ -18,7 +18,7 @@ pub static TABLE: [Parameter; GLOBALS] = [
         label: "Level",
         group: "Kit",
         // A groove at full velocity peaks a few decibels below full scale.
-        default: -4.0,
+        default: -10.0,
         ..decibels(Control::Master)
     },
     Parameter {
@@ -28,9 +28,9 @@ pub static TABLE: [Parameter; GLOBALS] = [
         group: "Kit",
         unit: " m/s",
         min: 1.0,
-        max: 10.0,
-        default: 6.0,
-        centre: 5.5,
+        max: 12.0,
+        default: FULL_SPEED as f32,
+        centre: 6.0,
         step: 0.01,
         decimals: 2,
         ..playing(Manner::Dynamics)
@@ -41,7 +41,7 @@ pub static TABLE: [Parameter; GLOBALS] = [
         label: "Curve",
         min: 0.25,
         max: 4.0,
-        default: 1.0,
+        default: CURVE as f32,
         centre: 1.0,
         step: 0.01,
         decimals: 2,
@@ -52,6 +52,7 @@ pub static TABLE: [Parameter; GLOBALS] = [
         name: "humanize_position",
         label: "Humanize position",
         unit: " %",
+        default: (100.0 * POSITION_SPREAD) as f32,
         max: 20.0,
         centre: 5.0,
         step: 0.1,
@@ -63,6 +64,7 @@ pub static TABLE: [Parameter; GLOBALS] = [
         name: "humanize_velocity",
         label: "Humanize velocity",
         unit: " dB",
+        default: SPEED_SPREAD as f32,
         max: 6.0,
         centre: 1.5,
         step: 0.01,

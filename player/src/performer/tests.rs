@@ -21,6 +21,14 @@ fn ready(document: &KitDocument) -> Performer {
     performer
 }
 
+/// The same, whose strokes are even.
+fn even(document: &KitDocument) -> Performer {
+    let mut performer = ready(document);
+    performer.set_parameter(index("humanize_position"), 0.0);
+    performer.set_parameter(index("humanize_velocity"), 0.0);
+    performer
+}
+
 /// Place of a parameter of the standard kit.
 fn index(name: &str) -> usize {
     find(name, &KitDocument::standard().kit).unwrap()
@@ -326,12 +334,12 @@ fn all_sound_off_and_all_notes_off_end_everything_within_ten_milliseconds() {
 
 #[test]
 fn a_stroke_after_all_sound_off_sounds_whole_and_alone() {
-    let mut alone = ready(&KitDocument::standard());
+    let mut alone = even(&KitDocument::standard());
     heard(&mut alone, 64);
     alone.reset();
     alone.note_on(38, 0.8, 9);
     let expected = heard(&mut alone, 4_800);
-    let mut performer = ready(&KitDocument::standard());
+    let mut performer = even(&KitDocument::standard());
     performer.note_on(49, 0.8, 9);
     heard(&mut performer, 4_800);
     performer.control_change(120, 0.0, 9);

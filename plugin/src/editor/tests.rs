@@ -300,13 +300,13 @@ fn shift_strikes_hardest_alt_softly_and_the_strip_between() {
     let usual = speed(&mut window, Modifiers::NONE);
     let hard = speed(&mut window, Modifiers::SHIFT);
     let soft = speed(&mut window, Modifiers::ALT);
-    assert!((hard - 6.0).abs() < 1e-3, "the dynamics' fastest, not {hard}");
+    assert!((hard - 10.0).abs() < 1e-3, "the dynamics' fastest, not {hard}");
     assert!(soft < 0.5 * usual && usual < hard, "{soft} {usual} {hard}");
     // The strip's upper end is the fastest stroke, its lower end the slowest.
     let strip = window.panels.picture().right_top() + vec2(-25.0, 33.0);
     window.modifiers = Modifiers::NONE;
     window.click(strip);
-    assert!((speed(&mut window, Modifiers::NONE) - 6.0).abs() < 0.1);
+    assert!((speed(&mut window, Modifiers::NONE) - 10.0).abs() < 0.1);
     window.click(window.panels.picture().right_bottom() + vec2(-25.0, -33.0));
     assert!(speed(&mut window, Modifiers::NONE) < 0.45);
 }

@@ -1,8 +1,11 @@
 use super::*;
 use crate::kit_document::standard_slot;
 
+/// Someone whose strokes are even.
 fn playing() -> Playing {
-    Playing::new(Arc::default(), Arc::default())
+    let mut playing = Playing::new(Arc::default(), Arc::default());
+    (playing.style.position_spread, playing.style.speed_spread) = (0.0, 0.0);
+    playing
 }
 
 fn radius(playing: &mut Playing, note: u8) -> f64 {
@@ -83,6 +86,8 @@ fn position_controllers_run_from_the_centre_to_the_rim() {
 #[test]
 fn fine_velocity_lies_between_two_velocities_and_is_used_once() {
     let mut playing = playing();
+    // Without a curve equal steps are equal ratios.
+    playing.style.curve = 1.0;
     let speed = |playing: &mut Playing, velocity| {
         playing.note_on(38, velocity_from_midi(velocity), 9).unwrap().strike.speed
     };
@@ -151,9 +156,9 @@ fn unevenness_is_as_large_as_asked_and_repeats() {
         (x - aimed.0).hypot(y - aimed.1)
     });
     assert!((away - 0.05).abs() < 0.003, "{away}");
-    let apart = mean(&|strike| (20.0 * (strike.speed / 6.0).log10()).abs());
+    let apart = mean(&|strike| (20.0 * (strike.speed / FULL_SPEED).log10()).abs());
     assert!((apart - 1.0).abs() < 0.05, "{apart}");
-    let middle = mean(&|strike| 20.0 * (strike.speed / 6.0).log10());
+    let middle = mean(&|strike| 20.0 * (strike.speed / FULL_SPEED).log10());
     assert!(middle.abs() < 0.1, "{middle}");
     playing.reset();
     assert_eq!(strikes(&mut playing), first);
