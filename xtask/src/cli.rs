@@ -35,6 +35,9 @@ enum Task {
         /// Only what takes minutes: formatting, lints, units, and the quick half of the other tests
         #[arg(long)]
         quick: bool,
+        /// Only what takes a host of its own: a session in Ardour, which is installed if it is missing
+        #[arg(long, conflicts_with = "quick")]
+        ardour: bool,
     },
     /// Build the release bundles (CLAP, VST3) and the standalone program
     Bundle {
@@ -104,8 +107,9 @@ fn dispatch(task: Task) -> Result<()> {
             demo::presets::run(&std::env::current_dir()?.join("demo-presets"))
         }
         Task::Demo { all_presets: false } => demo::run(&std::env::current_dir()?),
-        Task::Test { quick: true } => suite::run_quick(),
-        Task::Test { quick: false } => suite::run(),
+        Task::Test { ardour: true, .. } => suite::run_ardour(),
+        Task::Test { quick: true, .. } => suite::run_quick(),
+        Task::Test { .. } => suite::run(),
         Task::Bundle { universal } => {
             let processors = if universal { Processors::Universal } else { Processors::Own };
             for (_, path) in bundle::run_for(processors)? {

@@ -4,7 +4,7 @@
 //! other systems, the command lists what is missing and stops.
 
 use std::env;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use anyhow::{Context, Result, bail};
@@ -67,6 +67,15 @@ pub const HOST_LIBRARIES: Need = Need {
     what: "the libraries of the VST3 test host (DawDreamer)",
     present: || ["libglib-2.0.so.0", "libstdc++.so.6"].iter().all(|name| library(name)),
     packages: &["libglib2.0-0", "libstdc++6"],
+};
+
+/// A host that is driven by scripts.
+pub const ARDOUR: Need = Need {
+    what: "the host Ardour 7",
+    present: || {
+        program("ardour7-lua").is_some() && Path::new("/usr/lib/ardour7/ardour-vst3-scanner").exists()
+    },
+    packages: &["ardour"],
 };
 
 /// Makes sure of everything, installing what is missing if that is possible.
@@ -154,7 +163,7 @@ mod tests {
 
     #[test]
     fn every_need_names_its_packages() {
-        for need in [LINKER, XVFB, WINDOW_LIBRARIES, PYTHON, HOST_LIBRARIES] {
+        for need in [LINKER, XVFB, WINDOW_LIBRARIES, PYTHON, HOST_LIBRARIES, ARDOUR] {
             assert!(!need.what.is_empty() && !need.packages.is_empty());
         }
     }

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::PathBuf;
+use std::time::Instant;
 
 use overhear_measure::report::page;
 use overhear_tests::Chance;
@@ -12,32 +13,22 @@ use super::{Folder, SONG, root};
 /// Commands that take seconds.
 const SHORT: &[&str] = &["kit", "render", "hear", "modes"];
 
-/// Commands that take minutes, and the arguments that are added to them here. `bench` runs everything once. The report is
-/// written to another folder than that of the sources, and [some of its pages](sampled_pages) are measured.
-const LONG: &[(&str, &[&str])] = &[
-    ("demo", &[]),
-    ("install", &[]),
-    ("bundle", &[]),
-    ("bench", &["--runs", "1"]),
-    ("report", &["-o", "report"]),
-];
+/// Commands that build the bundles anew and take minutes.
+const BUILDING: &[&str] = &["demo", "install", "bundle"];
+
+/// Commands that measure for minutes, and the arguments that are added to them here. `bench` runs everything once. The report is
+/// written to another folder than that of the sources, and [one of its pages](sampled_page) is measured.
+const MEASURING: &[(&str, &[&str])] = &[("bench", &["--runs", "1"]), ("report", &["-o", "report"])];
 
 /// What runs this.
 const THIS: &str = "test";
 
-/// Pages of the report that one run measures.
-const PAGES: usize = 3;
-
-/// Pages of the report for this run, drawn from a fresh seed that is printed. The page on costs is not among them: it is what
+/// The page of the report for this run, drawn from a fresh seed that is printed. The page on costs is never drawn: it is what
 /// `bench` measures. The tests hold the figures of all pages to their bounds.
-fn sampled_pages() -> Vec<&'static str> {
-    let mut pages: Vec<&str> =
+fn sampled_page() -> &'static str {
+    let pages: Vec<&str> =
         xtask::report::pages().map(|(name, _)| name).filter(|name| *name != "cost").collect();
-    let mut chance = Chance::new(Chance::seeds(&[])[0]);
-    while pages.len() > PAGES {
-        pages.remove(chance.below(pages.len()));
-    }
-    pages
+    Chance::new(Chance::seeds(&[])[0]).of(&pages)
 }
 
 /// What follows `cargo xtask` in every line of a block and between every pair of backquotes.
@@ -81,28 +72,21 @@ fn the_short_commands_do_what_it_says() {
 
 #[test]
 fn no_command_is_left_out_here() {
+    let measuring = MEASURING.iter().map(|(name, _)| name);
     let known: BTreeSet<&str> =
-        SHORT.iter().copied().chain(LONG.iter().map(|(name, _)| *name)).chain([THIS]).collect();
+        SHORT.iter().chain(BUILDING).chain(measuring).copied().chain([THIS]).collect();
     let commands = commands();
     let named: BTreeSet<&str> = commands.iter().filter_map(|line| line.split_whitespace().next()).collect();
     assert_eq!(named, known);
 }
 
-/// Builds the bundles, plays, measures. `cargo xtask test` runs it by itself.
+/// Builds the bundles and plays. `cargo xtask test` runs it while no other test loads the bundles.
 #[test]
 #[ignore = "takes minutes"]
-fn the_long_commands_do_what_it_says() {
-    let (folder, pages) = (Folder::new("readme-long"), sampled_pages());
-    for (name, more) in LONG {
-        for line in of(name) {
-            let pages = pages.iter().filter(|_| *name == "report");
-            let arguments: Vec<&str> =
-                line.split_whitespace().chain(more.iter().chain(pages).copied()).collect();
-            eprintln!("{}", arguments.join(" "));
-            let output = at_home(&folder, &arguments).output().expect("the command runs");
-            let said = String::from_utf8_lossy(&output.stderr);
-            assert!(output.status.success(), "{arguments:?}: {said}");
-        }
+fn the_commands_for_building_do_what_it_says() {
+    let folder = Folder::new("readme-building");
+    for line in BUILDING.iter().flat_map(|name| of(name)) {
+        succeeds_at_home(&folder, &line.split_whitespace().collect::<Vec<_>>());
     }
     for file in ["demo.wav", "demo.png", "demo-shots/kit-dark-1x.png"] {
         assert!(folder.0.join(file).exists(), "{file}: {:?}", folder.names());
@@ -113,17 +97,39 @@ fn the_long_commands_do_what_it_says() {
     }
     let program = format!("bundled/overhear-standalone{}", std::env::consts::EXE_SUFFIX);
     assert!(xtask::workspace::target_dir().unwrap().join(program).exists());
-    for name in pages {
-        let claims = |folder: PathBuf| {
-            let page = fs::read_to_string(folder.join(name).with_extension("md")).unwrap_or_default();
-            let rows =
-                page.lines().filter(|line| [page::MET, page::MISSED].iter().any(|end| line.ends_with(end)));
-            rows.filter_map(|row| Some(row.split(" | ").next()?.to_owned())).collect::<Vec<_>>()
-        };
-        let measured = claims(folder.0.join("report"));
-        assert!(!measured.is_empty(), "{name} claims nothing");
-        assert_eq!(measured, claims(root().join("docs/report")), "docs/report/{name}.md is another page's");
+}
+
+/// `cargo xtask test` runs it.
+#[test]
+#[ignore = "takes minutes"]
+fn the_commands_for_measuring_do_what_it_says() {
+    let (folder, sampled) = (Folder::new("readme-measuring"), sampled_page());
+    for (name, more) in MEASURING {
+        for line in of(name) {
+            let sampled = (*name == "report").then_some(sampled);
+            let more = more.iter().copied().chain(sampled);
+            succeeds_at_home(&folder, &line.split_whitespace().chain(more).collect::<Vec<_>>());
+        }
     }
+    let claims = |folder: PathBuf| {
+        let page = fs::read_to_string(folder.join(sampled).with_extension("md")).unwrap_or_default();
+        let rows =
+            page.lines().filter(|line| [page::MET, page::MISSED].iter().any(|end| line.ends_with(end)));
+        rows.filter_map(|row| Some(row.split(" | ").next()?.to_owned())).collect::<Vec<_>>()
+    };
+    let measured = claims(folder.0.join("report"));
+    assert!(!measured.is_empty(), "{sampled} claims nothing");
+    assert_eq!(measured, claims(root().join("docs/report")), "docs/report/{sampled}.md is another page's");
+}
+
+/// Runs a command that must succeed, and says which and for how long.
+#[track_caller]
+fn succeeds_at_home(folder: &Folder, arguments: &[&str]) {
+    let begun = Instant::now();
+    let output = at_home(folder, arguments).output().expect("the command runs");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{arguments:?}: {said}");
+    eprintln!("{}: {:.0} s", arguments.join(" "), begun.elapsed().as_secs_f64());
 }
 
 /// A command that finds the user's folders in this one, and the tools where they are.

@@ -1,18 +1,25 @@
 //! Runs checks and tests and counts the results.
 
 use std::fmt;
-use std::io::{BufRead, BufReader};
+use std::io;
 use std::process::{Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
 /// Results so far.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Tally {
     /// Tests and checks that passed.
     pub passed: u64,
     /// Tests and checks that failed.
     pub failed: u64,
-    times: Vec<(&'static str, Duration)>,
+    begun: Instant,
+    times: Vec<(String, Duration)>,
+}
+
+impl Default for Tally {
+    fn default() -> Tally {
+        Tally { passed: 0, failed: 0, begun: Instant::now(), times: Vec::new() }
+    }
 }
 
 impl fmt::Display for Tally {
@@ -22,12 +29,29 @@ impl fmt::Display for Tally {
 }
 
 impl Tally {
-    /// Prints how long each part took.
+    /// Prints how long each part took, and all of them, some of which ran beside each other.
     pub fn print_times(&self) {
         println!();
         for (what, time) in &self.times {
             println!("{:>5} s  {what}", time.as_secs());
         }
+        println!("{:>5} s  in all", self.begun.elapsed().as_secs());
+    }
+
+    /// Notes how long a part took.
+    pub fn took(&mut self, what: &str, time: Duration) {
+        self.times.push((what.to_owned(), time));
+    }
+
+    /// Adds up the summaries in what a program of tests has printed.
+    pub fn count(&mut self, said: &str, succeeded: bool) {
+        let mut summed = (0, 0);
+        for (passed, failed) in said.lines().filter_map(summary) {
+            summed = (summed.0 + passed, summed.1 + failed);
+        }
+        self.passed += summed.0;
+        // A test that does not compile, or takes its runner down, is in no summary.
+        self.failed += summed.1.max(u64::from(!succeeded));
     }
 }
 
@@ -37,39 +61,34 @@ pub fn heading(what: &str) {
 }
 
 /// Runs a command that passes or fails as a whole.
-pub fn check(tally: &mut Tally, what: &'static str, command: &mut Command) {
+pub fn check(tally: &mut Tally, what: &str, command: &mut Command) {
+    let passed = timed(tally, what, || command.status());
+    tally.passed += u64::from(passed);
+}
+
+/// Runs something that must succeed before others can, and counts only its failure.
+pub fn timed(tally: &mut Tally, what: &str, run: impl FnOnce() -> io::Result<ExitStatus>) -> bool {
     heading(what);
     let begun = Instant::now();
-    let passed = command.status().as_ref().is_ok_and(ExitStatus::success);
-    tally.times.push((what, begun.elapsed()));
-    if passed {
-        tally.passed += 1;
-    } else {
+    let passed = run().as_ref().is_ok_and(ExitStatus::success);
+    tally.took(what, begun.elapsed());
+    if !passed {
         eprintln!("{what}: failed");
         tally.failed += 1;
     }
+    passed
 }
 
 /// Runs cargo's tests, passing on what they print, and adds up their own summaries.
-pub fn tests(tally: &mut Tally, what: &'static str, command: &mut Command) {
+pub fn tests(tally: &mut Tally, what: &str, command: &mut Command) {
     heading(what);
     let begun = Instant::now();
-    let mut failed_before = tally.failed;
-    let succeeded = command.stdout(Stdio::piped()).spawn().and_then(|mut child| {
-        for line in child.stdout.take().into_iter().flat_map(|out| BufReader::new(out).lines()) {
-            let line = line?;
-            println!("{line}");
-            if let Some((passed, failed)) = summary(&line) {
-                tally.passed += passed;
-                tally.failed += failed;
-            }
-        }
-        Ok(child.wait()?.success())
-    });
-    tally.times.push((what, begun.elapsed()));
-    // A test that does not compile, or takes its runner down, is in no summary.
-    failed_before += u64::from(!succeeded.unwrap_or(false));
-    tally.failed = tally.failed.max(failed_before);
+    let output = command.stderr(Stdio::inherit()).output();
+    let said = output.as_ref().map(|output| String::from_utf8_lossy(&output.stdout));
+    let said = said.unwrap_or_default();
+    print!("{said}");
+    tally.took(what, begun.elapsed());
+    tally.count(&said, output.as_ref().is_ok_and(|output| output.status.success()));
 }
 
 /// Passed and failed tests in a line like `test result: ok. 12 passed; 0 failed; ...`.

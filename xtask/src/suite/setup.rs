@@ -7,7 +7,7 @@ use std::process::{Command, Stdio};
 use anyhow::{Context, Result, bail};
 
 use super::runner::heading;
-use crate::system::{self, HOST_LIBRARIES, LINKER, PYTHON, SOUND_HEADERS, WINDOW_LIBRARIES, XVFB};
+use crate::system::{self, ARDOUR, HOST_LIBRARIES, LINKER, PYTHON, SOUND_HEADERS, WINDOW_LIBRARIES, XVFB};
 use crate::workspace;
 
 /// Packages of the tests' own Python; the environment is rebuilt when this changes.
@@ -31,6 +31,14 @@ pub fn run(target: &Path) -> Result<PathBuf> {
 pub fn run_for_lints() -> Result<()> {
     system::ensure(&[LINKER, SOUND_HEADERS])?;
     ["fmt", "clippy"].into_iter().try_for_each(rust_component)
+}
+
+/// Sets up what the session in Ardour needs.
+///
+/// # Errors
+/// Naming what is missing.
+pub fn run_for_ardour() -> Result<()> {
+    system::ensure(&[LINKER, SOUND_HEADERS, WINDOW_LIBRARIES, ARDOUR])
 }
 
 /// Makes sure that cargo has a subcommand which small installations of Rust leave out.
