@@ -3,6 +3,9 @@
 //! `cargo xtask test` builds the release bundles first and sets the VST3 host up. Run by hand,
 //! the tests take what `cargo xtask bundle` left in the target folder, and fail without it.
 
+#[cfg(target_os = "linux")]
+#[path = "hosts/ardour.rs"]
+mod ardour;
 #[path = "hosts/description.rs"]
 mod description;
 #[cfg(target_os = "linux")]
@@ -14,6 +17,8 @@ mod identity;
 mod kits;
 #[path = "hosts/lifecycle.rs"]
 mod lifecycle;
+#[path = "hosts/load.rs"]
+mod load;
 #[path = "hosts/midi.rs"]
 mod midi;
 #[path = "hosts/multi.rs"]

@@ -36,7 +36,7 @@ fn ordinary_notes(document: &KitDocument) -> Vec<(Slot, u8)> {
 fn score(document: &KitDocument) -> Score {
     let each = ordinary_notes(document).into_iter().enumerate();
     let mut score: Score =
-        each.map(|(at, (_, note))| (3_001 * at as u64, Happening::Note(note, 100))).collect();
+        each.map(|(at, (_, note))| (1_501 * at as u64, Happening::Note(note, 100))).collect();
     score.extend(notes(RATE));
     score.sort_by_key(|(sample, _)| *sample);
     score
@@ -131,7 +131,7 @@ fn a_file_rendered_on_fourteen_pieces_is_the_same_by_the_engine_and_by_clap() {
         Happening::Note(key, velocity) => Message::note(sample, 9, key, velocity),
         Happening::Parameter(..) => unreachable!("notes only"),
     };
-    let take = Take { messages: score(&kit).into_iter().map(hit).collect(), frames: 48_000 };
+    let take = Take { messages: score(&kit).into_iter().map(hit).collect(), frames: 24_000 };
     let setup = Setup { rate: RATE as u32, settings: vec![setting("dynamics=5")], kit };
     let render = |source: Source| {
         let mut sound = [Vec::new(), Vec::new()];

@@ -13,8 +13,8 @@ use serde_json::{Value, json};
 use crate::score::{Happening, Score, Sound, assert_same, frames, notes, through_plugin};
 use crate::{alone, as_hosts_have_it, bundle_path, here, instance, setting};
 
-/// The Python that has DawDreamer.
-fn python() -> PathBuf {
+/// The Python that has DawDreamer and pedalboard.
+pub fn python() -> PathBuf {
     let given = std::env::var_os(xtask::suite::PYTHON_VARIABLE).map(PathBuf::from);
     let test = std::env::current_exe().expect("the test's own path");
     let prepared = test.ancestors().nth(3).expect("a target folder").join("python-hosts/bin/python");
