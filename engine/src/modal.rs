@@ -22,6 +22,7 @@
 
 pub mod bands;
 mod coefs;
+mod detuning;
 mod direct;
 mod energy;
 pub mod inaudible_modes;
@@ -40,6 +41,7 @@ use simd::ring::Drive;
 
 pub use coefs::Mode;
 use coefs::{Constants, ModalCoefs, TOGETHER};
+use detuning::Detuning;
 pub use input_vector::InputVector;
 pub use receiver_weights::{Pressure, ReceiverWeights};
 pub use row::{Row, zero_row};
@@ -80,6 +82,7 @@ pub struct ModalBody {
     kernels: Kernels,
     coefs: ModalCoefs,
     state: ModalState,
+    detuning: Option<Detuning>,
     /// Times that a frequency or a mass has changed.
     retunings: u64,
 }
@@ -95,7 +98,7 @@ impl ModalBody {
         let state = ModalState { re: zero_row(n), im: zero_row(n) };
         let dt = 1.0 / sample_rate;
         let coefs = ModalCoefs::new(&modes, dt);
-        ModalBody { modes, dt, kernels: Kernels::detect(), coefs, state, retunings: 0 }
+        ModalBody { modes, dt, kernels: Kernels::detect(), coefs, state, detuning: None, retunings: 0 }
     }
 
     /// Chooses the kernels, for comparing them; [`new`](Self::new) takes the best the machine has.
@@ -214,8 +217,8 @@ impl ModalBody {
 
     /// Advances without force and listens after each sample: [`step`](Self::step) and
     /// [`listen`](Self::listen) at once, for all modes from `first` on (a multiple of
-    /// [`simd::LANES`]; the others stay as they are). The motion is bit-equal to theirs, what is heard equal
-    /// but for the order of a sum.
+    /// [`simd::LANES`]; the others stay as they are). The motion is bit-equal to theirs unless modes are
+    /// [detuned](Self::detune), what is heard equal but for the order of a sum.
     ///
     /// # Real-time
     /// Linear in modes times samples; the fastest way. At most [`simd::MAX_RUN`] samples.
@@ -243,11 +246,16 @@ impl ModalBody {
         }
         let [near, far, few] = &weights.receivers;
         let [near_out, far_out, few_out] = out;
+        let detuning = self.detuning.as_ref().filter(|detuning| detuning.is_active);
+        let (turn_re, turn_im) = match detuning {
+            Some(detuning) => (&detuning.turn_re, &detuning.turn_im),
+            None => (&self.coefs.turn_re, &self.coefs.turn_im),
+        };
         let mut ring = simd::ring::Ring {
             re: &mut self.state.re[first..],
             im: &mut self.state.im[first..],
-            turn_re: &self.coefs.turn_re[first..],
-            turn_im: &self.coefs.turn_im[first..],
+            turn_re: &turn_re[first..],
+            turn_im: &turn_im[first..],
             heard: [near.from(first, near_out), far.from(first, far_out), few.from(first, few_out)],
         };
         match count {
@@ -286,6 +294,7 @@ impl ModalBody {
     pub fn reset(&mut self) {
         self.state.re.fill(0.0);
         self.state.im.fill(0.0);
+        self.end_detuning();
     }
 }
 

@@ -29,7 +29,18 @@
 //!
 //! The impulses sound as accelerations that last for a block, so that no slow part of the sound is left over.
 //!
-//! Limits: phases stay but for small kicks, so that lines are not broadened. Hi-hats have no transport.
+//! The same scattering lets phases wander: a line at any frequency becomes a Lorentzian whose coherence falls at the rate
+//!
+//! ```text
+//! D = kappa / (f L) / (1 + E / (M h^2 S^2))
+//! ```
+//!
+//! Waves whose frequencies go with the square of their wave number, scattered by a field of the length of the lowest modes, hop by
+//! frequencies in proportion to the root of their own; so `kappa` is in proportion to `f`, and `D` the same for all.
+//! It grows no more where the lowest modes move by about the thickness. `L` and `S` are fitted to the exact coupling as well. Phases
+//! wander by [detuning](crate::modal::ModalBody::detune), which costs no energy.
+//!
+//! Limits: hi-hats have no transport.
 //!
 //! Sources: Nazarenko, Wave Turbulence, Springer 2011 (diffusion by scattering at large scales; grids of modes too coarse for
 //! exchange); Humbert, Josserand, Touze, Cadot, Physica D 316, 2016 (spectra of vibrating plates by nonlinear diffusion); Cirio,
@@ -38,8 +49,10 @@
 
 mod band;
 
+use fastrand::Rng;
+
 use crate::fitted;
-use crate::modal::bands::{BandWeights, Signs};
+use crate::modal::bands::BandWeights;
 use crate::modal::{ModalBody, Pressure, RECEIVERS, ReceiverWeights};
 
 use band::Band;
@@ -50,6 +63,12 @@ const AVERAGE: f64 = 0.01;
 
 /// Rate of exchange below which there is none, 1/s: in a second it moves no band by a tenth of a decibel.
 const NEGLIGIBLE: f64 = 0.01;
+
+/// Largest change of a phase in a block, rad: no stroke comes near.
+const LARGEST_STEP: f64 = 0.5;
+
+/// Of the random signs: the same in every run.
+const SEED: u64 = 1;
 
 /// What the transport of a body depends on.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -97,7 +116,7 @@ pub struct Transport {
     level: f64,
     /// The constant `C`, dimensionless.
     rate: f64,
-    signs: Signs,
+    signs: Rng,
     balance: TransportBalance,
 }
 
@@ -114,7 +133,7 @@ impl Transport {
             tuning: 1.0,
             level: 0.0,
             rate: fitted::ENERGY_TRANSPORT,
-            signs: Signs::default(),
+            signs: Rng::with_seed(SEED),
             balance: TransportBalance::default(),
         };
         transport.follow(body, receivers);
@@ -156,6 +175,7 @@ impl Transport {
         self.measure(body);
         // How often a mode exchanges its energy in a block, if it had neighbours at every hertz of a ratio of e.
         let rate = self.rate * self.level / self.spec.inertia * self.spec.interval / self.tuning;
+        self.wander(rate, body);
         let fastest = self.conduct(rate);
         let sound = (fastest > NEGLIGIBLE * self.spec.interval).then(|| {
             self.solve();
@@ -164,6 +184,17 @@ impl Transport {
         });
         self.wait();
         sound
+    }
+
+    /// Lets the phases of the modes above the coupled ones wander.
+    fn wander(&mut self, rate: f64, body: &mut ModalBody) {
+        let strength = self.level / self.spec.inertia / (fitted::TRANSPORT_STRONG * self.tuning).powi(2);
+        let diffused = rate / (fitted::TRANSPORT_HOP * (1.0 + strength));
+        if diffused <= NEGLIGIBLE * self.spec.interval {
+            return body.end_detuning();
+        }
+        let step = (2.0 * diffused).sqrt().min(LARGEST_STEP);
+        body.detune(self.spec.coupled, step / self.spec.interval, &mut self.signs);
     }
 
     /// Changes the velocities. Returns what [`carry`](Self::carry) does.
@@ -177,7 +208,8 @@ impl Transport {
     }
 
     /// Gives up what waits, as there is no force any more that scatters.
-    pub fn rest(&mut self) {
+    pub fn rest(&mut self, body: &mut ModalBody) {
+        body.end_detuning();
         self.balance.spent += self.pending();
         self.bands.iter_mut().for_each(|band| band.pending = 0.0);
         self.level = 0.0;
@@ -186,7 +218,7 @@ impl Transport {
     /// As new.
     pub fn reset(&mut self) {
         self.bands.iter_mut().for_each(|band| band.pending = 0.0);
-        (self.level, self.signs, self.balance) = (0.0, Signs::default(), TransportBalance::default());
+        (self.level, self.signs, self.balance) = (0.0, Rng::with_seed(SEED), TransportBalance::default());
     }
 
     /// Takes the energies from the modes.

@@ -80,8 +80,8 @@ impl ModeTransfer {
         let place = drum.heads.scale.place(default);
         let ends = [lowest, highest].map(|pitch| drum.heads.scale.place(pitch));
         let limit = TAU * SINGLY * default;
-        let few = Ears::new(drum, spec, point, 2.5 * limit);
-        let all = Ears::new(drum, spec, point, TAU * spec.batter.modes_to_hz);
+        let few = HeadTransfers::new(drum, spec, point, 2.5 * limit);
+        let all = HeadTransfers::new(drum, spec, point, TAU * spec.batter.modes_to_hz);
         let pitches = drum.heads.scale.pitches();
         let hear = |(pair, mode): (usize, &TunedMode)| {
             if mode.at(&place).omega > limit {
@@ -142,7 +142,7 @@ impl ModeTransfer {
 }
 
 /// The listening point as each head sees it.
-struct Ears<'a> {
+struct HeadTransfers<'a> {
     drum: &'a DrumModes,
     spec: &'a DrumSpec,
     near: Rayleigh,
@@ -156,9 +156,9 @@ struct Ears<'a> {
     fills: f64,
 }
 
-impl<'a> Ears<'a> {
+impl<'a> HeadTransfers<'a> {
     /// For modes up to an angular frequency `top` (rad/s) at any pitch.
-    fn new(drum: &'a DrumModes, spec: &'a DrumSpec, point: ReceiverPosition, top: f64) -> Ears<'a> {
+    fn new(drum: &'a DrumModes, spec: &'a DrumSpec, point: ReceiverPosition, top: f64) -> HeadTransfers<'a> {
         let radius = spec.radius();
         let head = &drum.heads.batter.membrane;
         let slackest = drum.heads.batter.tensions.iter().copied().fold(f64::INFINITY, f64::min);
@@ -171,7 +171,7 @@ impl<'a> Ears<'a> {
         let far_shapes = drum.heads.resonant.as_ref().map(|head| head.membrane.radial_shapes(far.radii()));
         let lag = (behind.distance - point.distance) / SPEED_OF_SOUND;
         let fills = point.fills(radius);
-        Ears { drum, spec, near, far, near_shapes, far_shapes, lag, fills }
+        HeadTransfers { drum, spec, near, far, near_shapes, far_shapes, lag, fills }
     }
 
     /// A head's motion in a mode, along the radius: head modes `first..first + count` of the head, `skip..` of the

@@ -6,6 +6,8 @@
 
 use std::ops::Range;
 
+use fastrand::Rng;
+
 use super::simd::LANES as WHOLE_LANES;
 use super::{ModalBody, Pressure, RECEIVERS, ReceiverWeights, Row, zero_row};
 
@@ -40,26 +42,6 @@ impl BandWeights {
         let mut weights = BandWeights { weight: row(), unit: row(), impulse };
         body.weigh(&mut weights, receivers);
         weights
-    }
-}
-
-/// Pseudo-random signs: a shift register (Marsaglia's xorshift), the same in every run.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Signs(u32);
-
-impl Default for Signs {
-    fn default() -> Self {
-        Signs(0x9e37_79b9)
-    }
-}
-
-impl Signs {
-    /// The next 32 bits.
-    fn next(&mut self) -> u32 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 17;
-        self.0 ^= self.0 << 5;
-        self.0
     }
 }
 
@@ -147,7 +129,7 @@ impl ModalBody {
     ///
     /// # Real-time
     /// Linear in the number of modes.
-    pub fn kick_band(&mut self, band: Range<usize>, energy: f64, weights: &BandWeights, signs: &mut Signs) {
+    pub fn kick_band(&mut self, band: Range<usize>, energy: f64, weights: &BandWeights, signs: &mut Rng) {
         let size = energy.sqrt() as f32;
         let unit = &weights.unit[band.clone()];
         let re = &mut self.state.re[band];
@@ -155,7 +137,7 @@ impl ModalBody {
             #[inline(always)]
             || {
                 for (re, unit) in re.chunks_mut(32).zip(unit.chunks(32)) {
-                    let bits = signs.next();
+                    let bits = signs.u32(..);
                     for (i, (re, unit)) in re.iter_mut().zip(unit).enumerate() {
                         // The bit is the sign of the kick.
                         *re += f32::from_bits((size * unit).to_bits() ^ (bits >> i << 31));

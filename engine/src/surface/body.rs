@@ -186,6 +186,9 @@ impl StruckBody {
     /// Lets energy be carried above the coupled modes. Allocates.
     pub(super) fn set_transport(&mut self, spec: TransportSpec) {
         self.transport = Transport::new(spec, &self.sound.modal, &self.sound.receiver);
+        if self.transport.is_some() {
+            self.sound.modal.allow_detuning();
+        }
     }
 
     /// Evaluates the nonlinear force once in `stride` samples; for comparisons.
@@ -337,7 +340,7 @@ impl StruckBody {
     pub(super) fn carry(&mut self) -> Option<Pressure> {
         let transport = self.transport.as_mut()?;
         if !self.nonlinear_force.as_ref().is_some_and(NonlinearForce::is_active) {
-            transport.rest();
+            transport.rest(&mut self.sound.modal);
             return None;
         }
         transport.carry(&mut self.sound.modal)

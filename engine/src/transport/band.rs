@@ -3,8 +3,10 @@
 use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 use std::ops::Range;
 
+use fastrand::Rng;
+
 use crate::fitted;
-use crate::modal::bands::{BandEnergy, BandWeights, Signs};
+use crate::modal::bands::{BandEnergy, BandWeights};
 use crate::modal::{ModalBody, Mode};
 
 /// Bands in an octave, and the least number of modes of one. *Converged*: wide enough for some modes at 2 kHz, narrow enough
@@ -132,7 +134,7 @@ impl Band {
         &self,
         due: f64,
         body: &mut ModalBody,
-        (weights, signs): (&BandWeights, &mut Signs),
+        (weights, signs): (&BandWeights, &mut Rng),
     ) -> f64 {
         let (kinetic, modes) = (self.energy.kinetic, self.modes.len() as f64);
         let most = LARGEST_GAIN * kinetic;

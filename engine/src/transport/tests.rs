@@ -117,7 +117,7 @@ fn soft_strokes_move_nothing_and_rest_gives_up_what_waits() {
     assert_eq!(transport.balance(), TransportBalance::default());
     ring(&mut body, 2000.0, 1e-2);
     run(&mut body, &mut transport, 1);
-    transport.rest();
+    transport.rest(&mut body);
     let balance = transport.balance();
     assert!(balance.pending == 0.0 && balance.surplus().abs() <= 1e-9 * balance.drained, "{balance:?}");
     transport.reset();

@@ -172,12 +172,7 @@ impl Oracle {
 
 /// A state that looks like a wash: every mode with about the same energy, `size` m at `omega` 1000.
 pub fn wash(omegas: &[f64], size: f64, seed: u64) -> Vec<[f64; 2]> {
-    let mut x = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
-    let mut draw = move || {
-        x ^= x << 13;
-        x ^= x >> 7;
-        x ^= x << 17;
-        (x >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
-    };
+    let mut rng = fastrand::Rng::with_seed(seed);
+    let mut draw = move || rng.f64() - 0.5;
     omegas.iter().map(|omega| [draw(), draw()].map(|d| d * size * 1000.0 / omega)).collect()
 }

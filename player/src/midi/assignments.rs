@@ -4,6 +4,7 @@
 //! changes it, and the state, which stores it. All values are valid in any order: no lock is needed.
 
 use std::collections::BTreeMap;
+use std::hash::{DefaultHasher, Hasher};
 use std::sync::atomic::{AtomicU8, Ordering};
 
 pub use crate::midi_map::NOTES;
@@ -111,7 +112,9 @@ impl Assignments {
     /// A number that changes with whatever is assigned or waits to be learned.
     pub fn fingerprint(&self) -> u64 {
         let bytes = self.notes.iter().chain([&self.learning]).map(|byte| byte.load(Ordering::Relaxed));
-        bytes.fold(0, |mixed: u64, byte| mixed.rotate_left(5).wrapping_mul(31) ^ u64::from(byte))
+        let mut hasher = DefaultHasher::new();
+        bytes.for_each(|byte| hasher.write_u8(byte));
+        hasher.finish()
     }
 
     /// Tells what is learned that a note arrived.

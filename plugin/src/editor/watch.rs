@@ -6,6 +6,7 @@
 //! as a window must not be asked to draw before it is shown, and has ended once the window's content is dropped: none of it
 //! is left when a host unloads the plugin.
 
+use std::hash::{DefaultHasher, Hasher};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::thread::{self, JoinHandle};
@@ -87,14 +88,16 @@ impl Drop for Watch {
 /// What a resting window would look different by, as a number: which kit it is and what it does, where parameters are, what
 /// notes play, and buffers that were late.
 fn seen(viewer: &Viewer, parameters: &HostParameters) -> u64 {
+    let mut hasher = DefaultHasher::new();
     let places = parameters.values().iter().map(|value| value.unmodulated_normalized_value());
-    let places = places.fold(0_u64, |mixed, place| mixed.rotate_left(5) ^ u64::from(place.to_bits()));
+    places.for_each(|place| hasher.write_u32(place.to_bits()));
     // The window keeps the document that it shows: no other can be at the same address.
     let document = Arc::as_ptr(&parameters.document()).addr() as u64;
     let assigned = parameters.assignments().fingerprint();
     let refused = parameters.refused_rate().map_or(0, |rate| u64::from(rate.to_bits()));
     let rest = [viewer.news(), document, assigned, parameters.deadlines().late(), refused];
-    rest.into_iter().fold(places, |mixed, number| mixed.rotate_left(17).wrapping_mul(31) ^ number)
+    rest.into_iter().for_each(|number| hasher.write_u64(number));
+    hasher.finish()
 }
 
 #[cfg(test)]

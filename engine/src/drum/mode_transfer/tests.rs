@@ -5,9 +5,9 @@ use crate::reference;
 fn shares(spec: &DrumSpec, point: ReceiverPosition) -> [f64; 4] {
     let drum = DrumModes::new(spec).unwrap();
     let place = drum.heads.scale.place(spec.pitch_hz);
-    let ears = Ears::new(&drum, spec, point, TAU * spec.batter.modes_to_hz);
+    let transfers = HeadTransfers::new(&drum, spec, point, TAU * spec.batter.modes_to_hz);
     let size = |mode: &TunedMode| {
-        let [re, im] = ears.transfer(mode, &place).map(f64::from);
+        let [re, im] = transfers.transfer(mode, &place).map(f64::from);
         re.hypot(im) / mode.at(&place).mass.sqrt()
     };
     let round = drum.modes.iter().filter(|mode| mode.m == 0);

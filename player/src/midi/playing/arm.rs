@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use fastrand::Rng;
+
 /// What swings the striker of a stroke.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Limb {
@@ -67,12 +69,8 @@ impl Arm {
         libm::pow(10.0, (width * (2.0 * self.drawn(2) - 1.0) + stronger) * spread / 20.0)
     }
 
-    /// A number in 0 to 1 that belongs to the present stroke: the same in every rendering (SplitMix64, Steele et al.
-    /// 2014).
+    /// A number in 0 to 1 that belongs to the present stroke: the same in every rendering.
     fn drawn(&self, which: u64) -> f64 {
-        let mut z = (4 * self.stroke + which).wrapping_mul(0x9E37_79B9_7F4A_7C15);
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+        Rng::with_seed(4 * self.stroke + which).f64()
     }
 }

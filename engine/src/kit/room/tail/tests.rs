@@ -137,11 +137,10 @@ fn fine_spectrum(sound: &[f64], hz: f64) -> f64 {
 #[test]
 fn the_tail_is_no_comb_but_as_dense_as_noise_in_every_third_octave() {
     let response = impulse(&RoomSpec::STANDARD, RATE, 0.6);
-    let (mut draw, mut noise) = (1_u32, Vec::new());
+    let (mut draw, mut noise) = (fastrand::Rng::with_seed(1), Vec::new());
     for i in 0..response[0].len() {
-        draw = draw.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         let fallen = 10.0_f64.powf(-3.0 * i as f64 / RATE / RoomSpec::STANDARD.time);
-        noise.push(fallen * (f64::from(draw >> 8) / 8_388_608.0 - 1.0));
+        noise.push(fallen * (2.0 * draw.f64() - 1.0));
     }
     let spread = |sound: &[f64], hz| {
         let windows = [0.03, 0.12, 0.21].map(|at| fine_spectrum(between(sound, at..at + 0.25, RATE), hz));
