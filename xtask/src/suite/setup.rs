@@ -19,6 +19,7 @@ const PYTHON_PACKAGES: [&str; 3] = ["dawdreamer>=0.8.3", "numpy", "pedalboard>=0
 /// Naming what is missing.
 pub fn run(target: &Path) -> Result<PathBuf> {
     heading("set-up");
+    room(target)?;
     system::ensure(&[XVFB, WINDOW_LIBRARIES, PYTHON, HOST_LIBRARIES])?;
     run_for_lints()?;
     python(&target.join("python-hosts"))
@@ -39,6 +40,39 @@ pub fn run_for_lints() -> Result<()> {
 /// Naming what is missing.
 pub fn run_for_ardour() -> Result<()> {
     system::ensure(&[LINKER, SOUND_HEADERS, WINDOW_LIBRARIES, ARDOUR])
+}
+
+/// What a target folder takes once everything is built, GiB: 9 were measured. And what is left free at least.
+const WHOLE: f64 = 10.0;
+const SPARE: f64 = 1.0;
+
+const GIB: f64 = (1_u64 << 30) as f64;
+
+/// Makes sure that everything can be built: a full disk fails late, and in places that do not say so.
+fn room(target: &Path) -> Result<()> {
+    fs::create_dir_all(target).with_context(|| format!("cannot make `{}`", target.display()))?;
+    let free = fs4::available_space(target).context("cannot ask for the free space")?;
+    fits(target, size(target) as f64 / GIB, free as f64 / GIB)
+}
+
+/// Whether the rest of a target folder that has `built` GiB fits into `free` GiB.
+fn fits(target: &Path, built: f64, free: f64) -> Result<()> {
+    let wanted = (WHOLE - built).max(SPARE);
+    if free < wanted {
+        bail!("missing: {wanted:.1} GiB of disk for `{}`; {free:.1} GiB are free", target.display());
+    }
+    Ok(())
+}
+
+/// Size of the files in a folder, bytes; what cannot be read counts as nothing.
+fn size(folder: &Path) -> u64 {
+    let Ok(entries) = fs::read_dir(folder) else { return 0 };
+    let of = |entry: fs::DirEntry| match entry.metadata() {
+        Ok(data) if data.is_dir() => size(&entry.path()),
+        Ok(data) => data.len(),
+        Err(_) => 0,
+    };
+    entries.flatten().map(of).sum()
 }
 
 /// Makes sure that cargo has a subcommand which small installations of Rust leave out.
@@ -93,4 +127,26 @@ fn python(folder: &Path) -> Result<PathBuf> {
     }
     fs::write(&stamp, wanted)?;
     Ok(python)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_disk_too_full_to_build_on_is_named_with_what_is_missing() {
+        let target = Path::new("target");
+        assert!(fits(target, 0.0, 12.0).is_ok());
+        assert!(fits(target, 9.5, 1.5).is_ok());
+        let error = fits(target, 4.0, 0.3).unwrap_err().to_string();
+        assert_eq!(error, "missing: 6.0 GiB of disk for `target`; 0.3 GiB are free");
+        assert!(fits(target, 12.0, 0.3).is_err());
+    }
+
+    #[test]
+    fn a_folder_is_as_large_as_its_files() {
+        let sources = workspace::root().join("xtask/src/suite");
+        let own = fs::metadata(sources.join("setup.rs")).unwrap().len();
+        assert!(size(&sources) > own && size(&sources.join("no such folder")) == 0);
+    }
 }
