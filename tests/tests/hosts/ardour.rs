@@ -166,6 +166,7 @@ impl Ardour {
             self.script("export.lua", format!("{steps} export=take").trim());
             let take = self.exported("take");
             if takes.contains(&take) {
+                println!("`{steps}`: {} exports, of which two are the same", takes.len() + 1);
                 return take;
             }
             takes.push(take);
