@@ -22,6 +22,17 @@ pub enum Member {
     Sine,
 }
 
+impl Member {
+    /// Shares of `cos(m theta)` and `sin(m theta)` in this member of a pair of `m` nodal diameters whose axes lie at `axis` (rad).
+    pub fn around(self, m: u32, axis: f64) -> [f64; 2] {
+        let (sin, cos) = (f64::from(m) * axis).sin_cos();
+        match self {
+            Member::Cosine => [cos, sin],
+            Member::Sine => [-sin, cos],
+        }
+    }
+}
+
 /// One mode of a piece.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ModeInfo {

@@ -23,6 +23,32 @@ pub struct Component {
     pub parts: [f64; 2],
 }
 
+/// Cosine and sine part of a field along the radius, `[cosine, sine][radius]`.
+pub type Along = [Vec<f64>; 2];
+
+/// A field and others of the same shapes at some radii (shares of the disc's), by the number of periods around: each shape counts by the
+/// factor that `factors` gives for it. Allocates.
+pub fn harmonics<const N: usize>(
+    components: &[Component],
+    radii: &[f64],
+    factors: impl Fn(&Component) -> [f64; N],
+) -> Vec<[Along; N]> {
+    let most = components.iter().map(|component| component.l).max().unwrap_or(0);
+    let empty = || std::array::from_fn(|_| [vec![0.0; radii.len()], vec![0.0; radii.len()]]);
+    let mut harmonics: Vec<[Along; N]> = (0..=most).map(|_| empty()).collect();
+    for component in components {
+        let strengths = factors(component).map(|factor| component.parts.map(|part| factor * part));
+        for (i, &r) in radii.iter().enumerate() {
+            let shape = bessel::j(component.l, component.kappa * r);
+            let fields = harmonics[component.l as usize].iter_mut().zip(&strengths);
+            for (out, strength) in fields.flat_map(|(field, parts)| field.iter_mut().zip(parts)) {
+                out[i] += strength * shape;
+            }
+        }
+    }
+    harmonics
+}
+
 /// Draws the components of a field of that root mean square (dimensionless) and correlation length (share of the radius).
 /// `body` tells bodies of one seed apart.
 pub fn components(rms: f64, correlation: f64, seed: u32, body: u32) -> Vec<Component> {

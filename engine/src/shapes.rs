@@ -239,11 +239,7 @@ fn group(index: &[ShapeIndex], starts: &[usize]) -> (Vec<Group>, Vec<Mixed>) {
     });
     let mixed = |&k: &usize| {
         let ShapeIndex { m, member, axis, .. } = index[k];
-        let (sin, cos) = (f64::from(m) * axis).sin_cos();
-        let around = match member {
-            Member::Cosine => [cos as f32, sin as f32],
-            Member::Sine => [-sin as f32, cos as f32],
-        };
+        let around = member.around(m, axis).map(|x| x as f32);
         Mixed { mode: k as u32, start: starts[k] as u32, m, around }
     };
     (groups.collect(), grouped.iter().map(mixed).collect())

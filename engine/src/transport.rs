@@ -67,9 +67,6 @@ const NEGLIGIBLE: f64 = 0.01;
 /// Largest change of a phase in a block, rad: no stroke comes near.
 const LARGEST_STEP: f64 = 0.5;
 
-/// Of the random signs: the same in every run.
-const SEED: u64 = 1;
-
 /// What the transport of a body depends on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TransportSpec {
@@ -116,7 +113,8 @@ pub struct Transport {
     level: f64,
     /// The constant `C`, dimensionless.
     rate: f64,
-    signs: Rng,
+    /// Blocks since the last reset. Random signs are drawn from it: the same in every run, whatever acted before.
+    blocks: u64,
     balance: TransportBalance,
 }
 
@@ -133,7 +131,7 @@ impl Transport {
             tuning: 1.0,
             level: 0.0,
             rate: fitted::ENERGY_TRANSPORT,
-            signs: Rng::with_seed(SEED),
+            blocks: 0,
             balance: TransportBalance::default(),
         };
         transport.follow(body, receivers);
@@ -172,6 +170,7 @@ impl Transport {
     /// # Real-time
     /// Linear in the number of modes; once a block.
     pub fn carry(&mut self, body: &mut ModalBody) -> Option<Pressure> {
+        self.blocks += 1;
         self.measure(body);
         // How often a mode exchanges its energy in a block, if it had neighbours at every hertz of a ratio of e.
         let rate = self.rate * self.level / self.spec.inertia * self.spec.interval / self.tuning;
@@ -194,7 +193,7 @@ impl Transport {
             return body.end_detuning();
         }
         let step = (2.0 * diffused).sqrt().min(LARGEST_STEP);
-        body.detune(self.spec.coupled, step / self.spec.interval, &mut self.signs);
+        body.detune(self.spec.coupled, step / self.spec.interval, &mut Rng::with_seed(2 * self.blocks));
     }
 
     /// Changes the velocities. Returns what [`carry`](Self::carry) does.
@@ -218,7 +217,7 @@ impl Transport {
     /// As new.
     pub fn reset(&mut self) {
         self.bands.iter_mut().for_each(|band| band.pending = 0.0);
-        (self.level, self.signs, self.balance) = (0.0, Rng::with_seed(SEED), TransportBalance::default());
+        (self.level, self.blocks, self.balance) = (0.0, 0, TransportBalance::default());
     }
 
     /// Takes the energies from the modes.
@@ -286,11 +285,12 @@ impl Transport {
 
     /// Changes the velocities by what the bands got.
     fn apply(&mut self, body: &mut ModalBody) {
+        let mut signs = Rng::with_seed(2 * self.blocks + 1);
         for at in 0..self.bands.len() {
             let out = self.bands.get(at + 1).map_or(0.0, |above| above.flux);
             let band = &mut self.bands[at];
             let due = band.pending + band.flux - out;
-            let given = band.give(due, body, (&self.weights, &mut self.signs));
+            let given = band.give(due, body, (&self.weights, &mut signs));
             band.pending = due - given;
             match at {
                 0 => self.balance.drained -= given,

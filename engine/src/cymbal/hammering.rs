@@ -16,9 +16,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::math::bessel;
 use crate::numbers::{Numbers, Visitor};
-use crate::random_field;
+use crate::random_field::{self, Along};
 
 /// How uneven a cymbal's thickness is.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -39,11 +38,11 @@ impl Numbers for HammeringSpec {
     }
 }
 
-/// The relative thickness at given radii: `[periods around][cosine, sine][radius]`.
+/// The relative thickness at given radii.
 #[derive(Debug, Clone)]
 pub struct ThicknessField {
     /// By the number of periods around.
-    pub harmonics: Vec<[Vec<f64>; 2]>,
+    pub harmonics: Vec<Along>,
 }
 
 impl ThicknessField {
@@ -51,17 +50,8 @@ impl ThicknessField {
     /// over the metal. Allocates.
     pub fn new(spec: &HammeringSpec, radii: &[f64], weights: &[f64]) -> ThicknessField {
         let components = random_field::components(spec.rms, spec.correlation, spec.seed, 0);
-        let most = components.iter().map(|component| component.l).max().unwrap_or(0);
-        let empty = || [vec![0.0; radii.len()], vec![0.0; radii.len()]];
-        let mut harmonics: Vec<[Vec<f64>; 2]> = (0..=most).map(|_| empty()).collect();
-        for component in components {
-            for (i, &r) in radii.iter().enumerate() {
-                let shape = bessel::j(component.l, component.kappa * r);
-                for (part, strength) in component.parts.into_iter().enumerate() {
-                    harmonics[component.l as usize][part][i] += strength * shape;
-                }
-            }
-        }
+        let fields = random_field::harmonics(&components, radii, |_| [1.0]);
+        let mut harmonics: Vec<Along> = fields.into_iter().map(|[thickness]| thickness).collect();
         // Hammers move metal and take none away.
         let total: f64 = weights.iter().sum();
         let mean = harmonics[0][0].iter().zip(weights).map(|(eta, weight)| eta * weight).sum::<f64>() / total;

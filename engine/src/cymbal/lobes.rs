@@ -9,7 +9,6 @@
 
 use crate::cache::Shared;
 use crate::math::cubic::Stencil;
-use crate::mode::Member;
 use crate::mode_mixture::ModeMixture;
 use crate::plate::free_disc::{DIRECTIONS, FarPattern};
 use crate::receiver::{ReceiverPosition, Receivers};
@@ -106,12 +105,8 @@ impl Lobes {
         rest: [Vec<[f64; 2]>; 2],
     ) -> Lobes {
         let lobe = |(k, (shape, &shell)): (usize, (&ShapeIndex, &usize))| {
-            let (sin, cos) = libm::sincos(f64::from(shape.m) * shape.axis);
-            let around = match shape.member {
-                Member::Cosine => [cos, sin],
-                Member::Sine => [-sin, cos],
-            };
-            Lobe { shell: (k >= rigid).then_some(shell as u32), m: shape.m, around: around.map(|x| x as f32) }
+            let around = shape.member.around(shape.m, shape.axis).map(|x| x as f32);
+            Lobe { shell: (k >= rigid).then_some(shell as u32), m: shape.m, around }
         };
         let lobes: Vec<Lobe> = index.iter().zip(shells).enumerate().map(lobe).collect();
         let modes = lobes.len();

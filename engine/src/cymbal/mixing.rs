@@ -128,11 +128,7 @@ impl<'a> Problem<'a> {
     /// How mode `i` goes around, and how its slope does: shares of cosine and sine.
     fn angular(&self, i: usize) -> [[f64; 2]; 2] {
         let mode = &self.plain[i];
-        let (sin, cos) = (f64::from(mode.m) * mode.axis).sin_cos();
-        let [a, b] = match mode.member {
-            Member::Cosine => [cos, sin],
-            Member::Sine => [-sin, cos],
-        };
+        let [a, b] = mode.member.around(mode.m, mode.axis);
         [[a, b], [b, -a]]
     }
 

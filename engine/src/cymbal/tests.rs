@@ -57,8 +57,8 @@ fn a_hand_that_the_modes_follow_in_turns_sounds_as_one_that_they_follow_in_every
         );
         // A swing stops wherever the modes follow, and goes on from there; the highs of a splash that stretches part in phase.
         assert!(off < 0.1, "{name}: {off}");
-        // Nobody hears half a decibel of 20 ms. A splash that stretches parts from itself by that much.
-        assert!(apart < 0.5, "{name}: {apart} dB");
+        // Nobody hears a quarter of a decibel of 20 ms.
+        assert!(apart < 0.25, "{name}: {apart} dB");
         // Nothing comes from a hand: displacement and velocity stay what they are when the modes follow. What the sum of all
         // rises is above zero is the exchange of the nonlinear force, under the oracle as well.
         let rises = |energy: &[f64]| -> f64 {

@@ -218,11 +218,7 @@ impl<'a> Problem<'a> {
         heads.extend(drum.heads.resonant.as_ref().map(|head| part(head, true)));
         let around = mixed.iter().map(|mode| {
             let m = drum.modes[mode.pair].m;
-            let (sin, cos) = (f64::from(m) * axis(m)).sin_cos();
-            match mode.member {
-                Member::Cosine => [cos, sin],
-                Member::Sine => [-sin, cos],
-            }
+            mode.member.around(m, axis(m))
         });
         Problem { drum, mixed, heads, weights, around: around.collect() }
     }

@@ -23,7 +23,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::math::bessel;
 use crate::numbers::{Numbers, Visitor};
-use crate::random_field::{self, Component};
+use crate::random_field::{self, Along, Component};
 
 /// How uneven the tension of a drum's heads is.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -51,10 +51,10 @@ pub const MIXED_FROM: f64 = 2.2;
 /// The field along the radius, for one number of periods around.
 #[derive(Debug, Clone)]
 pub struct Harmonic {
-    /// `[cosine, sine][radius]`: relative tension.
-    pub tension: [Vec<f64>; 2],
-    /// `[cosine, sine][radius]`: its negative Laplacian times the squared radius of the head, dimensionless.
-    pub curvature: [Vec<f64>; 2],
+    /// Relative tension.
+    pub tension: Along,
+    /// Its negative Laplacian times the squared radius of the head, dimensionless.
+    pub curvature: Along,
 }
 
 /// The field at given radii, by its number of periods around.
@@ -70,20 +70,9 @@ impl TensionField {
     pub fn new(spec: &TensionFieldSpec, head: u32, radii: &[f64], weights: &[f64]) -> TensionField {
         let mut components = random_field::components(spec.rms, spec.correlation, spec.seed, head);
         components.push(Component { l: 0, kappa: 0.0, parts: [-pull(&components, radii, weights), 0.0] });
-        let most = components.iter().map(|component| component.l).max().unwrap_or(0);
-        let empty = || [vec![0.0; radii.len()], vec![0.0; radii.len()]];
-        let mut harmonics: Vec<Harmonic> =
-            (0..=most).map(|_| Harmonic { tension: empty(), curvature: empty() }).collect();
-        for Component { l, kappa, parts } in components {
-            let Harmonic { tension, curvature } = &mut harmonics[l as usize];
-            for (i, &r) in radii.iter().enumerate() {
-                let shape = bessel::j(l, kappa * r);
-                for (part, strength) in parts.into_iter().enumerate() {
-                    tension[part][i] += strength * shape;
-                    curvature[part][i] += kappa * kappa * strength * shape;
-                }
-            }
-        }
+        let fields = random_field::harmonics(&components, radii, |component| [1.0, component.kappa.powi(2)]);
+        let harmonics =
+            fields.into_iter().map(|[tension, curvature]| Harmonic { tension, curvature }).collect();
         TensionField { harmonics }
     }
 

@@ -114,11 +114,7 @@ fn class_of(m: u32) -> (usize, f64) {
 /// A member's class and its shares of the class's cosine and sine at the rim.
 fn share(m: u32, member: Member, axis: f64, at_rim: f64) -> (usize, [f64; 2]) {
     let (class, sign) = class_of(m);
-    let (sin, cos) = (f64::from(m) * axis).sin_cos();
-    let (c, s) = match member {
-        Member::Cosine => (cos, sin),
-        Member::Sine => (-sin, cos),
-    };
+    let [c, s] = member.around(m, axis);
     // At these points the sines of the first and the last class are zero.
     let sine = if class == 0 || class == POINTS / 2 { 0.0 } else { sign * s };
     (class, [at_rim * c, at_rim * sine])
