@@ -18,7 +18,7 @@ pub static TABLE: [Parameter; GLOBALS] = [
         label: "Level",
         group: "Kit",
         // A groove at full velocity peaks a few decibels below full scale.
-        default: -10.0,
+        default: -12.0,
         ..decibels(Control::Master)
     },
     Parameter {
