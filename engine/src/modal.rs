@@ -40,8 +40,7 @@ use simd::Kernels;
 use simd::ring::Drive;
 
 pub use coefs::Mode;
-use coefs::{Constants, ModalCoefs, TOGETHER};
-use detuning::Detuning;
+use coefs::{Constants, DetunedTurns, ModalCoefs, TOGETHER};
 pub use input_vector::InputVector;
 pub use receiver_weights::{Pressure, ReceiverWeights};
 pub use row::{Row, zero_row};
@@ -82,7 +81,7 @@ pub struct ModalBody {
     kernels: Kernels,
     coefs: ModalCoefs,
     state: ModalState,
-    detuning: Option<Detuning>,
+    detuning: Option<DetunedTurns>,
     /// Times that a frequency or a mass has changed.
     retunings: u64,
 }

@@ -23,7 +23,7 @@ pub struct Component {
     pub parts: [f64; 2],
 }
 
-/// Cosine and sine part of a field along the radius, `[cosine, sine][radius]`.
+/// Cosine and sine part of a dimensionless field along the radius, `[cosine, sine][radius]`.
 pub type Along = [Vec<f64>; 2];
 
 /// A field and others of the same shapes at some radii (shares of the disc's), by the number of periods around: each shape counts by the

@@ -64,6 +64,12 @@ const AVERAGE: f64 = 0.01;
 /// Rate of exchange below which there is none, 1/s: in a second it moves no band by a tenth of a decibel.
 const NEGLIGIBLE: f64 = 0.01;
 
+/// Rate below which phases stay, 1/s: a line becomes wider by a sixth of a hertz, and decays sooner than its phase is lost.
+const SLOWEST: f64 = 0.5;
+
+/// Of the random signs: the same in every run.
+const SEED: u64 = 1;
+
 /// Largest change of a phase in a block, rad: no stroke comes near.
 const LARGEST_STEP: f64 = 0.5;
 
@@ -113,8 +119,8 @@ pub struct Transport {
     level: f64,
     /// The constant `C`, dimensionless.
     rate: f64,
-    /// Blocks since the last reset. Random signs are drawn from it: the same in every run, whatever acted before.
-    blocks: u64,
+    /// Gives each block the seeds of its random signs, so that they are the same whatever acted before.
+    seeds: Rng,
     balance: TransportBalance,
 }
 
@@ -131,7 +137,7 @@ impl Transport {
             tuning: 1.0,
             level: 0.0,
             rate: fitted::ENERGY_TRANSPORT,
-            blocks: 0,
+            seeds: Rng::with_seed(SEED),
             balance: TransportBalance::default(),
         };
         transport.follow(body, receivers);
@@ -170,37 +176,37 @@ impl Transport {
     /// # Real-time
     /// Linear in the number of modes; once a block.
     pub fn carry(&mut self, body: &mut ModalBody) -> Option<Pressure> {
-        self.blocks += 1;
+        let [phases, kicks] = [self.seeds.u64(..), self.seeds.u64(..)].map(Rng::with_seed);
         self.measure(body);
         // How often a mode exchanges its energy in a block, if it had neighbours at every hertz of a ratio of e.
         let rate = self.rate * self.level / self.spec.inertia * self.spec.interval / self.tuning;
-        self.wander(rate, body);
+        self.wander(rate, body, phases);
         let fastest = self.conduct(rate);
         let sound = (fastest > NEGLIGIBLE * self.spec.interval).then(|| {
             self.solve();
             self.limit();
-            self.kick(body)
+            self.kick(body, kicks)
         });
         self.wait();
         sound
     }
 
     /// Lets the phases of the modes above the coupled ones wander.
-    fn wander(&mut self, rate: f64, body: &mut ModalBody) {
+    fn wander(&self, rate: f64, body: &mut ModalBody, mut signs: Rng) {
         let strength = self.level / self.spec.inertia / (fitted::TRANSPORT_STRONG * self.tuning).powi(2);
         let diffused = rate / (fitted::TRANSPORT_HOP * (1.0 + strength));
-        if diffused <= NEGLIGIBLE * self.spec.interval {
+        if diffused <= SLOWEST * self.spec.interval {
             return body.end_detuning();
         }
         let step = (2.0 * diffused).sqrt().min(LARGEST_STEP);
-        body.detune(self.spec.coupled, step / self.spec.interval, &mut Rng::with_seed(2 * self.blocks));
+        body.detune(self.spec.coupled, step / self.spec.interval, &mut signs);
     }
 
     /// Changes the velocities. Returns what [`carry`](Self::carry) does.
-    fn kick(&mut self, body: &mut ModalBody) -> Pressure {
+    fn kick(&mut self, body: &mut ModalBody, signs: Rng) -> Pressure {
         let first = self.bands.first().map_or(0, |top| top.modes.start);
         let before = body.momentum(first, &self.weights);
-        self.apply(body);
+        self.apply(body, signs);
         let after = body.momentum(first, &self.weights);
         let per_second = self.spec.interval.recip() as f32;
         std::array::from_fn::<f32, RECEIVERS, _>(|receiver| per_second * (after[receiver] - before[receiver]))
@@ -217,7 +223,7 @@ impl Transport {
     /// As new.
     pub fn reset(&mut self) {
         self.bands.iter_mut().for_each(|band| band.pending = 0.0);
-        (self.level, self.blocks, self.balance) = (0.0, 0, TransportBalance::default());
+        (self.level, self.seeds, self.balance) = (0.0, Rng::with_seed(SEED), TransportBalance::default());
     }
 
     /// Takes the energies from the modes.
@@ -284,8 +290,7 @@ impl Transport {
     }
 
     /// Changes the velocities by what the bands got.
-    fn apply(&mut self, body: &mut ModalBody) {
-        let mut signs = Rng::with_seed(2 * self.blocks + 1);
+    fn apply(&mut self, body: &mut ModalBody, mut signs: Rng) {
         for at in 0..self.bands.len() {
             let out = self.bands.get(at + 1).map_or(0.0, |above| above.flux);
             let band = &mut self.bands[at];

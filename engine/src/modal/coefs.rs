@@ -40,6 +40,22 @@ pub(super) struct ModalCoefs {
     pub(super) hold_im: Row,
 }
 
+/// Rotations of modes that are detuned for a while, beside their own.
+pub(super) struct DetunedTurns {
+    /// Rotations less one, `[mode]`.
+    pub(super) turn_re: Row,
+    pub(super) turn_im: Row,
+    /// Whether they are in use.
+    pub(super) is_active: bool,
+}
+
+impl DetunedTurns {
+    /// Of so many modes, not in use. Allocates.
+    pub(super) fn new(modes: usize) -> DetunedTurns {
+        DetunedTurns { turn_re: zero_row(modes), turn_im: zero_row(modes), is_active: false }
+    }
+}
+
 impl ModalCoefs {
     /// Of modes at a time step of `dt`, s. Allocates.
     pub(super) fn new(modes: &[Mode], dt: f64) -> ModalCoefs {

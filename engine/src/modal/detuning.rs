@@ -10,25 +10,16 @@
 
 use fastrand::Rng;
 
-use super::{ModalBody, Row, zero_row};
+use super::ModalBody;
+use super::coefs::DetunedTurns;
 
 /// Signs drawn at once.
 const SIGNS: usize = 32;
 
-/// Rotations of detuned modes.
-pub(super) struct Detuning {
-    /// Rotations less one, `[mode]`.
-    pub(super) turn_re: Row,
-    pub(super) turn_im: Row,
-    /// Whether they are in use.
-    pub(super) is_active: bool,
-}
-
 impl ModalBody {
     /// Lets modes be detuned. Allocates.
     pub fn allow_detuning(&mut self) {
-        let row = || zero_row(self.len());
-        self.detuning = Some(Detuning { turn_re: row(), turn_im: row(), is_active: false });
+        self.detuning = Some(DetunedTurns::new(self.len()));
     }
 
     /// Shifts the frequencies of all modes from `first` on by `shift` (rad/s, small against every frequency), each up or down by a

@@ -9,6 +9,7 @@ mod arm;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use fastrand::Rng;
 use overhear_engine::hi_hat::TOUCHING;
 use overhear_engine::kit_spec::Kind;
 use overhear_engine::slot::{SLOTS, Slot};
@@ -184,8 +185,8 @@ struct PlayingState {
     gripped: [bool; SLOTS],
     /// Where a controller has the hi-hats' pedals, 0 (up) to 1 (down), if one plays them.
     pedal: Option<f64>,
-    /// Strokes so far: the unevenness of each is drawn from its number.
-    strokes: u64,
+    /// Where the random numbers stand from which the unevenness of strokes is drawn.
+    seed: u64,
     /// Strokes of hands so far.
     by_hand: u64,
 }
@@ -197,7 +198,7 @@ impl PlayingState {
         fine: [0.0; CHANNELS],
         gripped: [false; SLOTS],
         pedal: None,
-        strokes: 0,
+        seed: 0,
         by_hand: 0,
     };
 }
@@ -258,12 +259,13 @@ impl Playing {
         let fine = self.state.fine.get_mut(usize::from(channel)).map_or(0.0, std::mem::take);
         let stroke = *self.stroke(note)?;
         let slot = stroke.slot.index();
-        self.state.strokes = self.state.strokes.wrapping_add(1);
         let aimed = self.aimed(&stroke, aim) + self.style.offsets[slot];
         let limb = self.next_limb(stroke.striker);
         let share = if limb == Limb::Foot { BEATER_SHARE } else { 1.0 };
         let speed = stick_speed(velocity + fine, share * self.style.dynamics, self.style.curve);
-        let arm = Arm { limb, stroke: self.state.strokes };
+        let mut rng = Rng::with_seed(self.state.seed);
+        let arm = Arm::new(limb, &mut rng);
+        self.state.seed = rng.get_seed();
         let (radius, angle) = arm.placed((aimed.clamp(0.0, 1.0), stroke.angle), self.style.position_spread);
         let strike = Strike {
             speed: speed * arm.uneven_speed(self.style.speed_spread),

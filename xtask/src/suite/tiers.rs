@@ -12,12 +12,13 @@ pub enum Tier {
 }
 
 /// Every integration test of the workspace by its target: when it is run, and why then.
-pub const TARGETS: [(&str, Tier, &str); 30] = [
+pub const TARGETS: [(&str, Tier, &str); 31] = [
     ("acoustics", Tier::Quick, "figures of modes, computed rather than played"),
     ("automation", Tier::Whole, "plays the kit under every parameter"),
     ("command_line", Tier::Quick, "the program for users, in an empty folder"),
     ("commands", Tier::Whole, "runs the program some hundred times"),
     ("contacts", Tier::Whole, "every striker on every piece at four sample rates"),
+    ("cascade", Tier::Whole, "seconds of cymbals coupled to 8 kHz"),
     ("cymbals", Tier::Whole, "seconds of coupled plates at every quality"),
     ("damping", Tier::Quick, "a few short decays"),
     ("documents", Tier::Quick, "compares texts"),

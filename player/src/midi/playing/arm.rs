@@ -37,21 +37,27 @@ const HAND_REACH: f64 = 1.362;
 /// measurement.
 const HAND_STRONGER: f64 = 0.3;
 
-/// A limb at a stroke, counted from the latest reset: its unevenness is drawn from the number.
+/// A limb at a stroke, and how it misses what it is aimed at.
 pub(super) struct Arm {
-    pub(super) limb: Limb,
-    pub(super) stroke: u64,
+    limb: Limb,
+    /// Of the distance, the direction and the speed, each in 0 to 1.
+    drawn: [f64; 3],
 }
 
 impl Arm {
+    /// Draws a stroke. Every stroke draws as much, so that it depends only on how many came before it.
+    pub(super) fn new(limb: Limb, rng: &mut Rng) -> Arm {
+        Arm { limb, drawn: std::array::from_fn(|_| rng.f64()) }
+    }
+
     /// A place near the one aimed at (share of the radius, rad), at a mean distance of `spread` (share of the radius).
     pub(super) fn placed(&self, (radius, angle): (f64, f64), spread: f64) -> (f64, f64) {
         if spread == 0.0 || self.limb == Limb::Foot {
             return (radius, angle);
         }
         // Uniform in a disc on the hand's side. The angle runs from the player to the right.
-        let away = HAND_REACH * spread * self.drawn(0).sqrt();
-        let (across, along) = libm::sincos(TAU * self.drawn(1));
+        let away = HAND_REACH * spread * self.drawn[0].sqrt();
+        let (across, along) = libm::sincos(TAU * self.drawn[1]);
         let (sin, cos) = libm::sincos(angle);
         let aside = HAND_APART * spread * self.limb.side();
         let (x, y) = (radius * cos + away * along, radius * sin + away * across + aside);
@@ -66,11 +72,6 @@ impl Arm {
         let stronger = HAND_STRONGER * self.limb.side();
         // Half the width, so that the mean size (width^2 + stronger^2) / (2 width) is 1.
         let width = 1.0 + (1.0 - stronger * stronger).sqrt();
-        libm::pow(10.0, (width * (2.0 * self.drawn(2) - 1.0) + stronger) * spread / 20.0)
-    }
-
-    /// A number in 0 to 1 that belongs to the present stroke: the same in every rendering.
-    fn drawn(&self, which: u64) -> f64 {
-        Rng::with_seed(4 * self.stroke + which).f64()
+        libm::pow(10.0, (width * (2.0 * self.drawn[2] - 1.0) + stronger) * spread / 20.0)
     }
 }
