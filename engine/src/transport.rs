@@ -70,7 +70,10 @@ const SLOWEST: f64 = 0.5;
 /// Of the random signs: the same in every run.
 const SEED: u64 = 1;
 
-/// Largest change of a phase in a block, rad: no stroke comes near.
+/// Time for which a mode is detuned to one side, s: a block of 44.1 kHz. At its multiples the phases take the same course.
+const WALK: f64 = 32.0 / 44_100.0;
+
+/// Largest change of a phase in that time, rad: no stroke comes near.
 const LARGEST_STEP: f64 = 0.5;
 
 /// What the transport of a body depends on.
@@ -119,8 +122,13 @@ pub struct Transport {
     level: f64,
     /// The constant `C`, dimensionless.
     rate: f64,
-    /// Gives each block the seeds of its random signs, so that they are the same whatever acted before.
-    seeds: Rng,
+    /// Give each block the seed of its kicks, and each walk of the phases its signs: the same whatever acted before.
+    kicks: Rng,
+    walks: Rng,
+    /// Seed of the present walk, the blocks that it lasts, and those of it that have begun.
+    walk: u64,
+    walk_blocks: u32,
+    walked: u32,
     balance: TransportBalance,
 }
 
@@ -137,7 +145,11 @@ impl Transport {
             tuning: 1.0,
             level: 0.0,
             rate: fitted::ENERGY_TRANSPORT,
-            seeds: Rng::with_seed(SEED),
+            kicks: Rng::with_seed(SEED),
+            walks: Rng::with_seed(SEED),
+            walk: 0,
+            walk_blocks: ((WALK / spec.interval).round() as u32).max(1),
+            walked: 0,
             balance: TransportBalance::default(),
         };
         transport.follow(body, receivers);
@@ -176,11 +188,15 @@ impl Transport {
     /// # Real-time
     /// Linear in the number of modes; once a block.
     pub fn carry(&mut self, body: &mut ModalBody) -> Option<Pressure> {
-        let [phases, kicks] = [self.seeds.u64(..), self.seeds.u64(..)].map(Rng::with_seed);
+        let kicks = Rng::with_seed(self.kicks.u64(..));
+        if self.walked == 0 {
+            self.walk = self.walks.u64(..);
+        }
+        self.walked = (self.walked + 1) % self.walk_blocks;
         self.measure(body);
         // How often a mode exchanges its energy in a block, if it had neighbours at every hertz of a ratio of e.
         let rate = self.rate * self.level / self.spec.inertia * self.spec.interval / self.tuning;
-        self.wander(rate, body, phases);
+        self.wander(rate, body);
         let fastest = self.conduct(rate);
         let sound = (fastest > NEGLIGIBLE * self.spec.interval).then(|| {
             self.solve();
@@ -192,14 +208,16 @@ impl Transport {
     }
 
     /// Lets the phases of the modes above the coupled ones wander.
-    fn wander(&self, rate: f64, body: &mut ModalBody, mut signs: Rng) {
+    fn wander(&self, rate: f64, body: &mut ModalBody) {
         let strength = self.level / self.spec.inertia / (fitted::TRANSPORT_STRONG * self.tuning).powi(2);
         let diffused = rate / (fitted::TRANSPORT_HOP * (1.0 + strength));
         if diffused <= SLOWEST * self.spec.interval {
             return body.end_detuning();
         }
-        let step = (2.0 * diffused).sqrt().min(LARGEST_STEP);
-        body.detune(self.spec.coupled, step / self.spec.interval, &mut signs);
+        let walk = f64::from(self.walk_blocks);
+        let step = (2.0 * diffused * walk).sqrt().min(LARGEST_STEP);
+        let shift = step / (walk * self.spec.interval);
+        body.detune(self.spec.coupled, shift, &mut Rng::with_seed(self.walk));
     }
 
     /// Changes the velocities. Returns what [`carry`](Self::carry) does.
@@ -223,7 +241,8 @@ impl Transport {
     /// As new.
     pub fn reset(&mut self) {
         self.bands.iter_mut().for_each(|band| band.pending = 0.0);
-        (self.level, self.seeds, self.balance) = (0.0, Rng::with_seed(SEED), TransportBalance::default());
+        (self.level, self.balance) = (0.0, TransportBalance::default());
+        (self.kicks, self.walks, self.walked) = (Rng::with_seed(SEED), Rng::with_seed(SEED), 0);
     }
 
     /// Takes the energies from the modes.
