@@ -23,7 +23,7 @@ impl ModalBody {
     }
 
     /// Shifts the frequencies of all modes from `first` on by `shift` (rad/s, small against every frequency), each up or down by a
-    /// random sign, until this is called again or [ended](Self::end_detuning). Must be called again after a change of modes.
+    /// random sign, until this is called again or [ended](Self::end_detuning). A change of modes ends it.
     /// Without effect unless [allowed](Self::allow_detuning).
     ///
     /// # Real-time

@@ -10,6 +10,7 @@ impl ModalBody {
     /// # Real-time
     /// No allocation; some 10 ns a mode.
     pub fn set_modes(&mut self, mode: impl Fn(usize, &Mode) -> Mode) {
+        self.end_detuning();
         let kernels = self.kernels;
         let mut retuned = false;
         for first in (0..self.modes.len()).step_by(TOGETHER) {
@@ -35,6 +36,7 @@ impl ModalBody {
     /// # Real-time
     /// No allocation; about 50 ns.
     pub fn set_mode(&mut self, k: usize, mode: Mode) {
+        self.end_detuning();
         let old = Constants::<1>::of(&self.modes[k..=k]);
         self.modes[k] = mode;
         self.retunings += 1;
