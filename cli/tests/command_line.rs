@@ -131,7 +131,7 @@ fn what_is_refused_is_named_with_what_is_accepted() {
     for (arguments, words) in [
         (&["hear", "gong"][..], &["gong", "kick", "snare"][..]),
         (&["hear", "snare", "--speed", "99"], &["99", "above 0 to 25 m/s"]),
-        (&["render", "song.mid", "-o", "x.wav", "--rate", "10"], &["10", "22050 to 768000 Hz"]),
+        (&["render", "song.mid", "-o", "x.wav", "--rate", "10"], &["10", "22050 to 1536000 Hz"]),
         (&["render", "song.mid", "-o", "x.wav", "--clap", "none.clap"], &["none.clap"]),
         (&["frobnicate"], &["frobnicate", "render, hear, modes, kit, presets, bench"]),
     ] {

@@ -51,7 +51,7 @@ impl Quality {
 /// How a piece is built; what it is, its [description](crate::kit_spec::PieceSpec) says.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BuildOptions {
-    /// Sample rate, Hz, 22,050 to 768,000.
+    /// Sample rate, Hz, within [`SAMPLE_RATES`](crate::piece::SAMPLE_RATES).
     pub sample_rate: f64,
     /// How far up a cymbal's modes are coupled.
     pub quality: Quality,

@@ -5,6 +5,8 @@ mod controls;
 pub use crate::build_context::{BuildContext, BuildOptions, Idealization, Quality};
 pub use crate::mode::{Member, ModeInfo, ModeKind};
 
+use std::ops::RangeInclusive;
+
 use crate::block::BLOCK;
 use crate::cymbal::Cymbal;
 use crate::drum::Drum;
@@ -20,6 +22,9 @@ use crate::snapshot::{FIELD_MODES, FieldShapes, ModeSnapshot, PieceSnapshot, Str
 use crate::strike::Strike;
 use crate::surface::Surface;
 use crate::surface::incident_field::{AUDIBLE, IncidentPressure};
+
+/// Sample rates that a piece can be built for, Hz.
+pub const SAMPLE_RATES: RangeInclusive<f64> = 22_050.0..=1_536_000.0;
 
 /// Sound below this is silence, Pa: 100 dB under full scale.
 const SILENT: f32 = 2e-4;
@@ -71,7 +76,12 @@ impl Piece {
     /// # Errors
     /// [`SpecError`] if the options or a number of the description are out of range.
     pub fn new(slot: Slot, build: &PieceBuild, options: &BuildOptions) -> Result<Piece, SpecError> {
-        SpecError::check("sample rate (Hz)", options.sample_rate, 22_050.0, 768_000.0)?;
+        SpecError::check(
+            "sample rate (Hz)",
+            options.sample_rate,
+            *SAMPLE_RATES.start(),
+            *SAMPLE_RATES.end(),
+        )?;
         let mut instrument = self::build(&build.spec.instrument, &build.context(*options))?;
         instrument.take_turn(slot.index());
         Ok(Piece {

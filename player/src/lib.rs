@@ -5,13 +5,14 @@
 //! may automate, [`presets`] are values of it, and [`state`] is what a project stores. [`building`] says which pieces are wanted,
 //! [`builder`] makes them on threads of its own, and [`cache`] holds tables that outlive the process. [`workers`] render pieces
 //! beside the audio thread. [`strokes`] carries strokes of a hand to the audio thread, [`deadline`] counts buffers that are
-//! late.
+//! late, and [`decimation`] serves hosts whose sample rate is too low for the engine.
 #![deny(unsafe_code)]
 
 pub mod builder;
 pub mod building;
 pub mod cache;
 pub mod deadline;
+pub mod decimation;
 mod denormals;
 pub mod kit_document;
 pub mod kit_file;

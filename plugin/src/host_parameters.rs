@@ -5,7 +5,7 @@
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
-use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 
 use crossbeam::atomic::AtomicCell;
@@ -39,6 +39,9 @@ pub const SMALLEST_WINDOW: WindowSize = (800, 500);
 /// Largest window a state is believed: a broken one must not open a window nobody can close.
 const LARGEST_WINDOW: WindowSize = (7680, 4320);
 
+/// Above the bits of a rate that was refused.
+const REFUSED: u64 = 1 << 32;
+
 /// The kit of an instance, shared with whoever shows values as the kit has them.
 type SharedDocument = Arc<Mutex<Arc<KitDocument>>>;
 
@@ -61,8 +64,8 @@ pub struct HostParameters {
     resumes: AtomicBool,
     /// Which outputs the host uses in the present buffer: no parameter either.
     used: AtomicU32,
-    /// Sample rate at which no kit can be built, Hz, as bits; 0 if there is a kit.
-    refused: AtomicU32,
+    /// The bits of a sample rate that was refused, Hz, with one more above them; 0 if none was.
+    refused: AtomicU64,
     /// Of the screen, for the editor: no parameter either.
     scale: Scale,
 }
@@ -82,7 +85,7 @@ impl Default for HostParameters {
             deadlines: Arc::default(),
             resumes: AtomicBool::new(false),
             used: AtomicU32::new(Used::ALL.0),
-            refused: AtomicU32::new(0),
+            refused: AtomicU64::new(0),
             scale: Scale::default(),
         }
     }
@@ -236,14 +239,15 @@ impl HostParameters {
         Used(self.used.load(Ordering::Relaxed))
     }
 
-    /// Says at which sample rate (Hz) no kit can be built, if there is none.
+    /// Says which sample rate (Hz) a host asked for at which nothing can be played, if it did.
     pub fn refuse_rate(&self, rate: Option<f32>) {
-        self.refused.store(rate.map_or(0, f32::to_bits), Ordering::Relaxed);
+        self.refused.store(rate.map_or(0, |rate| REFUSED | u64::from(rate.to_bits())), Ordering::Relaxed);
     }
 
-    /// The present sample rate, Hz, if no kit can be built at it.
+    /// The sample rate that a host asked for, Hz, if nothing can be played at it.
     pub fn refused_rate(&self) -> Option<f32> {
-        Some(f32::from_bits(self.refused.load(Ordering::Relaxed))).filter(|rate| *rate > 0.0)
+        let refused = self.refused.load(Ordering::Relaxed);
+        (refused != 0).then_some(f32::from_bits(refused as u32))
     }
 
     /// Whether a reset is to change nothing.

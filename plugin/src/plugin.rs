@@ -23,8 +23,10 @@ use crate::monitor::{self, Publisher, Viewer};
 use crate::outputs::{Apart, Buffers, Mix, Outputs};
 use crate::state;
 use overhear_engine::kit::Routing;
+use overhear_engine::piece::SAMPLE_RATES;
 use overhear_player::builder::{Arrival, Builder, Delivery, Outcome};
 use overhear_player::building::{BuildPlan, Pace};
+use overhear_player::decimation::{self, Decimation, LOWEST_RATE};
 use overhear_player::parameters::parameters;
 use overhear_player::performer::Performer;
 use overhear_player::strokes::{self, Strokes, Waiting};
@@ -54,7 +56,7 @@ pub struct Instrument<O> {
     /// Whether the host renders to a file.
     offline: Arc<AtomicBool>,
     builder: Builder,
-    /// What plays, once activated at a rate that the engine accepts.
+    /// What plays, once activated.
     stage: Option<Stage>,
     publisher: Publisher,
     viewer: Viewer,
@@ -63,9 +65,11 @@ pub struct Instrument<O> {
     outputs: PhantomData<O>,
 }
 
-/// A performer, where its pieces come from, and its sample rate.
+/// A performer, where its pieces come from, and the host's sample rate.
 struct Stage {
     performer: Performer,
+    /// For a host whose sample rate is too low for the engine.
+    decimation: Option<Decimation>,
     delivery: Delivery,
     sample_rate: f32,
     bypass: Bypass,
@@ -155,15 +159,13 @@ impl<O: Outputs> Plugin for Instrument<O> {
         config: &BufferConfig,
         _context: &mut impl ActivateContext<Self>,
     ) -> bool {
-        caught("Plugin::activate", (), || {
+        caught("Plugin::activate", false, || {
             let offline = config.process_mode == ProcessMode::Offline;
             let awaited = (!offline).then_some(f64::from(config.sample_rate));
             self.parameters.deadlines().expect(awaited);
             self.parameters.read_programs();
-            self.prepare(config.sample_rate, offline);
-        });
-        // A rate that the engine does not know is no reason to lose the project: it stays silent.
-        true
+            self.prepare(config.sample_rate, offline)
+        })
     }
 
     fn reset(&mut self) {
@@ -175,7 +177,10 @@ impl<O: Outputs> Plugin for Instrument<O> {
             let bypassed = self.parameters.is_bypassed();
             if let Some(stage) = &mut self.stage {
                 stage.bypass.settle(bypassed);
-                stage.guarded(|stage| stage.performer.reset());
+                stage.guarded(|stage| {
+                    stage.performer.reset();
+                    stage.decimation.iter_mut().for_each(Decimation::reset);
+                });
             }
         });
     }
@@ -199,7 +204,9 @@ impl<O: Outputs> Plugin for Instrument<O> {
                     self.waiting.deliver(&mut stage.performer);
                     // A program of its own has nobody who times whole buffers.
                     self.parameters.deadlines().bounded(buffers.len(), || {
-                        play(&mut stage.performer, &mut buffers, &self.parameters, || context.next_event());
+                        let Stage { performer, decimation, .. } = stage;
+                        let next_event = || context.next_event();
+                        play(performer, decimation.as_mut(), &mut buffers, &self.parameters, next_event);
                     });
                     stage.bypass.apply(bypassed, buffers.channels());
                     let (heard, _) = buffers.stretch(0, buffers.len());
@@ -217,10 +224,19 @@ impl<O: Outputs> Plugin for Instrument<O> {
 }
 
 impl<O: Outputs> Instrument<O> {
-    /// Makes the kit for a sample rate (Hz) ready, unless it is, to be played or for a bounce.
-    fn prepare(&mut self, sample_rate: f32, offline: bool) {
+    /// Makes the kit for a host's sample rate (Hz) ready, unless it is, to be played or for a bounce; false if nothing can be
+    /// played at that rate, which the window then says.
+    fn prepare(&mut self, sample_rate: f32, offline: bool) -> bool {
+        let factor = decimation::factor(f64::from(sample_rate));
+        self.parameters.refuse_rate(factor.is_none().then_some(sample_rate));
+        let Some(factor) = factor else {
+            nice_error!("{sample_rate} Hz: accepted are {LOWEST_RATE} to {} Hz", SAMPLE_RATES.end());
+            self.stage = None;
+            return false;
+        };
         let other_pace = self.offline.swap(offline, Ordering::AcqRel) != offline;
-        let rate = f64::from(sample_rate);
+        // The engine's.
+        let rate = f64::from(sample_rate) * factor as f64;
         let usable = |stage: &Stage| stage.sample_rate == sample_rate && !stage.broken;
         let document = self.parameters.document();
         let at_another_kit =
@@ -236,28 +252,28 @@ impl<O: Outputs> Instrument<O> {
         // with what is left of the former one.
         if ordered.is_none() && !offline && !other_pace && !at_another_kit {
             self.follow();
-            return;
+            return true;
         }
         let outcome = self.builder.wait(BUILD_TIMEOUT);
-        let failed = matches!(outcome, Outcome::Failed(_));
-        self.parameters.refuse_rate(failed.then_some(sample_rate));
         match outcome {
             Outcome::Finished => {}
             Outcome::Late => nice_warn!("The kit is not built yet: strokes are dropped until it is"),
             Outcome::Failed(reason) => {
                 nice_error!("The kit cannot be built and stays silent: {reason}");
                 self.stage = None;
-                return;
+                return true;
             }
         }
         if let Some(delivery) = ordered {
             let mut performer = Performer::new(rate, &document, self.parameters.assignments());
             performer.route(Routing::Instead);
             let bypass = Bypass::new(sample_rate, self.parameters.is_bypassed());
-            self.stage = Some(Stage { performer, delivery, sample_rate, bypass, broken: false });
-            self.publisher.set_sample_rate(rate);
+            let decimation = Decimation::new(factor);
+            self.stage = Some(Stage { performer, decimation, delivery, sample_rate, bypass, broken: false });
+            self.publisher.set_sample_rate(f64::from(sample_rate));
         }
         self.follow();
+        true
     }
 
     /// Takes over parameters and pieces.

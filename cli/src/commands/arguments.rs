@@ -7,7 +7,7 @@ use clap::{Args, Subcommand, ValueEnum};
 use overhear::kit_document::KitDocument;
 use overhear_engine::kit_spec::KitSpec;
 use overhear_engine::modal::simd::level::InstructionSet;
-use overhear_engine::piece::{self, BuildOptions};
+use overhear_engine::piece::{self, BuildOptions, SAMPLE_RATES};
 use overhear_engine::slot::Slot;
 use overhear_engine::strike::{Strike, Striker};
 use overhear_measure::hear;
@@ -22,7 +22,7 @@ use crate::wav::Bits;
 use crate::{bench, modes, render, settings, stage};
 
 /// Sample rates that the engine builds for, Hz.
-const RATES: std::ops::RangeInclusive<i64> = 22_050..=768_000;
+const RATES: std::ops::RangeInclusive<i64> = *SAMPLE_RATES.start() as i64..=*SAMPLE_RATES.end() as i64;
 
 /// Longest sound after the last note and of one stroke, s.
 const LONGEST: f64 = 600.0;

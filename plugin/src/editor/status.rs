@@ -2,8 +2,10 @@
 
 use egui::Color32;
 use overhear_engine::kit_spec::KitSpec;
+use overhear_engine::piece::SAMPLE_RATES;
 use overhear_engine::slot::Slot;
 use overhear_engine::snapshot::{KitSnapshot, PieceSnapshot};
+use overhear_player::decimation::LOWEST_RATE;
 
 use super::theme::Palette;
 
@@ -49,9 +51,13 @@ pub fn trouble(
     Some(found)
 }
 
-/// That there is no kit at a sample rate, Hz; and in what colour to say it.
+/// That a sample rate, Hz, was refused; and in what colour to say it.
 pub fn refused(rate: f32, palette: &Palette) -> (String, Color32) {
-    (format!("Silent: no kit can be built at {rate} Hz. Accepted: 22050 to 768000 Hz"), palette.over)
+    let highest = SAMPLE_RATES.end();
+    (
+        format!("Refused: nothing can be played at {rate} Hz. Accepted: {LOWEST_RATE} to {highest} Hz"),
+        palette.over,
+    )
 }
 
 /// How often something went wrong, and when there was more of it: what is long ago is not worth a sentence.
@@ -193,9 +199,9 @@ mod tests {
     }
 
     #[test]
-    fn a_rate_without_a_kit_is_named() {
-        let (text, _) = refused(8_000.0, &crate::editor::theme::DARK);
-        assert_eq!(text, "Silent: no kit can be built at 8000 Hz. Accepted: 22050 to 768000 Hz");
+    fn a_refused_rate_is_named() {
+        let (text, _) = refused(500.0, &crate::editor::theme::DARK);
+        assert_eq!(text, "Refused: nothing can be played at 500 Hz. Accepted: 1000 to 1536000 Hz");
     }
 
     #[test]

@@ -94,7 +94,7 @@ fn seen(viewer: &Viewer, parameters: &HostParameters) -> u64 {
     // The window keeps the document that it shows: no other can be at the same address.
     let document = Arc::as_ptr(&parameters.document()).addr() as u64;
     let assigned = parameters.assignments().fingerprint();
-    let refused = parameters.refused_rate().map_or(0, |rate| u64::from(rate.to_bits()));
+    let refused = parameters.refused_rate().map_or(0, |rate| 1 + u64::from(rate.to_bits()));
     let rest = [viewer.news(), document, assigned, parameters.deadlines().late(), refused];
     rest.into_iter().for_each(|number| hasher.write_u64(number));
     hasher.finish()

@@ -39,6 +39,7 @@ use crate::guard::caught;
 use crate::host_parameters::{self, HostParameters};
 use crate::outputs::Used;
 use crate::plugin::{Overhear, OverhearMulti};
+use overhear_player::decimation;
 
 /// The framework's object, and what completes a host's outputs.
 struct Guard<P: Vst3Plugin> {
@@ -177,7 +178,9 @@ impl<P: Vst3Plugin> IComponentTrait for Guard<P> {
         // SAFETY: passed on; a component is activated only while nothing is processed, so that nobody else holds the
         // outputs.
         caught("IComponentTrait::setActive", kInternalError, || unsafe {
-            let result = self.framework.setActive(state);
+            let refused =
+                self.parameters.as_ref().is_some_and(|parameters| parameters.refused_rate().is_some());
+            let result = if state != 0 && refused { kResultFalse } else { self.framework.setActive(state) };
             (*self.outputs.get()).active = state != 0 && result == kResultOk;
             result
         })
@@ -237,6 +240,14 @@ impl<P: Vst3Plugin> IAudioProcessorTrait for Guard<P> {
         // else holds the outputs.
         caught("IAudioProcessorTrait::setupProcessing", kInternalError, || unsafe {
             if let Some(setup) = setup.as_ref() {
+                let refused = decimation::factor(setup.sampleRate).is_none();
+                if let Some(parameters) = &self.parameters {
+                    parameters.refuse_rate(refused.then_some(setup.sampleRate as f32));
+                }
+                if refused {
+                    (*self.outputs.get()).ready = false;
+                    return kInvalidArgument;
+                }
                 self.sample_rate.store(setup.sampleRate.to_bits(), Ordering::Relaxed);
                 (*self.outputs.get()).scratch.prepare(setup.maxSamplesPerBlock.max(0) as usize);
             }

@@ -8,6 +8,7 @@ use nice_plug::prelude::*;
 
 use crate::host_parameters::HostParameters;
 use crate::outputs::Buffers;
+use overhear_player::decimation::Decimation;
 use overhear_player::performer::Performer;
 
 /// Notes of one sample that can wait; more than one has limbs and pads.
@@ -19,6 +20,7 @@ const MOST_NOTES: usize = 16;
 /// No allocation, no lock.
 pub fn play<S>(
     performer: &mut Performer,
+    mut decimation: Option<&mut Decimation>,
     buffers: &mut Buffers<'_>,
     parameters: &HostParameters,
     mut next_event: impl FnMut() -> Option<NoteEvent<S>>,
@@ -30,7 +32,10 @@ pub fn play<S>(
         if until > now {
             notes.strike(performer);
             let (main, mut others) = buffers.stretch(now, until);
-            performer.render_outputs(main, &mut others);
+            match &mut decimation {
+                Some(decimation) => decimation.render_outputs(performer, main, &mut others),
+                None => performer.render_outputs(main, &mut others),
+            }
             now = until;
         }
     };

@@ -45,7 +45,7 @@ fn played(slices: &[(usize, Vec<NoteEvent<()>>)]) -> Vec<f32> {
         let mut events = events.iter().copied();
         let mut main = [left.as_mut_slice(), right.as_mut_slice()];
         let mut buffers = Buffers::new(&mut main, &mut [], Used::ALL).unwrap();
-        play(&mut performer, &mut buffers, &HostParameters::default(), || events.next());
+        play(&mut performer, None, &mut buffers, &HostParameters::default(), || events.next());
         sound.extend(left);
     }
     sound
@@ -98,7 +98,7 @@ fn a_program_change_that_moved_no_parameter_changes_nothing() {
         let (mut left, mut right) = (vec![0.0; 2_000], vec![0.0; 2_000]);
         let mut main = [left.as_mut_slice(), right.as_mut_slice()];
         let mut buffers = Buffers::new(&mut main, &mut [], Used::ALL).unwrap();
-        play(&mut performer, &mut buffers, &parameters, || events.next());
+        play(&mut performer, None, &mut buffers, &parameters, || events.next());
         left
     };
     let is_at = |program| parameters.with_program(program, 9, |program| parameters.are_at(program));
@@ -113,7 +113,7 @@ fn more_notes_at_a_sample_than_can_wait_are_all_struck() {
     let mut events = (0..40).map(|_| note(3));
     let mut main = [left.as_mut_slice(), right.as_mut_slice()];
     let mut buffers = Buffers::new(&mut main, &mut [], Used::ALL).unwrap();
-    play(&mut performer, &mut buffers, &HostParameters::default(), || events.next());
+    play(&mut performer, None, &mut buffers, &HostParameters::default(), || events.next());
     let mut snapshot = KitSnapshot::default();
     performer.snapshot(&mut snapshot);
     assert_eq!(snapshot.dropped_strikes, 40);
@@ -126,7 +126,7 @@ fn notes_out_of_order_and_beyond_the_slice_are_not_lost() {
     let mut events = [note(60), note(10), note(u32::MAX)].into_iter();
     let mut main = [left.as_mut_slice(), right.as_mut_slice()];
     let mut buffers = Buffers::new(&mut main, &mut [], Used::ALL).unwrap();
-    play(&mut performer, &mut buffers, &HostParameters::default(), || events.next());
+    play(&mut performer, None, &mut buffers, &HostParameters::default(), || events.next());
     let mut snapshot = KitSnapshot::default();
     performer.snapshot(&mut snapshot);
     assert_eq!((snapshot.dropped_strikes, snapshot.clock), (3, 64));
@@ -169,14 +169,23 @@ fn a_bounce_and_who_plays_after_it_wait_for_their_own_kit() {
 }
 
 #[test]
-fn a_rate_the_engine_refuses_is_silent_and_the_next_good_one_plays() {
+fn a_rate_that_nothing_can_be_played_at_is_refused_and_the_next_good_one_plays() {
     let mut instance = Overhear::default();
-    instance.prepare(8_000.0, false);
-    assert!(instance.stage.is_none());
-    assert_eq!(instance.parameters.refused_rate(), Some(8_000.0), "the window says so");
-    instance.prepare(48_000.0, false);
-    assert!(instance.stage.is_some());
-    assert_eq!(instance.parameters.refused_rate(), None);
+    for rate in [999.0, 1.6e6, 0.0, -48_000.0, f32::INFINITY] {
+        assert!(!instance.prepare(rate, false) && instance.stage.is_none(), "{rate} Hz");
+        assert_eq!(instance.parameters.refused_rate(), Some(rate), "the window says so");
+    }
+    assert!(!instance.prepare(f32::NAN, false) && instance.parameters.refused_rate().is_some());
+    for (rate, decimated) in [(8_000.0, true), (48_000.0, false)] {
+        assert!(instance.prepare(rate, false), "{rate} Hz");
+        let stage = instance.stage.as_ref().unwrap();
+        assert_eq!(
+            (stage.decimation.is_some(), stage.performer.is_complete()),
+            (decimated, true),
+            "{rate} Hz"
+        );
+        assert_eq!(instance.parameters.refused_rate(), None);
+    }
 }
 
 #[test]

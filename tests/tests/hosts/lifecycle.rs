@@ -24,13 +24,25 @@ fn activated_anew_it_plays_as_if_it_were_new() {
 }
 
 #[test]
-fn a_rate_beyond_the_engine_is_survived_in_silence() {
+fn a_rate_below_the_engine_s_is_played_by_a_multiple_and_one_far_below_refused() {
     let _turn = alone();
     let mut instance = instance();
-    let sound = through_plugin(&mut instance, &notes(8000.0), 8000.0, Blocks::Fixed(64));
-    assert_eq!(peak(&sound), 0.0);
-    let sound = through_plugin(&mut instance, &notes(RATE), RATE, Blocks::Fixed(64));
-    assert!(peak(&sound) > 0.01);
+    for rate in [500.0, 2e6] {
+        assert!(instance.run(rate, 1..=64, |_| Ok(())).is_err(), "{rate} Hz is activated");
+    }
+    for rate in [8000.0, 1234.5678] {
+        let score = notes(rate);
+        let sound = through_plugin(&mut instance, &score, rate, Blocks::Fixed(64));
+        assert!(peak(&sound) > 0.01, "{rate} Hz is silent");
+        assert_same(
+            &through_plugin(&mut instance, &score, rate, Blocks::Random),
+            &sound,
+            &format!("{rate} Hz"),
+        );
+    }
+    let score = notes(RATE);
+    let sound = through_plugin(&mut instance, &score, RATE, Blocks::Fixed(64));
+    assert_same(&sound, &through_engine(&score, RATE), "a good rate after that");
 }
 
 #[test]

@@ -98,6 +98,23 @@ const SNARE: [u8; 3] = [0x99, 38, 100];
 const CRASH: [u8; 3] = [0x99, 49, 100];
 
 #[test]
+fn rates_that_nothing_can_be_played_at_are_refused() {
+    let instance = instance();
+    let plugin = instance.plugin;
+    for rate in [500.0, 8e3, 0.0, 2e6, f64::NAN, 1234.5678, 48e3] {
+        let is_accepted = (1e3..=1.536e6).contains(&rate);
+        // SAFETY: the calls a host makes.
+        let activated = unsafe {
+            (*plugin).deactivate.unwrap()(plugin);
+            (*plugin).activate.unwrap()(plugin, rate, 1, FRAMES as u32)
+        };
+        assert_eq!(activated, is_accepted, "{rate} Hz");
+        let sound = call(&instance, FRAMES, vec![midi(SNARE)]).1;
+        assert_eq!(sound.iter().any(|sample| *sample != 0.0), is_accepted, "{rate} Hz");
+    }
+}
+
+#[test]
 fn switches_and_lists_are_stepped_and_moved_by_whole_numbers() {
     let instance = instance();
     // SAFETY: the calls a host makes.

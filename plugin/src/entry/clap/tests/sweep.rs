@@ -196,7 +196,7 @@ impl Sweep {
     }
 
     fn activate(&mut self) {
-        let rate = self.chance.of(&[48e3, 48e3, 44.1e3, 8e3]);
+        let rate = self.chance.of(&[48e3, 48e3, 44.1e3, 8e3, 500.0]);
         let most = self.chance.of(&[0, 1, FRAMES as u32, u32::MAX]);
         // SAFETY: calls a host makes.
         unsafe {

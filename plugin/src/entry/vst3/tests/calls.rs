@@ -263,6 +263,37 @@ fn calls_out_of_order_are_refused() {
 }
 
 #[test]
+fn rates_that_nothing_can_be_played_at_are_refused() {
+    let guard = Guard::<OverhearMulti>::new();
+    let set_up = |rate: f64| {
+        let mut setup = ProcessSetup {
+            processMode: 0,
+            symbolicSampleSize: 0,
+            maxSamplesPerBlock: FRAMES as i32,
+            sampleRate: rate,
+        };
+        // SAFETY: the calls a host makes.
+        unsafe {
+            guard.setActive(0);
+            let result = guard.setupProcessing(&mut setup);
+            guard.setActive(1);
+            result
+        }
+    };
+    let refused = || guard.parameters.as_ref().unwrap().refused_rate();
+    for rate in [48e3, 500.0, 8e3, 0.0, 2e6, f64::NAN, 1234.5678, 48e3] {
+        let is_accepted = (1e3..=1.536e6).contains(&rate);
+        let (expected, played) =
+            if is_accepted { (kResultOk, kResultOk) } else { (kInvalidArgument, kNotInitialized) };
+        assert_eq!(set_up(rate), expected, "{rate} Hz");
+        assert_eq!(refused().is_none(), is_accepted, "the window says so at {rate} Hz");
+        let (result, sound) = call(&guard, FRAMES, vec![snare()], None);
+        assert_eq!(result, played, "{rate} Hz");
+        assert_eq!(sound.iter().any(|sample| *sample != 0.0), is_accepted, "{rate} Hz");
+    }
+}
+
+#[test]
 fn an_instrument_has_no_inputs_to_arrange_and_rings_for_a_minute() {
     let guard = multi();
     let mut stereo = [3; BUSES];
