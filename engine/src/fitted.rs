@@ -172,9 +172,9 @@ fitted! {
         to "recorded open hats"; tried "not recorded"; moves "the hats' bells";
     HAT_BELL_RISE = 0.015, "m", "pieces.hi-hat.top.bell.rise_m";
         to "recorded open hats"; tried "not recorded"; moves "the hats' bells";
-    HAT_RIM_MODULUS = 4e9, "Pa", "pieces.hi-hat.rim.youngs_modulus_pa";
-        to "recorded closed hats: 82 % of their figures inside"; tried "4e9 to 110e9 (smooth edges): 79 % with 5e9, 62 % smooth";
-        moves "clatter of half-open hats";
+    HAT_WARP = 1e-3, "m", "pieces.hi-hat.warp.rms_m";
+        to "fine spectra of recorded closed, half-open and open hats"; tried "0 (flat) to 2e-3: flat rims ring in lines";
+        moves "every sound of the hats in which rims touch";
     HAT_RUBBING = 21.0, "1/s", "pieces.hi-hat.rubbing.constant_1_s";
         to "recorded decays of closed hats, 0.43 to 0.27 s"; tried "not recorded"; moves "closed and half-open hats";
     HAT_RUBBING_PER_KHZ = 0.6, "1/s", "pieces.hi-hat.rubbing.per_khz_1_s";

@@ -8,7 +8,7 @@
 //!
 //! Model: two shallow [cymbals](crate::cymbal). The lower one is upside down and a little tilted, as stands hold it, so that
 //! closed cymbals do not trap the air. The upper one hangs in a clutch on the rod, the lower one lies on a seat. Felts hold both:
-//! springs and dampers for their rigid motion ([`rigid`]). The rims touch by the law of every contact ([`pair`]). The upper
+//! springs and dampers for their rigid motion ([`rigid`]). The rims are not flat ([`warp`]) and touch by the law of every contact ([`pair`]). The upper
 //! cymbal's modes are coupled by its stretching, as those of any other cymbal. The lower one's are not.
 //!
 //! The pedal is one control: from 0, with the rims [`GAP`] apart, over [`TOUCHING`], where rims without tilt would meet, to 1,
@@ -28,6 +28,7 @@ pub mod rim_points;
 mod settling;
 pub mod spec;
 mod step;
+pub mod warp;
 
 use std::f64::consts::TAU;
 
@@ -322,6 +323,7 @@ fn assemble(
     let mut surface = struck.into_surface(&spec.top, &top.cymbal, context);
     let tip = Tip::Solid { material: spec.rim, radius: spec.edge };
     let law = ContactLaw::new(&tip, &spec.bottom.alloy, if lossless { 1.0 } else { spec.restitution });
+    let heights = spec.warp.heights();
     let leaning = spec.top.plate().radius() * spec.tilt;
     let dt = 1.0 / options.sample_rate;
     let rigid = [(&top, &spec.clutch), (&bottom, &spec.seat)]
@@ -333,7 +335,9 @@ fn assemble(
         rigid,
         law,
         lasting_loss: law.lambda(spec.lasting),
-        depth: std::array::from_fn(|j| GAP + leaning * (rim_points::angle(j) - spec.toward).cos()),
+        depth: std::array::from_fn(|j| {
+            GAP + leaning * (rim_points::angle(j) - spec.toward).cos() + heights[j]
+        }),
         sample_rate: options.sample_rate,
     }));
     (surface, [top, bottom])

@@ -80,7 +80,7 @@ pub fn components(rms: f64, correlation: f64, seed: u32, body: u32) -> Vec<Compo
 }
 
 /// Two independent draws from a normal distribution (Box & Muller).
-fn normal(seed: u32, l: u32, s: u32, body: u32) -> [f64; 2] {
+pub fn normal(seed: u32, l: u32, s: u32, body: u32) -> [f64; 2] {
     let [u, v] = [10, 11].map(|what| hash(seed, l, s, what + 16 * body));
     let (sin, cos) = (TAU * v).sin_cos();
     let size = (-2.0 * (1.0 - u).ln()).sqrt();

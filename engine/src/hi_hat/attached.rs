@@ -172,9 +172,9 @@ impl Attachment for Pair {
         self.held_energy()
     }
 
-    fn settle(&mut self, body: &mut StruckBody, contacts: &Contacts) -> bool {
+    fn settle(&mut self, body: &mut StruckBody, contacts: &mut Contacts) -> bool {
         let way = contacts.fastest_striker().map(|speed| speed * MAX_RUN as f64 * contacts.dt());
-        match self.look(body.modal(), way) {
+        match contacts.carry_by(body, |body| self.look(body.modal_mut(), way)) {
             Settled::Moving => true,
             Settled::Parked => {
                 body.reset();

@@ -12,8 +12,9 @@
 //! The shells' displacements are measured from their static deflection under the clamping, as those of snare wires are from the
 //! strainer's. Let `P_j` be the forces in [static equilibrium](crate::contact::static_equilibrium) at the present position of the
 //! rod, and `bend` the deflection by them. A shell then moves under `F_j - P_j` only. Clamped cymbals at rest are exactly at rest,
-//! and small motion keeps its precision. With a still pedal the energy is conserved to rounding. `P` and `bend` follow a moving
-//! pedal over a block. The change of energy by them and by the rod is the [pedal's work](Pair::pedal_work).
+//! and small motion keeps its precision. With a still pedal the energy is conserved to rounding. Under a moving pedal `P` and `bend`
+//! are renewed once a block, and what the deflection gains is taken from the displacement: nothing moves by it, so that the sound
+//! does not depend on what is measured from. The change of energy by it and by the rod is the [pedal's work](Pair::pedal_work).
 //!
 //! The loss of a lasting contact approaches that of rims at rest, which have dirt and air between them and rub. One number stands
 //! for all of these losses.
@@ -42,6 +43,7 @@ use super::rigid::{Rigid, Weights};
 use super::rim_points::{self, POINTS};
 
 use pedal::Pedal;
+use rest::Rest;
 use state::{Dynamics, RimState, StrikerPlace};
 use statics::{Balance, Statics};
 
@@ -208,6 +210,22 @@ impl Pair {
         }
     }
 
+    /// Measures the shells' displacements from another equilibrium. Nothing moves by that: what the static deflection gains is taken
+    /// from the displacement. The energy above that at rest changes, which is part of the pedal's work.
+    ///
+    /// # Real-time
+    /// Linear in the number of modes.
+    pub(super) fn measure_from(&mut self, rest: Rest, top: &mut ModalBody) {
+        let before = self.held_energy() + top.energy();
+        let gained = std::array::from_fn(|j| rest.preload[j] - self.pedal.rest.preload[j]);
+        let down = rim_points::amplitudes(&gained);
+        top.displace_folded(&self.folded[0], &down);
+        self.lower.modal.displace_folded(&self.folded[1], &down.map(|pair| pair.map(|x| -x)));
+        self.pedal.arrive(rest);
+        self.dynamics.update_offset(&rest.preload);
+        self.pedal.work += self.held_energy() + top.energy() - before;
+    }
+
     /// All forces at the rims together with the rod held at `y`, N.
     pub fn clamping(&self, y: f64) -> f64 {
         self.statics.clamping(y, &self.rims.law, &self.rigid)
@@ -273,7 +291,7 @@ impl Pair {
     /// The part of it that the pedal can change.
     pub(super) fn held(&self) -> f64 {
         let contacts: f64 = (0..POINTS)
-            .filter(|&j| self.rims.touching[j] || self.pedal.rest.preload[j] != 0.0)
+            .filter(|&j| self.rims.compression[j] > 0.0 || self.pedal.rest.preload[j] != 0.0)
             .map(|j| {
                 let shells = self.rims.compression[j] - self.apart(j);
                 self.rims.law.potential(self.rims.compression[j]) - self.pedal.rest.preload[j] * shells

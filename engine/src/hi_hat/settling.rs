@@ -29,7 +29,7 @@ impl Pair {
     ///
     /// # Real-time
     /// Linear in the number of modes, and some microseconds while the pedal moves.
-    pub(super) fn look(&mut self, top: &ModalBody, strikers: Option<f64>) -> Settled {
+    pub(super) fn look(&mut self, top: &mut ModalBody, strikers: Option<f64>) -> Settled {
         let pushed = strikers.map_or(0.0, |way| PUSHED.0.max(PUSHED.1 * way));
         let strikers = strikers.is_some();
         self.lower.modal.flush_quiet();
@@ -44,8 +44,8 @@ impl Pair {
         }
         if self.pedal.arrival.is_none() && self.pedal.goal_place != self.pedal.foot.place() {
             let Pair { statics, pedal, rims, rigid, .. } = self;
-            let goal = statics.balance(pedal.foot.place(), &pedal.goal.preload, &rims.law, rigid).rest;
-            pedal.set_out(goal);
+            let rest = statics.balance(pedal.foot.place(), &pedal.goal.preload, &rims.law, rigid).rest;
+            self.measure_from(rest, top);
         }
         if self.pedal.moves() {
             self.engage(top);

@@ -9,6 +9,7 @@ use crate::error::SpecError;
 use crate::numbers::{self, Numbers, Visitor};
 
 use super::rigid::Mount;
+use super::warp::WarpSpec;
 
 /// A hi-hat's description.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -28,6 +29,8 @@ pub struct HiHatSpec {
     /// Toward where, rad, -2 pi to 2 pi.
     #[serde(rename = "tilt_toward_rad")]
     pub toward: f64,
+    /// How far the rims are from flat.
+    pub warp: WarpSpec,
     /// Radius of the rims where they meet, m, 1e-4 to 1e-2.
     #[serde(rename = "rim_radius_m")]
     pub edge: f64,
@@ -53,6 +56,7 @@ impl Numbers for HiHatSpec {
         self.seat.visit_part("seat", visitor);
         visitor.number("tilt_rad", &mut self.tilt, 0.0..=0.05);
         visitor.number("tilt_toward_rad", &mut self.toward, -std::f64::consts::TAU..=std::f64::consts::TAU);
+        self.warp.visit_part("warp", visitor);
         visitor.number("rim_radius_m", &mut self.edge, 1e-4..=1e-2);
         self.rim.visit_part("rim", visitor);
         visitor.number("restitution", &mut self.restitution, 0.05..=0.95);

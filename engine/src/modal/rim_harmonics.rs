@@ -23,6 +23,19 @@ impl ModalBody {
         self.kernels.spread_folded(folded, forces, body);
     }
 
+    /// Displaces the body as steady forces around the rim (N) would in time; velocities stay.
+    ///
+    /// # Real-time
+    /// Linear in the number of modes.
+    pub fn displace_folded(&mut self, folded: &RimHarmonics, forces: &Amplitudes) {
+        for (k, class, share) in folded.shares() {
+            let force = share[0] * f64::from(forces[class][0]) + share[1] * f64::from(forces[class][1]);
+            let (mode, by) = (&self.modes[k], force * self.steady_compliance(k));
+            self.state.im[k] += by as f32;
+            self.state.re[k] += (mode.sigma / mode.omega_d() * by) as f32;
+        }
+    }
+
     /// One-sample compliance of the rim to a force at an input vector, m/N.
     pub fn folded_compliance(&self, folded: &RimHarmonics, from: &InputVector) -> Amplitudes {
         self.kernels.gather_folded(folded, &from.gain_im)

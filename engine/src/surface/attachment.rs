@@ -147,7 +147,7 @@ pub trait Attachment: Any + Send {
     }
 
     /// Called once a block: zeroes what has decayed. False if a value is not finite.
-    fn settle(&mut self, _body: &mut StruckBody, _contacts: &Contacts) -> bool {
+    fn settle(&mut self, _body: &mut StruckBody, _contacts: &mut Contacts) -> bool {
         true
     }
 

@@ -63,6 +63,24 @@ pub struct Contacts {
 }
 
 impl Contacts {
+    /// Changes the body's displacement; strikers move along, their compressions stay.
+    pub fn carry_by<T>(&mut self, body: &mut StruckBody, change: impl FnOnce(&mut StruckBody) -> T) -> T {
+        self.shift_origins(body, 1.0);
+        let changed = change(body);
+        self.shift_origins(body, -1.0);
+        changed
+    }
+
+    /// Adds a share of the body's present displacement to the origins of the contacts with it.
+    fn shift_origins(&mut self, body: &StruckBody, share: f64) {
+        for n in 0..self.present().len() {
+            let point = self.point_mut(self.present()[n]);
+            if point.ground == Ground::Body {
+                point.origin += share * body.modal().displacement_at(&point.port);
+            }
+        }
+    }
+
     /// No contacts yet, on a body of so many modes; a sample lasts `dt` s. Allocates.
     pub fn new(modes: usize, lossless: bool, dt: f64) -> Contacts {
         Contacts {

@@ -75,7 +75,7 @@ impl Attachment for AttachedRim {
         self.sound.modal.motion()
     }
 
-    fn settle(&mut self, _body: &mut StruckBody, _contacts: &Contacts) -> bool {
+    fn settle(&mut self, _body: &mut StruckBody, _contacts: &mut Contacts) -> bool {
         self.sound.modal.flush_quiet();
         self.sound.modal.is_finite()
     }

@@ -101,17 +101,7 @@ impl Surface {
         else {
             return;
         };
-        for sign in [1.0, -1.0] {
-            for n in 0..contacts.present().len() {
-                let point = contacts.point_mut(contacts.present()[n]);
-                if point.ground == Ground::Body {
-                    point.origin += sign * body.modal().displacement_at(&point.port);
-                }
-            }
-            if sign > 0.0 {
-                body.modal_mut().scale(share);
-            }
-        }
+        contacts.carry_by(body, |body| body.modal_mut().scale(share));
         body.nonlinear_force_mut().into_iter().for_each(|force| force.scale(f64::from(share)));
         attachment.calmed(body);
     }

@@ -5,9 +5,6 @@ use crate::hi_hat::foot::Foot;
 use super::arrival::Arrival;
 use super::rest::Rest;
 
-/// Samples over which the equilibrium follows the rod: a block.
-const FOLLOWING: u32 = 32;
-
 /// The foot, and the equilibrium of the pair.
 pub(crate) struct Pedal {
     pub(crate) foot: Foot,
@@ -45,12 +42,6 @@ impl Pedal {
     /// Whether the rod or the equilibrium moves.
     pub(crate) fn moves(&self) -> bool {
         self.foot.moves() || self.way > 0 || self.arrival.is_some()
-    }
-
-    /// Starts to move to the equilibrium of the present position of the rod.
-    pub(crate) fn set_out(&mut self, goal: Rest) {
-        self.goal_place = self.foot.place();
-        self.lead_to(goal, FOLLOWING);
     }
 
     /// Starts to move to an equilibrium, within so many samples.
