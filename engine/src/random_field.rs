@@ -79,7 +79,7 @@ pub fn components(rms: f64, correlation: f64, seed: u32, body: u32) -> Vec<Compo
     components
 }
 
-/// Two independent draws from a normal distribution (Box & Muller).
+/// Two independent draws from the standard normal distribution, dimensionless (Box & Muller).
 pub fn normal(seed: u32, l: u32, s: u32, body: u32) -> [f64; 2] {
     let [u, v] = [10, 11].map(|what| hash(seed, l, s, what + 16 * body));
     let (sin, cos) = (TAU * v).sin_cos();
