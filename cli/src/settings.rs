@@ -6,7 +6,7 @@ use anyhow::Result;
 use overhear::kit_document::KitDocument;
 use overhear::kit_file;
 use overhear::midi::maps::NoteMap;
-use overhear::midi_map::{NoteTable, Stroke};
+use overhear::midi_map::NoteTable;
 use overhear::parameters::{self, Drives, Manner, SlotParameter, parameters};
 use overhear::presets::{self, Library, Preset};
 use overhear_engine::kit::Control;
@@ -55,11 +55,12 @@ pub fn parse(assignments: &[String], kit: &KitSpec) -> Result<Vec<Setting>> {
     assignments.iter().map(|text| read(text).map_err(|error| bad_input!("{error}"))).collect()
 }
 
-/// The stroke of a note of a kit under the settings' note map, if it sounds.
-pub fn stroke<'a>(settings: &[Setting], notes: &'a NoteTable, note: u8) -> Option<&'a Stroke> {
+/// Whether a note plays something of a kit under the settings' note map: by a stroke or by foot.
+pub fn plays(settings: &[Setting], notes: &NoteTable, note: u8) -> bool {
     let moved = |&&(index, _): &&Setting| parameters()[index].drives == Drives::Playing(Manner::Map);
     let map = settings.iter().rfind(moved).map_or(0, |&(_, value)| value as usize);
-    notes.stroke(NoteMap::ALL.get(map).copied().unwrap_or_default().plays(note)?)
+    let played = NoteMap::ALL.get(map).copied().unwrap_or_default().plays(note);
+    played.is_some_and(|note| notes.stroke(note).is_some() || notes.foot(note).is_some())
 }
 
 /// The kit and the values of `--preset` (a name or a file), `--kit` in place of the preset's kit, `--set` after both.

@@ -64,7 +64,7 @@ pub fn takes(song: &Song, style: &Style) -> Result<Taken> {
         }
         if let Meaning::NoteOn { key, .. } = message.meaning() {
             notes += 1;
-            silent += usize::from(settings::stroke(&style.settings, &style.kit.notes, key).is_none());
+            silent += usize::from(!settings::plays(&style.settings, &style.kit.notes, key));
             last = message.sample;
         }
         messages.push(message);
