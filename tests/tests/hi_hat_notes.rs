@@ -146,12 +146,12 @@ fn a_struck_note_is_closed_or_open_in_5_ms_and_loud_within_8_whatever_the_pedal_
             assert!(expected.contains(&clamped), "{case}: clamped with {clamped} N after 5 ms");
             // Rims that clatter, hats that rang and are closed, and open ones struck hard are about as loud for tens of
             // milliseconds; which of them is loudest is then chance.
-            assert!(ms > 0.5 && ms < 40.0 && over < 1.8, "{case}: loudest after {ms} ms, by {over} dB");
+            assert!(ms > 0.5 && ms < 40.0 && over < 2.5, "{case}: loudest after {ms} ms, by {over} dB");
             late_ones += u32::from(ms >= 8.0);
         }
     }
     println!("{late_ones} of 28 are loudest after 8 ms");
-    assert!(late_ones <= 16, "{late_ones} are loudest after 8 ms");
+    assert!(late_ones <= 12, "{late_ones} are loudest after 8 ms");
 }
 
 #[test]
@@ -211,8 +211,9 @@ fn every_stroke_of_a_fast_pattern_is_heard_at_its_time() {
             match (former, note) {
                 (42 | 46, 42) | (42, 46) => {
                     least = least.min(over);
+                    // After the hardest strokes an open hi-hat rings as loud as the closed stroke that ends it begins.
                     assert!(
-                        over > 0.0,
+                        over > -1.0,
                         "velocity {velocity}: {note} after {former} is {over} dB over what rings"
                     );
                 }
