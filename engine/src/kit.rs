@@ -27,7 +27,7 @@ mod room;
 pub use arrangement::Arrangement;
 pub use control::{Control, Microphone};
 pub use gain::{LOUDEST_DB, SILENT_DB};
-pub use mixer::{Routing, Stereo};
+pub use mixer::{Routing, Stereo, limit};
 pub use render_job::{RenderJob, RenderWorkers};
 
 pub use crate::block::BLOCK;

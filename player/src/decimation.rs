@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use overhear_engine::kit::{OUTPUTS, Stereo};
+use overhear_engine::kit::{OUTPUTS, Stereo, limit};
 use overhear_engine::piece::SAMPLE_RATES;
 
 use crate::performer::Performer;
@@ -101,6 +101,8 @@ fn decimate(taps: &[f32], factor: usize, channel: &mut [f32], heard: &mut [f32])
     let windows = channel.windows(taps.len()).step_by(factor);
     for (heard, window) in heard.iter_mut().zip(windows) {
         *heard = window.iter().zip(taps).map(|(sample, tap)| sample * tap).sum();
+        // The filter overshoots where the engine's ceiling bends the sound.
+        limit(heard);
     }
     let done = heard.len() * factor;
     channel.copy_within(done..done + taps.len() - factor, 0);

@@ -272,8 +272,11 @@ pub(super) struct Bus<'a> {
     pub(super) routing: Routing,
 }
 
-/// Keeps a sample under the ceiling, and says whether it had to be bent: smooth, and no bit changes below.
-fn limit(sample: &mut f32) -> bool {
+/// Keeps a sample under the ceiling of 12 dBFS, and says whether it had to be bent: smooth, and no bit changes below 6 dBFS.
+///
+/// # Real-time
+/// A comparison.
+pub fn limit(sample: &mut f32) -> bool {
     let (knee, top) = CEILING;
     let magnitude = sample.abs();
     let bends = magnitude > knee;

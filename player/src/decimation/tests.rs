@@ -53,6 +53,18 @@ fn the_engine_runs_at_the_lowest_multiple_it_can() {
     assert!(Decimation::new(1).is_none());
 }
 
+#[test]
+fn the_filter_does_not_overshoot_the_ceiling() {
+    let (factor, taps) = (3, low_pass(3));
+    let mut channel = vec![0.0; (SPAN - 1 + CHUNK) * factor];
+    // The worst that a filter can be given.
+    channel.iter_mut().zip(&taps).for_each(|(sample, tap)| *sample = 4.0 * tap.signum());
+    let mut heard = [0.0; CHUNK];
+    decimate(&taps, factor, &mut channel, &mut heard);
+    let loudest = heard.iter().fold(0.0_f32, |most, sample| most.max(sample.abs()));
+    assert!(loudest > 2.0 && loudest < 4.0, "{loudest}");
+}
+
 /// A stroke on the floor tom at 8 kHz, a quarter of a second in buffers of a length, and the same at 24 kHz.
 fn stroke(buffer: usize) -> (Vec<f32>, Vec<f32>) {
     let factor = factor(8000.0).unwrap();
