@@ -109,8 +109,10 @@ impl Ardour {
             let crashed = status.signal().is_some();
             assert!(crashed && attempt < ATTEMPTS, "{name} failed ({status}) at `{steps}`:\n{said}");
             println!("Ardour crashed ({status}) at `{steps}`, attempt {attempt}");
-            if let Some(session) = &before {
-                fs::write(&saved, session).unwrap();
+            match &before {
+                Some(session) => fs::write(&saved, session).unwrap(),
+                // What it had begun to make.
+                None => drop(fs::remove_dir_all(self.session())),
             }
         }
     }
