@@ -10,7 +10,7 @@ use crate::performer::Performer;
 /// Lowest sample rate of a host, Hz: the lowest that validators try is 1,234.
 pub const LOWEST_RATE: f64 = 1000.0;
 
-/// Samples of the host's that the filter spans. *Chosen*: with the window used here, 90 dB of what would fold back below .35 of
+/// Samples of the host's that the filter spans. *Judgement*: with the window used here, 90 dB of what would fold back below .35 of
 /// the rate is kept away.
 const SPAN: usize = 32;
 
