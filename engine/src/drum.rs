@@ -44,7 +44,7 @@ use mode_transfer::ModeTransfer;
 use modes::DrumModes;
 use muffler::MufflerCoefs;
 pub use spec::{DrumSpec, HeadContact, HeadSpec, PitchOf, ResonantSpec, ShellSpec};
-use stretch::Stretch;
+use stretch::Stretched;
 use tuned::{ModeAtPitch, PitchPosition};
 
 /// What a drum's modes and their shapes follow from: the key of the cache.
@@ -203,9 +203,9 @@ impl Drum {
         }
         drum.follow_shapes();
         if !ideal.linear {
-            let (stretch, modes) =
-                Stretch::new(&spec.membrane(&spec.batter), &drum.built, drum.mixed(), pitch);
-            drum.surface.set_potential(Box::new(stretch), modes, stretch::stride(options.sample_rate));
+            let Stretched { potential, modes, above } = Stretched::new(&drum.built, drum.mixed(), pitch);
+            drum.surface.set_potential(Box::new(potential), modes, stretch::stride(options.sample_rate));
+            drum.surface.set_glide(modes, above);
         }
         Ok(drum)
     }

@@ -5,7 +5,8 @@
 //! is made of; their difference has unit mean square and is zero at the rim. It weighs `M / count`, so that
 //! a force sets going as much energy as it would in all of them, and is heard by `sqrt(count)` less than
 //! one mode so moved would be, for real modes do not add in step. It listens to the contact force and does not push
-//! back: the complete set does that. It takes no part in the stretch.
+//! back: the complete set does that. It does not stretch the head, and its frequencies follow the tension of the stretched head
+//! as those of complete modes do ([`HighBand::glide`]).
 //!
 //! With `k` the wavenumber, `s` the film's mass per area, `z` the air on one face,
 //!
@@ -41,8 +42,7 @@
 //! is a baffle: what they lack of the sheet (two thirds, of a drum that stands free; *converged*) follows the force through a
 //! high-pass filter of first order from there.
 //!
-//! Limits: a chance shape per slice is right for the mean over slices and places, not for one; the
-//! head's stretch does not shift them.
+//! Limits: a chance shape per slice is right for the mean over slices and places, not for one.
 //!
 //! Source: Weyl's law as in Rossing & Fletcher, Principles of Vibration and Sound, ch. 3; Cremer, Heckl &
 //! Petersson, Structure-Borne Sound, ch. 6 (radiation of bending waves at an edge). The mean square is derived here.
@@ -54,14 +54,17 @@ use std::f64::consts::{SQRT_2, TAU};
 use crate::air_load::SPEED_OF_SOUND;
 use crate::modal::simd::MAX_RUN;
 use crate::modal::smoothing::Smoothing;
-use crate::modal::{InputVector, MAX_DRIVES, ModalBody, Mode, RECEIVERS, ReceiverWeights};
+use crate::modal::{InputVector, MAX_DRIVES, ModalBody, Mode, RECEIVERS, ReceiverWeights, Row, zero_row};
 use crate::patch_factors::PatchFactors;
 
 pub use slices::{HighBandSpec, Receiver};
-use slices::{Slice, away, endless_sheet, loudness, mode, rim_strip, slices, taken, top_hz};
+use slices::{Slice, away, endless_sheet, loudness, mode, rim_strip, slices, taken, tension_share, top_hz};
 
 /// The slow part of a force below this is nothing, N: 200 dB under a soft stroke.
 const FAINT: f32 = 1e-10;
+
+/// Tension (N/m) that shifts nothing: a thousandth of a cent.
+const NO_TENSION: f64 = 1e-3;
 
 /// A slice fades from full to nothing over this ratio above the top, so that tuning takes it out softly.
 const FADE: f64 = 1.03;
@@ -132,6 +135,9 @@ pub struct HighBand {
     away: f32,
     /// Steps of the sound by retuning.
     smoothing: Smoothing,
+    /// Rise of each slice's frequency per tension that is added to the head's, rad/s over N/m, and by the tension of the present
+    /// block, rad/s.
+    glide: [Row; 2],
     /// Whether anything moves.
     rings: bool,
 }
@@ -163,8 +169,10 @@ impl HighBand {
             places: (0..spec.places.min(MAX_DRIVES)).map(place).collect(),
             follow: (1.0 - (-corner / spec.sample_rate).exp()) as f32,
             smoothing: Smoothing::default(),
+            glide: [zero_row(count), zero_row(count)],
             rings: false,
         };
+        band.body.allow_detuning();
         band.retune(spec.tensions[1], &HighMuffling::NONE);
         band
     }
@@ -174,7 +182,7 @@ impl HighBand {
     /// # Real-time
     /// No allocation; some 200 ns a slice.
     pub fn retune(&mut self, tension: f64, muffling: &HighMuffling) {
-        let HighBand { spec, body, pickup, slices, smoothing, .. } = self;
+        let HighBand { spec, body, pickup, slices, smoothing, glide, .. } = self;
         let before = body.listen(pickup);
         let top = top_hz(spec.sample_rate);
         for (k, (slice, transfer)) in slices.iter().zip(pickup.transfer_mut(0)).enumerate() {
@@ -183,6 +191,7 @@ impl HighBand {
                 let edge = 2.0 * slice.zero * (1.0 - muffling.pad.1);
                 mode.sigma += muffling.even + muffling.pad.0 * (1.0 - libm::j0(edge));
             }
+            glide[0][k] = (mode.omega * tension_share(spec, slice, tension) / (2.0 * tension)) as f32;
             body.set_mode(k, mode);
             let fade = 1.0 - ((mode.omega / (TAU * top) - 1.0) / (FADE - 1.0)).clamp(0.0, 1.0);
             let loud = fade * loudness(spec, slice, mode.omega) / slice.count.sqrt();
@@ -279,6 +288,20 @@ impl HighBand {
                 || self.places.iter().any(|place| place.slow != 0.0);
         }
         self.body.is_finite() && self.places.iter().all(|place| place.slow.is_finite())
+    }
+
+    /// Lets the slices follow a tension (N/m) that is added to the head's for the next block.
+    ///
+    /// # Real-time
+    /// Linear in the number of slices; nothing at rest.
+    pub fn glide(&mut self, added: f64) {
+        if !self.rings || added < NO_TENSION {
+            return self.body.end_detuning();
+        }
+        let [rates, shifts] = &mut self.glide;
+        let added = added as f32;
+        shifts.iter_mut().zip(&**rates).for_each(|(shift, rate)| *shift = rate * added);
+        self.body.shift_frequencies(0, &shifts[..self.slices.len()]);
     }
 
     /// Whether nothing moves.

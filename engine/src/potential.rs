@@ -68,6 +68,9 @@ pub struct Evaluation {
     pub depth: f64,
 }
 
+/// Heads of a drum at most: the struck one and the resonant one.
+pub const HEADS: usize = 2;
+
 /// An energy of the displacements of a body's first modes, in addition to their linear stiffness.
 pub trait Potential: Send {
     /// The energy at `displacement` (m, `[mode]`, padded with more modes than the potential may
@@ -81,6 +84,12 @@ pub trait Potential: Send {
     /// against all the energy there is: a head that sticks hold down hardly moves, however much it is stretched.
     fn is_convex(&self) -> bool {
         false
+    }
+
+    /// Tension that it has added to each head, N/m: the mean over the evaluations since this was last asked for. Modes that it does
+    /// not act on follow it.
+    fn take_tensions(&mut self) -> [f64; HEADS] {
+        [0.0; HEADS]
     }
 }
 
@@ -271,6 +280,12 @@ impl NonlinearForce {
     /// Whether the body rests inside out, where it would hold energy for ever.
     pub fn is_inside_out(&self) -> bool {
         self.safety.is_inside_out()
+    }
+
+    /// See [`Potential::take_tensions`], N/m; none while it rests.
+    pub fn take_tensions(&mut self) -> [f64; HEADS] {
+        let tensions = self.potential.take_tensions();
+        tensions.map(|tension| if self.is_active() { self.stiffness * tension } else { 0.0 })
     }
 
     /// Rests if it has become negligible. Called once a block, so that no sample depends on the size of the host's buffers.

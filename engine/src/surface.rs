@@ -20,6 +20,7 @@ pub mod exciter;
 pub mod incident_field;
 pub mod observer;
 pub mod oscillator;
+mod pitch_glide;
 pub mod local_compliance;
 pub mod rim;
 mod sample;
@@ -34,7 +35,7 @@ use crate::contact::Material;
 use crate::high_band::HighBand;
 use crate::modal::smoothing::Smoothing;
 use crate::modal::{ModalBody, Mode, RECEIVERS};
-use crate::potential::{NonlinearForce, Potential};
+use crate::potential::{HEADS, NonlinearForce, Potential};
 use crate::rim::Rim;
 use crate::shapes::ShapeTable;
 use crate::snapshot::{StrikeSnapshot, WireSnapshot};
@@ -145,6 +146,12 @@ impl Surface {
     /// Lets a potential act on the first `modes`, evaluated once in `stride` samples. Allocates.
     pub fn set_potential(&mut self, potential: Box<dyn Potential>, modes: usize, stride: u32) {
         self.body.set_potential(potential, modes, stride);
+    }
+
+    /// Lets modes from `first` on follow the tension of the heads that the potential stretches; their stiffness per tension is
+    /// dimensionless, `[mode - first][head]`. Allocates.
+    pub fn set_glide(&mut self, first: usize, stiffness: Vec<[f64; HEADS]>) {
+        self.body.set_glide(first, stiffness);
     }
 
     /// Lets energy be carried through the modes above those that the potential acts on, once a block. Allocates.
@@ -400,6 +407,8 @@ impl Surface {
         if let Some(impulse) = self.body.carry() {
             self.smoothing.hold(impulse);
         }
+        let tensions = self.body.glide();
+        self.observers.bands_mut().zip(tensions).for_each(|(band, tension)| band.glide(tension));
         let struck = self.is_struck();
         if !struck && self.body.is_inside_out() {
             // Turned back, as by a drummer. The rest of its motion is cut off.

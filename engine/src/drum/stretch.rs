@@ -1,4 +1,4 @@
-//! The stretch of a displaced head: tension that grows with the square of the displacement.
+//! The stretch of displaced heads: tension that grows with the square of the displacement.
 //!
 //! Model: a head pushed out of its plane is longer; its tension rises, everywhere alike (Berger), by
 //!
@@ -10,14 +10,18 @@
 //! is `S / 4`; past the film's yield strain the tension grows no more. The potential is `A dT S / 4` up
 //! to there and a straight line in `S` beyond: never negative, and its gradient continuous.
 //!
-//! The drum's modes mix the head's, within each order. Modes that are [mixed](super::mixing) of many orders stretch the head
-//! each by itself: what they are made of has nearly one wavenumber, and the sum over all of them is the same. Shares are those of the
-//! default pitch. Modes above 1.5 kHz hold next to none of a stroke's energy and are left out.
+//! The struck head and the resonant head stretch alike, each by its own displacement. The drum's modes mix those of the heads,
+//! within each order. Modes that are [mixed](super::mixing) of many orders stretch a head each by itself: what they are made of has
+//! nearly one wavenumber, and the sum over all of them is the same. Shares are those of the default pitch.
+//!
+//! Modes above 1.5 kHz hold next to none of a stroke's energy: they do not stretch the heads, but their frequencies follow the
+//! tension; [`Stretched::above`] tells by how much.
 //!
 //! Source: Berger, J. Appl. Mech. 22, 1955; Avanzini & Marogna, IEEE TASLP 18, 2010.
 
 use std::collections::BTreeMap;
 
+use crate::drum::heads::TunedHead;
 use crate::drum::mixing::{self, MixedModes};
 use crate::drum::modes::DrumModes;
 use crate::drum::tuned::PitchPosition;
@@ -25,10 +29,10 @@ use crate::membrane::MembraneSpec;
 use crate::modal::simd::blocks::{Block, BlockProduct};
 use crate::modal::simd::{Kernels, LANES};
 use crate::modal::{Row, zero_row};
-use crate::potential::{Evaluation, Potential};
+use crate::potential::{Evaluation, HEADS, Potential};
 use crate::split::Splitting;
 
-/// Modes of the drum up to this stretch the head, Hz. *Converged*: lower, and the dent around a hard
+/// Modes of the drum up to this stretch the heads, Hz. *Converged*: lower, and the dent around a hard
 /// stroke holds too little of its tension; a kick at 6 m/s then glides by half of what it should.
 const LIMIT_HZ: f64 = 1500.0;
 
@@ -45,124 +49,190 @@ pub fn stride(sample_rate: f64) -> u32 {
     ((sample_rate / RATE) as u32).max(1)
 }
 
-/// The members of a mode among the body's, and its shares times the wavenumbers.
-type BentMode = (Vec<u32>, Vec<f64>);
+/// The members of a mode among the body's, and by head its shares times the wavenumbers.
+type BentMode = (Vec<u32>, [Vec<f64>; HEADS]);
 
 /// The stretching energy of one head. `S` is a quadratic form in the drum's modes; only modes of one order
 /// and member meet in it, so its matrix is made of blocks, alike for both members.
-pub struct Stretch {
+struct HeadStretch {
+    /// m2.
+    area: f64,
     /// `A E h / (16 (1 - nu))`: energy over `S^2`, J.
     stiffness: f64,
-    /// `S` at yield.
-    yield_strain: f64,
-    kernels: Kernels,
-    blocks: Vec<Block>,
     /// The blocks' matrices, 1/m2, as [`Kernels::blocks`] wants them.
     matrix: Row,
-    /// The rows of the body's first modes, `[mode]`.
-    rows: Vec<u32>,
-    /// Displacements in the order of the blocks, and their product with the matrix.
-    sorted: Row,
+    /// Displacements in the order of the blocks times the matrix.
     product: Row,
     /// `S` of each mixed mode by itself, 1/m2; they follow the modes of the blocks.
     mixed: Row,
     mixed_product: Row,
+    /// Sum of the tensions of the evaluations since they were asked for, N/m.
+    tension: f64,
 }
 
-impl Stretch {
-    /// The stretch of a drum's batter; the modes of the body are the drum's below the limit at that
-    /// pitch (Hz), pairs as two. Returns it with their number. Allocates.
-    pub fn new(
-        spec: &MembraneSpec,
-        drum: &DrumModes,
-        mixed: Option<&MixedModes>,
-        pitch_hz: f64,
-    ) -> (Stretch, usize) {
+impl HeadStretch {
+    /// Of a head; `rows` in the order of the blocks.
+    fn new(spec: &MembraneSpec, columns: &[f32], rows: usize, mixed: &[f64]) -> HeadStretch {
+        let mut head = HeadStretch {
+            area: spec.area(),
+            stiffness: energy_factor(spec),
+            matrix: zero_row(columns.len()),
+            product: zero_row(rows),
+            mixed: zero_row(mixed.len()),
+            mixed_product: zero_row(mixed.len()),
+            tension: 0.0,
+        };
+        head.matrix.copy_from_slice(columns);
+        head.mixed.iter_mut().zip(mixed).for_each(|(row, square)| *row = *square as f32);
+        head
+    }
+
+    /// Energy, J, and its derivative by `S`, J, at displacements in the order of the blocks and of the mixed modes; leaves half the
+    /// gradient of `S` in the products.
+    fn evaluate(&mut self, kernels: Kernels, blocks: &[Block], sorted: &[f32], mixed: &[f32]) -> (f64, f64) {
+        let HeadStretch { matrix, product, .. } = self;
+        kernels.blocks(BlockProduct { blocks, matrix, x: sorted, y: product });
+        let kept = f64::from(kernels.dot(sorted, product));
+        let rows = self.mixed_product.iter_mut().zip(&*self.mixed).zip(mixed);
+        rows.for_each(|((out, square), q)| *out = square * q);
+        let s = kept + f64::from(kernels.dot(&self.mixed_product, mixed));
+        let most = 4.0 * YIELD_STRAIN;
+        let slope = 2.0 * self.stiffness * s.min(most);
+        self.tension += 2.0 * slope / self.area;
+        let energy = if s <= most { 0.5 * slope * s } else { slope * (s - 0.5 * most) };
+        (energy, slope)
+    }
+}
+
+/// The stretching energy of a drum's heads.
+pub struct Stretch {
+    kernels: Kernels,
+    blocks: Vec<Block>,
+    /// The rows of the body's first modes, `[mode]`.
+    rows: Vec<u32>,
+    /// Displacements in the order of the blocks.
+    sorted: Row,
+    /// The struck one first.
+    heads: Vec<HeadStretch>,
+    /// Evaluations since the tensions were asked for.
+    evaluations: u32,
+}
+
+/// The stretch of a drum, and what it means for modes that do not take part in it.
+pub struct Stretched {
+    /// Acts on the body's first modes.
+    pub potential: Stretch,
+    /// How many.
+    pub modes: usize,
+    /// Of each further mode of the body: its stiffness per tension that is added to each head, dimensionless, `[mode][head]`.
+    pub above: Vec<[f64; HEADS]>,
+}
+
+impl Stretched {
+    /// The stretch of a drum's heads; the modes of the body are the drum's below the limit at that
+    /// pitch (Hz), pairs as two. Allocates.
+    pub fn new(drum: &DrumModes, mixed: Option<&MixedModes>, pitch_hz: f64) -> Stretched {
         let place = drum.heads.scale.place(pitch_hz);
         let limit = std::f64::consts::TAU * LIMIT_HZ;
+        let heads = heads(drum);
         // Modes with their shares times the wavenumbers, by order.
         let mut sorted: BTreeMap<u32, Vec<BentMode>> = BTreeMap::new();
         let mut count = 0;
         let kept = mixed.map_or(drum.modes.len(), |_| drum.kept);
-        for mode in drum.modes[..kept].iter().take_while(|mode| mode.at(&place).omega < limit) {
-            let (first, heads) = drum.heads.batter.order(mode.m);
-            let wave = |i: usize| drum.heads.batter.membrane.modes()[first + i].zero / spec.radius;
-            let bent: Vec<f64> = (0..heads).map(|i| wave(i) * mode.share(i, &place)).collect();
+        for (index, mode) in drum.modes[..kept].iter().enumerate() {
+            if mode.at(&place).omega >= limit {
+                break;
+            }
             let members = count..count + Splitting::ROUND.members(mode.m, 0).count() as u32;
             count = members.end;
-            sorted.entry(mode.m).or_default().push((members.collect(), bent));
+            sorted.entry(mode.m).or_default().push((members.collect(), bent(drum, index, &place)));
         }
-        let (mut blocks, mut columns, mut modes, mut start) = (Vec::new(), Vec::new(), Vec::new(), 0);
-        for (&m, bent) in &sorted {
-            let block = Block { start, size: bent.len(), twice: m > 0 };
+        let (mut blocks, mut modes, mut start) = (Vec::new(), Vec::new(), 0);
+        let mut columns = [const { Vec::new() }; HEADS];
+        for (&m, mode) in &sorted {
+            let block = Block { start, size: mode.len(), twice: m > 0 };
             start += block.rows();
-            for (i, (members, a)) in bent.iter().enumerate() {
+            for (i, (members, a)) in mode.iter().enumerate() {
                 let rows = members.iter().zip((block.start + i..).step_by(block.padded()));
                 modes.extend(rows.map(|(&mode, row)| (mode, row as u32)));
-                let column =
-                    bent.iter().map(|(_, b)| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>() as f32);
-                columns.extend(column);
-                columns.resize(columns.len().div_ceil(LANES) * LANES, 0.0);
+                for (head, columns) in columns.iter_mut().enumerate() {
+                    let along =
+                        |b: &[f64]| a[head].iter().zip(b).map(|(a, b)| a * b).sum::<f64>() as f32;
+                    columns.extend(mode.iter().map(|(_, b)| along(&b[head])));
+                    columns.resize(columns.len().div_ceil(LANES) * LANES, 0.0);
+                }
             }
             blocks.push(block);
         }
         // In the order of the modes, so that their displacements are read in one go.
         modes.sort_unstable();
         let rows = modes.into_iter().map(|(_, row)| row).collect();
-        let mut matrix = zero_row(columns.len());
-        matrix.copy_from_slice(&columns);
         // The body's first modes are all kept ones, then the mixed.
         let all_kept = drum.modes[..drum.kept].iter().all(|mode| mode.at(&place).omega < limit);
-        let mixed = mixed.filter(|_| all_kept);
-        let bent = mixed.map_or_else(Vec::new, |mixed| alone(spec, drum, mixed, &place, limit));
-        let mut alone = zero_row(bent.len());
-        alone.iter_mut().zip(&bent).for_each(|(row, bent)| *row = *bent as f32);
-        let stretch = Stretch {
-            stiffness: energy_factor(spec),
-            yield_strain: 4.0 * YIELD_STRAIN,
+        let below = mixed.filter(|_| all_kept).map_or(0, |mixed| {
+            (0..mixed.len()).take_while(|&k| mixed.at(k, &place).omega < limit).count()
+        });
+        let alone = alone(drum, mixed, &place);
+        let (first, modes) = (count as usize, count as usize + below);
+        let heads = heads.into_iter().enumerate().map(|(head, spec)| {
+            let squares: Vec<f64> = alone[first..modes].iter().map(|squares| squares[head]).collect();
+            HeadStretch::new(spec, &columns[head], start, &squares)
+        });
+        let potential = Stretch {
             kernels: Kernels::detect(),
             blocks,
-            matrix,
             rows,
             sorted: zero_row(start),
-            product: zero_row(start),
-            mixed: alone,
-            mixed_product: zero_row(bent.len()),
+            heads: heads.collect(),
+            evaluations: 0,
         };
-        (stretch, count as usize + bent.len())
-    }
-
-    /// `S` at displacements `q`; leaves half its gradient in `product`, in the order of the blocks.
-    fn form(&mut self, q: &[f32]) -> f64 {
-        for (&row, &q) in self.rows.iter().zip(q) {
-            self.sorted[row as usize] = q;
-        }
-        let Stretch { kernels, blocks, matrix, sorted, product, .. } = self;
-        kernels.blocks(BlockProduct { blocks, matrix, x: sorted, y: product });
-        let kept = f64::from(self.kernels.dot(&self.sorted, &self.product));
-        let rest = &q[self.rows.len()..];
-        self.mixed_product.iter_mut().zip(&*self.mixed).zip(rest).for_each(|((out, a), q)| *out = a * q);
-        kept + f64::from(self.kernels.dot(&self.mixed_product[..self.mixed.len()], rest))
+        let half_areas: Vec<f64> = potential.heads.iter().map(|head| 0.5 * head.area).collect();
+        let above = alone[modes..].iter().map(|squares| {
+            std::array::from_fn(|head| half_areas.get(head).map_or(0.0, |half| half * squares[head]))
+        });
+        Stretched { above: above.collect(), potential, modes }
     }
 }
 
-/// `S` of each mixed mode by itself up to a limit (rad/s), 1/m2, lowest first.
-fn alone(
-    spec: &MembraneSpec,
-    drum: &DrumModes,
-    mixed: &MixedModes,
-    place: &PitchPosition,
-    limit: f64,
-) -> Vec<f64> {
-    let even = mixing::even_modes(drum);
-    let square = |k: usize| -> f64 {
-        let mode = &drum.modes[even[k].pair];
-        let (first, heads) = drum.heads.batter.order(mode.m);
-        let wave = |i: usize| drum.heads.batter.membrane.modes()[first + i].zero / spec.radius;
-        (0..heads).map(|i| (wave(i) * mode.share(i, place)).powi(2)).sum()
+/// The heads, the struck one first.
+fn heads(drum: &DrumModes) -> Vec<&MembraneSpec> {
+    let resonant = drum.heads.resonant.as_ref();
+    [Some(&drum.heads.batter), resonant].into_iter().flatten().map(|head| head.membrane.spec()).collect()
+}
+
+/// Shares of a drum's mode times the wavenumbers, 1/m, by head.
+fn bent(drum: &DrumModes, mode: usize, place: &PitchPosition) -> [Vec<f64>; HEADS] {
+    let mode = &drum.modes[mode];
+    let (_, near) = drum.heads.batter.order(mode.m);
+    let shares = |head: &TunedHead, before: usize| -> Vec<f64> {
+        let (first, count) = head.order(mode.m);
+        let modes = &head.membrane.modes()[first..first + count];
+        let wave = |zero: f64| zero / head.membrane.spec().radius;
+        modes.iter().enumerate().map(|(i, bare)| wave(bare.zero) * mode.share(before + i, place)).collect()
     };
-    let modes = (0..mixed.len()).take_while(|&k| mixed.at(k, place).omega < limit);
-    modes.map(|k| mixed.mixture.parts(k).map(|(part, share)| share * share * square(part)).sum()).collect()
+    let resonant = drum.heads.resonant.as_ref().map_or_else(Vec::new, |head| shares(head, near));
+    [shares(&drum.heads.batter, 0), resonant]
+}
+
+/// `S` of each mode of the body by itself, 1/m2, `[mode][head]`.
+fn alone(drum: &DrumModes, mixed: Option<&MixedModes>, place: &PitchPosition) -> Vec<[f64; HEADS]> {
+    let square = |mode: usize| bent(drum, mode, place).map(|bent| bent.iter().map(|a| a * a).sum::<f64>());
+    let kept = mixed.map_or(drum.modes.len(), |_| drum.kept);
+    let pairs: Vec<[f64; HEADS]> = (0..drum.modes.len()).map(square).collect();
+    let simple = (0..kept).flat_map(|pair| {
+        std::iter::repeat_n(pairs[pair], Splitting::ROUND.members(drum.modes[pair].m, 0).count())
+    });
+    let even = mixing::even_modes(drum);
+    let mixture = |mixed: &MixedModes, k: usize| {
+        let mut sum = [0.0; HEADS];
+        for (part, share) in mixed.mixture.parts(k) {
+            let squares = pairs[even[part].pair];
+            sum.iter_mut().zip(squares).for_each(|(sum, square)| *sum += share * share * square);
+        }
+        sum
+    };
+    let mixed = mixed.into_iter().flat_map(|mixed| (0..mixed.len()).map(move |k| mixture(mixed, k)));
+    simple.chain(mixed).collect()
 }
 
 /// `A E h / (16 (1 - nu))`, J.
@@ -172,24 +242,38 @@ fn energy_factor(spec: &MembraneSpec) -> f64 {
 
 impl Potential for Stretch {
     fn evaluate(&mut self, displacement: &[f32], gradient: &mut [f32]) -> Evaluation {
-        let s = self.form(displacement);
-        let (energy, slope) = if s <= self.yield_strain {
-            (self.stiffness * s * s, 2.0 * self.stiffness * s)
-        } else {
-            let slope = 2.0 * self.stiffness * self.yield_strain;
-            (self.stiffness * self.yield_strain * self.yield_strain + slope * (s - self.yield_strain), slope)
-        };
-        let factor = 2.0 * slope as f32;
-        for (gradient, &row) in gradient.iter_mut().zip(&self.rows) {
-            *gradient = factor * self.product[row as usize];
+        for (&row, &q) in self.rows.iter().zip(displacement) {
+            self.sorted[row as usize] = q;
         }
-        let rest = gradient[self.rows.len()..].iter_mut();
-        rest.zip(&*self.mixed_product).for_each(|(gradient, product)| *gradient = factor * product);
-        Evaluation { energy, depth: 0.0 }
+        let count = self.rows.len();
+        let rest = &displacement[count..];
+        gradient.fill(0.0);
+        self.evaluations += 1;
+        let mut sum = 0.0;
+        for head in &mut self.heads {
+            let (energy, slope) = head.evaluate(self.kernels, &self.blocks, &self.sorted, rest);
+            sum += energy;
+            let factor = 2.0 * slope as f32;
+            for (gradient, &row) in gradient.iter_mut().zip(&self.rows) {
+                *gradient += factor * head.product[row as usize];
+            }
+            let mixed = gradient[count..].iter_mut().zip(&*head.mixed_product);
+            mixed.for_each(|(gradient, product)| *gradient += factor * product);
+        }
+        Evaluation { energy: sum, depth: 0.0 }
     }
 
     fn is_convex(&self) -> bool {
         true
+    }
+
+    fn take_tensions(&mut self) -> [f64; HEADS] {
+        let evaluations = f64::from(std::mem::take(&mut self.evaluations).max(1));
+        let mut means = [0.0; HEADS];
+        for (mean, head) in means.iter_mut().zip(&mut self.heads) {
+            *mean = std::mem::take(&mut head.tension) / evaluations;
+        }
+        means
     }
 }
 
@@ -209,7 +293,7 @@ mod tests {
     }
 
     fn check(spec: &crate::drum::DrumSpec, drum: &DrumModes, mixed: Option<&MixedModes>) {
-        let (mut stretch, modes) = Stretch::new(&spec.membrane(&spec.batter), drum, mixed, spec.pitch_hz);
+        let Stretched { potential: mut stretch, modes, .. } = Stretched::new(drum, mixed, spec.pitch_hz);
         let mut gradient = zero_row(modes);
         let mut scratch = zero_row(modes);
         for size in [1e-4_f32, 3e-3, 3e-2] {
@@ -235,8 +319,7 @@ mod tests {
         let spec = reference::drum("rack-tom");
         let drum = DrumModes::new(&spec).unwrap();
         let mixed = MixedModes::new(&drum, &spec.tension_field.unwrap(), |_| 0.0);
-        let (mut stretch, modes) =
-            Stretch::new(&spec.membrane(&spec.batter), &drum, Some(&mixed), spec.pitch_hz);
+        let Stretched { potential: mut stretch, modes, .. } = Stretched::new(&drum, Some(&mixed), spec.pitch_hz);
         let (mut q, mut gradient) = (zero_row(modes), zero_row(modes));
         for k in 0..modes {
             q[k] = 1e-4;

@@ -126,6 +126,12 @@ pub(super) fn slices(spec: &HighBandSpec) -> Vec<Slice> {
     slices
 }
 
+/// Share of a slice's stiffness that is the head's tension (N/m), dimensionless; the rest is the film's.
+pub(super) fn tension_share(spec: &HighBandSpec, slice: &Slice, tension: f64) -> f64 {
+    let k2 = (slice.zero / spec.head.radius).powi(2);
+    tension / (tension + spec.head.flexural_rigidity() * k2)
+}
+
 /// Undamped angular frequency (rad/s), decay rate by radiation (1/s) and mass per area with its air
 /// (kg/m2) of waves on an endless head, `zero` being `k a`.
 pub(super) fn wave(head: &MembraneSpec, zero: f64, tension: f64) -> (f64, f64, f64) {

@@ -1,6 +1,6 @@
-//! Phases that wander: modes detuned for a while, each to its own side.
+//! Modes that are detuned for a while: phases that wander, and frequencies that follow a head's tension.
 //!
-//! Model: a mode turns by a small angle a sample more than its equation says, or less. If the side is drawn anew after every
+//! Wandering phases: a mode turns by a small angle a sample more than its equation says, or less. If the side is drawn anew after every
 //! interval `T`, a shift of the frequency by `s` (rad/s) lets the phase walk at random: after a time `t` its mean square is
 //! `s^2 T t`, and a line becomes a Lorentzian whose coherence falls by `exp(-D t)`, `D = s^2 T / 2`. Displacement and velocity have
 //! no steps, and no energy changes.
@@ -15,6 +15,9 @@ use super::coefs::DetunedTurns;
 
 /// Signs drawn at once.
 const SIGNS: usize = 32;
+
+/// Largest tangent of half an angle a sample by which a mode is shifted.
+const LARGEST_TANGENT: f32 = 0.5;
 
 impl ModalBody {
     /// Lets modes be detuned. Allocates.
@@ -53,6 +56,37 @@ impl ModalBody {
                         *to_re = re + ((1.0 + re) * added - im * side);
                         *to_im = im + ((1.0 + re) * side + im * added);
                     }
+                }
+            },
+        );
+    }
+
+    /// Shifts the frequencies of all modes from `first` on, each by its own (rad/s,
+    /// `[mode - first]`), until this is called again or [ended](Self::end_detuning). A change of modes ends it. Without effect unless
+    /// [allowed](Self::allow_detuning).
+    ///
+    /// # Real-time
+    /// Linear in the number of modes.
+    pub fn shift_frequencies(&mut self, first: usize, shifts: &[f32]) {
+        let Some(detuning) = &mut self.detuning else { return };
+        let half_dt = (0.5 * self.dt) as f32;
+        let coefs = &self.coefs;
+        detuning.is_active = true;
+        detuning.turn_re[..first].copy_from_slice(&coefs.turn_re[..first]);
+        detuning.turn_im[..first].copy_from_slice(&coefs.turn_im[..first]);
+        let to = (&mut detuning.turn_re[first..], &mut detuning.turn_im[first..]);
+        let from = (&coefs.turn_re[first..], &coefs.turn_im[first..]);
+        self.kernels.vectorized(
+            #[inline(always)]
+            || {
+                let to = to.0.iter_mut().zip(to.1).zip(from.0.iter().zip(from.1));
+                for (((to_re, to_im), (&re, &im)), shift) in to.zip(shifts) {
+                    // Cayley's form of a rotation: of unit length whatever the angle, which it gives to third order.
+                    let tangent = (half_dt * shift).clamp(-LARGEST_TANGENT, LARGEST_TANGENT);
+                    let side = 2.0 * tangent / (1.0 + tangent * tangent);
+                    let added = -tangent * side;
+                    *to_re = re + ((1.0 + re) * added - im * side);
+                    *to_im = im + ((1.0 + re) * side + im * added);
                 }
             },
         );
@@ -119,6 +153,26 @@ mod tests {
         let (coherence, wanted) = (sum / 399.0, (-diffusion * f64::from(blocks) * interval).exp());
         // 399 phases tell it to some hundredths.
         assert!((coherence - wanted).abs() < 0.08, "{coherence} for {wanted}");
+    }
+
+    #[test]
+    fn shifted_modes_ring_higher_by_as_much_and_keep_their_energy() {
+        let (mut body, weights) = body();
+        let (mut still, _) = self::body();
+        let energy = body.energy();
+        // Each by 2 % of its frequency, but the first.
+        let shifts: Vec<f32> = body.modes()[1..].iter().map(|mode| 0.02 * mode.omega as f32).collect();
+        body.shift_frequencies(1, &shifts);
+        ring(&mut body, &weights);
+        ring(&mut still, &weights);
+        assert!((body.energy() / energy - 1.0).abs() < 1e-5, "{} J of {energy} J", body.energy());
+        assert_eq!(body.displacement(0), still.displacement(0));
+        let phase = |body: &ModalBody, k: usize| f64::from(body.state.im[k]).atan2(f64::from(body.state.re[k]));
+        for k in [1, 100, 399] {
+            let wanted = 0.02 * body.modes()[k].omega * RUN as f64 / RATE;
+            let ahead = (phase(&body, k) - phase(&still, k) - wanted).rem_euclid(TAU);
+            assert!(ahead.min(TAU - ahead) < 1e-3 * wanted, "mode {k}: {ahead} rad off {wanted}");
+        }
     }
 
     #[test]

@@ -6,11 +6,12 @@ use crate::modal::inaudible_modes::InaudibleModes;
 use crate::modal::simd::Kernels;
 use crate::modal::sway::Sway;
 use crate::modal::{InputVector, ModalBody, Mode, Pressure, RECEIVERS, ReceiverWeights};
-use crate::potential::{NonlinearForce, Potential};
+use crate::potential::{HEADS, NonlinearForce, Potential};
 use crate::shapes::ShapeTable;
 use crate::transport::{Transport, TransportSpec};
 
 use super::incident_field::{AirLoad, IncidentPressure};
+use super::pitch_glide::PitchGlide;
 
 /// Adds at every receiver, Pa.
 pub fn add(sum: &mut Pressure, more: Pressure) {
@@ -74,6 +75,8 @@ pub struct StruckBody {
     nonlinear_force: Option<NonlinearForce>,
     /// The transport of energy above the modes that the nonlinear force couples, if there is one.
     transport: Option<Transport>,
+    /// Modes that follow the tension of stretched heads, if it has heads.
+    glide: Option<PitchGlide>,
     /// The load of the surrounding air, if sound from elsewhere acts on it.
     air: Option<AirLoad>,
     /// Hz.
@@ -90,6 +93,7 @@ impl StruckBody {
             shapes,
             nonlinear_force: None,
             transport: None,
+            glide: None,
             air: None,
             sample_rate,
         }
@@ -191,6 +195,11 @@ impl StruckBody {
         }
     }
 
+    /// Lets modes above those that the potential acts on follow the tension of the heads; see [`PitchGlide::new`]. Allocates.
+    pub(super) fn set_glide(&mut self, first: usize, stiffness: Vec<[f64; HEADS]>) {
+        self.glide = Some(PitchGlide::new(first, stiffness, &mut self.sound.modal));
+    }
+
     /// Evaluates the nonlinear force once in `stride` samples; for comparisons.
     pub(super) fn set_stride(&mut self, stride: u32) {
         if let Some(force) = &mut self.nonlinear_force {
@@ -238,6 +247,7 @@ impl StruckBody {
         let SoundingBody { modal, receiver } = &self.sound;
         self.nonlinear_force.iter_mut().for_each(|force| force.follow(modal));
         self.transport.iter_mut().for_each(|transport| transport.follow(modal, receiver));
+        self.glide.iter_mut().for_each(|glide| glide.follow(modal));
         self.air.iter_mut().for_each(|air| air.follow(modal, receiver));
     }
 
@@ -344,6 +354,14 @@ impl StruckBody {
             return None;
         }
         transport.carry(&mut self.sound.modal)
+    }
+
+    /// Lets modes follow the tension of the heads over the next block. Returns what is added to each head's, N/m.
+    pub(super) fn glide(&mut self) -> [f64; HEADS] {
+        let (Some(force), Some(glide)) = (&mut self.nonlinear_force, &mut self.glide) else { return [0.0; HEADS] };
+        let tensions = force.take_tensions();
+        glide.shift(tensions, &mut self.sound.modal);
+        tensions
     }
 
     /// Whether it rests inside out.
