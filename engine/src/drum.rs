@@ -44,7 +44,7 @@ use mode_transfer::ModeTransfer;
 use modes::DrumModes;
 use muffler::MufflerCoefs;
 pub use spec::{DrumSpec, HeadContact, HeadSpec, PitchOf, ResonantSpec, ShellSpec};
-use stretch::Stretched;
+use stretch::StretchModel;
 use tuned::{ModeAtPitch, PitchPosition};
 
 /// What a drum's modes and their shapes follow from: the key of the cache.
@@ -203,7 +203,8 @@ impl Drum {
         }
         drum.follow_shapes();
         if !ideal.linear {
-            let Stretched { potential, modes, above } = Stretched::new(&drum.built, drum.mixed(), pitch);
+            let StretchModel { potential, modes, above } =
+                StretchModel::new(&drum.built, drum.mixed(), pitch);
             drum.surface.set_potential(Box::new(potential), modes, stretch::stride(options.sample_rate));
             drum.surface.set_glide(modes, above);
         }

@@ -301,6 +301,7 @@ impl NonlinearForce {
         self.safety.reset();
         self.scalar = Scalar::REST;
         self.sound.reset();
+        self.potential.take_tensions();
     }
 
     /// Before the body steps: evaluates if an evaluation is due. True if `g` has changed.

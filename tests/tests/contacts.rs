@@ -27,9 +27,9 @@ fn energy_stays(rate: f64) {
                 render_into(&mut piece, &mut sound[..run]);
                 done += run;
                 let off = (total_energy(&piece) / brought - 1.0).abs();
-                // Over a second the rounding of the `f32` state adds up, the more the more samples there are.
-                let later = if rate > 100_000.0 { 2e-3 } else { 1e-3 };
-                let (worst, limit) = if early { (&mut worst.0, 1e-4) } else { (&mut worst.1, later) };
+                // The rounding of the `f32` state adds up, the more the more samples there are.
+                let (first, later) = if rate > 100_000.0 { (2e-4, 2e-3) } else { (1e-4, 1e-3) };
+                let (worst, limit) = if early { (&mut worst.0, first) } else { (&mut worst.1, later) };
                 *worst = worst.max(off);
                 assert!(off < limit, "{off:.1e} off after {done} samples: {name} {strike:?}");
             }

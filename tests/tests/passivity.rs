@@ -201,7 +201,8 @@ fn several_strikers_at_once_keep_the_balance() {
 
 #[test]
 fn a_lossless_drum_keeps_its_energy_for_a_second_from_1_to_25_m_s_centre_to_rim() {
-    for rate in [44_100.0, 96_000.0] {
+    // The rounding of the `f32` state adds up, the more the more samples there are.
+    for (rate, limit) in [(44_100.0, 3e-4), (96_000.0, 2e-3)] {
         let mut worst = (0.0_f64, String::new());
         for (slot, _) in standard().drums() {
             let name = &names()[slot.index()];
@@ -220,7 +221,7 @@ fn a_lossless_drum_keeps_its_energy_for_a_second_from_1_to_25_m_s_centre_to_rim(
                         if off > worst.0 {
                             worst = (off, format!("{name} {strike:?}"));
                         }
-                        assert!(off < 1e-3, "{rate}: {off:.1e} off: {name} {strike:?}");
+                        assert!(off < limit, "{rate}: {off:.1e} off: {name} {strike:?}");
                     }
                 }
             }

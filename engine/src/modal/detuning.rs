@@ -167,7 +167,8 @@ mod tests {
         ring(&mut still, &weights);
         assert!((body.energy() / energy - 1.0).abs() < 1e-5, "{} J of {energy} J", body.energy());
         assert_eq!(body.displacement(0), still.displacement(0));
-        let phase = |body: &ModalBody, k: usize| f64::from(body.state.im[k]).atan2(f64::from(body.state.re[k]));
+        let phase =
+            |body: &ModalBody, k: usize| f64::from(body.state.im[k]).atan2(f64::from(body.state.re[k]));
         for k in [1, 100, 399] {
             let wanted = 0.02 * body.modes()[k].omega * RUN as f64 / RATE;
             let ahead = (phase(&body, k) - phase(&still, k) - wanted).rem_euclid(TAU);

@@ -358,7 +358,9 @@ impl StruckBody {
 
     /// Lets modes follow the tension of the heads over the next block. Returns what is added to each head's, N/m.
     pub(super) fn glide(&mut self) -> [f64; HEADS] {
-        let (Some(force), Some(glide)) = (&mut self.nonlinear_force, &mut self.glide) else { return [0.0; HEADS] };
+        let (Some(force), Some(glide)) = (&mut self.nonlinear_force, &mut self.glide) else {
+            return [0.0; HEADS];
+        };
         let tensions = force.take_tensions();
         glide.shift(tensions, &mut self.sound.modal);
         tensions

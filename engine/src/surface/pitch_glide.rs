@@ -1,7 +1,7 @@
 //! Frequencies of modes that follow the tension a stretched head has for the moment.
 //!
 //! Model: tension `dT` that is added to a head stiffens every mode by `s dT`, with `s` from the mode's slopes on that head
-//! ([`Stretched::above`](crate::drum::stretch::Stretched::above)), so that its angular frequency rises by `s dT / (2 M omega)`, to first order.
+//! ([`StretchModel::above`](crate::drum::stretch::StretchModel::above)), so that its angular frequency rises by `s dT / (2 M omega)`, to first order.
 //! Modes that stretch the head themselves get this from the [nonlinear force](crate::potential). The others hold next to no energy:
 //! they turn faster by a rotation ([`ModalBody::shift_frequencies`]), which costs none. `dT` is the mean over the block before,
 //! as a rule two thirds of a millisecond.
