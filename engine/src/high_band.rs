@@ -4,8 +4,9 @@
 //! `count` real ones in it: a random plane wave and its mirror image at the rim, as a diffuse field at a clamped edge
 //! is made of; their difference has unit mean square and is zero at the rim. It weighs `M / count`, so that
 //! a force sets going as much energy as it would in all of them, and is heard by `sqrt(count)` less than
-//! one mode so moved would be, for real modes do not add in step. It listens to the contact force and does not push
-//! back: the complete set does that. It does not stretch the head, and its frequencies follow the tension of the stretched head
+//! one mode so moved would be, for real modes do not add in step. Such modes lose their common phase in the inverse of the
+//! slice's width, so the phase of the one that stands for them walks at random ([`walk`](walk::Walk)), which costs no energy. It listens to
+//! the contact force and does not push back: the complete set does that. It does not stretch the head, and its frequencies follow the tension of the stretched head
 //! as those of complete modes do ([`HighBand::glide`]).
 //!
 //! With `k` the wavenumber, `s` the film's mass per area, `z` the air on one face,
@@ -48,6 +49,7 @@
 //! Petersson, Structure-Borne Sound, ch. 6 (radiation of bending waves at an edge). The mean square is derived here.
 
 mod slices;
+mod walk;
 
 use std::f64::consts::{SQRT_2, TAU};
 
@@ -58,13 +60,13 @@ use crate::modal::{InputVector, MAX_DRIVES, ModalBody, Mode, RECEIVERS, Receiver
 use crate::patch_factors::PatchFactors;
 
 pub use slices::{HighBandSpec, Receiver};
-use slices::{Slice, away, endless_sheet, loudness, mode, rim_strip, slices, taken, tension_share, top_hz};
+use slices::{
+    Slice, away, endless_sheet, loudness, mode, rim_strip, slices, taken, tension_share, top_hz, walk_rate,
+};
+use walk::Walk;
 
 /// The slow part of a force below this is nothing, N: 200 dB under a soft stroke.
 const FAINT: f32 = 1e-10;
-
-/// Tension (N/m) that shifts nothing: a thousandth of a cent.
-const NO_TENSION: f64 = 1e-3;
 
 /// A slice fades from full to nothing over this ratio above the top, so that tuning takes it out softly.
 const FADE: f64 = 1.03;
@@ -100,8 +102,8 @@ pub struct SliceInfo {
 /// A place that is pressed on, and how hard over the present run.
 struct PointBand {
     port: InputVector,
-    /// Pressure at once per unit force, Pa/N: the slices'; an endless sheet's; what of that the complete set lacks.
-    direct: f32,
+    /// Pressure at once per unit force, Pa/N: the slices', near and far; an endless sheet's; what of that the complete set lacks.
+    direct: [f32; 2],
     sheet: f32,
     lacking: f32,
     /// The slow part of the force, N.
@@ -112,10 +114,13 @@ struct PointBand {
 
 impl PointBand {
     /// Adds what follows the forces of the run at once.
-    fn add_direct(&mut self, follow: f32, out: &mut [f32]) {
-        for (out, force) in out.iter_mut().zip(&self.forces) {
+    fn add_direct(&mut self, follow: f32, away: f32, near: &mut [f32], far: &mut [f32]) {
+        let [direct, far_direct] = self.direct;
+        for ((near, far), force) in near.iter_mut().zip(far).zip(&self.forces) {
             self.slow += follow * (force - self.slow);
-            *out += self.direct * force + self.lacking * (force - self.slow);
+            let lacking = self.lacking * (force - self.slow);
+            *near += direct * force + lacking;
+            *far += far_direct * force + away * lacking;
         }
     }
 }
@@ -131,13 +136,14 @@ pub struct HighBand {
     pressed: PatchFactors,
     /// How far the slow part of a force follows it in a sample.
     follow: f32,
-    /// What is heard far away, as at a metre, over what is heard at the point.
+    /// Loudness far away, as at a metre, over that at the point.
     away: f32,
     /// Steps of the sound by retuning.
     smoothing: Smoothing,
-    /// Rise of each slice's frequency per tension that is added to the head's, rad/s over N/m, and by the tension of the present
-    /// block, rad/s.
-    glide: [Row; 2],
+    /// Rise of each slice's frequency per tension that is added to the head's, rad/s over N/m.
+    glide: Row,
+    /// The phases' random walk.
+    walk: Walk,
     /// Whether anything moves.
     rings: bool,
 }
@@ -150,7 +156,7 @@ impl HighBand {
         let count = modes.len();
         let place = |_| PointBand {
             port: InputVector::new(count),
-            direct: 0.0,
+            direct: [0.0; 2],
             sheet: 0.0,
             lacking: 0.0,
             slow: 0.0,
@@ -169,7 +175,8 @@ impl HighBand {
             places: (0..spec.places.min(MAX_DRIVES)).map(place).collect(),
             follow: (1.0 - (-corner / spec.sample_rate).exp()) as f32,
             smoothing: Smoothing::default(),
-            glide: [zero_row(count), zero_row(count)],
+            glide: zero_row(count),
+            walk: Walk::new(count, spec.seed, spec.sample_rate),
             rings: false,
         };
         band.body.allow_detuning();
@@ -182,27 +189,32 @@ impl HighBand {
     /// # Real-time
     /// No allocation; some 200 ns a slice.
     pub fn retune(&mut self, tension: f64, muffling: &HighMuffling) {
-        let HighBand { spec, body, pickup, slices, smoothing, glide, .. } = self;
+        let HighBand { spec, body, pickup, slices, smoothing, glide, walk, away, .. } = self;
         let before = body.listen(pickup);
         let top = top_hz(spec.sample_rate);
-        for (k, (slice, transfer)) in slices.iter().zip(pickup.transfer_mut(0)).enumerate() {
+        for (k, slice) in slices.iter().enumerate() {
             let mut mode = mode(spec, slice, tension);
             if !spec.lossless {
                 let edge = 2.0 * slice.zero * (1.0 - muffling.pad.1);
                 mode.sigma += muffling.even + muffling.pad.0 * (1.0 - libm::j0(edge));
             }
-            glide[0][k] = (mode.omega * tension_share(spec, slice, tension) / (2.0 * tension)) as f32;
+            glide[k] = (mode.omega * tension_share(spec, slice, tension) / (2.0 * tension)) as f32;
+            walk.set(k, walk_rate(slice, mode.omega));
             body.set_mode(k, mode);
             let fade = 1.0 - ((mode.omega / (TAU * top) - 1.0) / (FADE - 1.0)).clamp(0.0, 1.0);
             let loud = fade * loudness(spec, slice, mode.omega) / slice.count.sqrt();
-            let (sin, cos) = slice.heard.sin_cos();
-            *transfer = [loud * cos, loud * sin];
+            for (receiver, (phase, gain)) in slice.heard.into_iter().zip([1.0, f64::from(*away)]).enumerate()
+            {
+                let (sin, cos) = phase.sin_cos();
+                pickup.transfer_mut(receiver)[k] = [gain * loud * cos, gain * loud * sin];
+            }
         }
         body.tune(pickup);
         smoothing.step(before, body.listen(pickup));
         for place in &mut self.places {
             body.connect(&mut place.port);
-            [place.direct, ..] = pickup.direct_at(body, &place.port);
+            let [near, far, _] = pickup.direct_at(body, &place.port);
+            place.direct = [near, far];
         }
     }
 
@@ -226,7 +238,8 @@ impl HighBand {
             *shape = (slice.at(radius, angle) * taken) as f32;
         }
         body.connect(port);
-        [*direct, ..] = pickup.direct_at(body, port);
+        let [near, far, _] = pickup.direct_at(body, port);
+        *direct = [near, far];
     }
 
     /// Tells place `i` what the complete set's pressure is at once per unit force there, Pa/N.
@@ -255,22 +268,19 @@ impl HighBand {
             return;
         }
         let mut sounds = [[0.0; MAX_RUN]; RECEIVERS];
-        let [sound, unheard @ ..] = sounds.each_mut().map(|row| &mut row[..near.len()]);
-        let [far_unheard, few_unheard] = unheard;
+        let [here, there, unheard] = sounds.each_mut().map(|row| &mut row[..near.len()]);
         let pressed = places.iter().filter(|place| place.pressed);
         let drives = pressed.map(|place| (&place.port, &place.forces[..]));
-        body.ring_driven(0, drives, pickup, [&mut *sound, &mut *far_unheard, &mut *few_unheard]);
-        smoothing.add_to(&mut [&mut *sound, far_unheard, few_unheard]);
+        body.ring_driven(0, drives, pickup, [&mut *here, &mut *there, &mut *unheard]);
+        smoothing.add_to(&mut [&mut *here, &mut *there, unheard]);
         for place in places.iter_mut().filter(|place| place.pressed || place.slow != 0.0) {
-            place.add_direct(*follow, sound);
+            place.add_direct(*follow, *away, here, there);
             if std::mem::take(&mut place.pressed) {
                 place.forces.fill(0.0);
             }
         }
-        for ((near, far), sound) in near.iter_mut().zip(far).zip(&*sound) {
-            *near += sound;
-            *far += *away * sound;
-        }
+        near.iter_mut().zip(&*here).for_each(|(near, here)| *near += here);
+        far.iter_mut().zip(&*there).for_each(|(far, there)| *far += there);
     }
 
     /// Zeroes what has decayed to nothing; reports whether all is finite.
@@ -286,21 +296,23 @@ impl HighBand {
             self.rings = !self.body.is_still()
                 || !self.smoothing.is_over()
                 || self.places.iter().any(|place| place.slow != 0.0);
+            if !self.rings {
+                self.body.end_detuning();
+                self.walk.reset();
+            }
         }
         self.body.is_finite() && self.places.iter().all(|place| place.slow.is_finite())
     }
 
-    /// Lets the slices follow a tension (N/m) that is added to the head's for the next block.
+    /// Lets the slices follow a tension (N/m) that is added to the head's for the next block, and their phases take a step.
     ///
     /// # Real-time
     /// Linear in the number of slices; nothing at rest.
     pub fn glide(&mut self, added: f64) {
-        if !self.rings || added < NO_TENSION {
-            return self.body.end_detuning();
+        if !self.rings {
+            return;
         }
-        let [rates, shifts] = &mut self.glide;
-        let added = added as f32;
-        shifts.iter_mut().zip(&**rates).for_each(|(shift, rate)| *shift = rate * added);
+        let shifts = self.walk.step(self.body.kernels(), &self.glide, added as f32);
         self.body.shift_frequencies(0, &shifts[..self.slices.len()]);
     }
 
@@ -312,6 +324,8 @@ impl HighBand {
     /// Puts it to rest.
     pub fn reset(&mut self) {
         self.body.reset();
+        self.body.end_detuning();
+        self.walk.reset();
         self.smoothing = Smoothing::default();
         self.rings = false;
         for place in &mut self.places {

@@ -77,9 +77,9 @@ fn fixed_disc(of: &str, change: impl FnOnce(DrumSpec) -> DrumSpec) -> PieceSpec 
     }
 }
 
-/// The kick with a fixed disc.
+/// The kick with a fixed disc, of 55 Hz.
 pub fn fixed_disc_kick() -> PieceSpec {
-    fixed_disc("kick", |drum| drum)
+    fixed_disc("kick", |drum| DrumSpec { pitch_hz: 55.0, ..drum })
 }
 
 /// The snare with a fixed disc, of 220 Hz, its wires pressed on by 0.15 N.

@@ -64,8 +64,8 @@ pub(super) struct Slice {
     /// Where the wave runs, rad, and its phase.
     pub(super) direction: f64,
     pub(super) phase: f64,
-    /// Phase in which it is heard, and how loud for what the drum's body does to it.
-    pub(super) heard: f64,
+    /// Phases in which it is heard at the point and far away, and how loud for what the drum's body does to it.
+    pub(super) heard: [f64; 2],
     pub(super) gain: f64,
 }
 
@@ -118,7 +118,7 @@ pub(super) fn slices(spec: &HighBandSpec) -> Vec<Slice> {
             count: (modes_below(high) - modes_below(low)).max(1.0),
             direction: TAU * draw(1),
             phase: TAU * draw(2),
-            heard: TAU * draw(3),
+            heard: [TAU * draw(3), TAU * draw(4)],
             gain: gain(spec, omega),
         });
         low = high;
@@ -130,6 +130,12 @@ pub(super) fn slices(spec: &HighBandSpec) -> Vec<Slice> {
 pub(super) fn tension_share(spec: &HighBandSpec, slice: &Slice, tension: f64) -> f64 {
     let k2 = (slice.zero / spec.head.radius).powi(2);
     tension / (tension + spec.head.flexural_rigidity() * k2)
+}
+
+/// Rate at which the modes of a slice lose their common phase, 1/s: the half width in rad/s of a line as wide as the slice
+/// (half power), less the share that each mode has with itself.
+pub(super) fn walk_rate(slice: &Slice, omega: f64) -> f64 {
+    0.5 * std::f64::consts::LN_2 / SLICES * omega * (1.0 - 1.0 / slice.count)
 }
 
 /// Undamped angular frequency (rad/s), decay rate by radiation (1/s) and mass per area with its air

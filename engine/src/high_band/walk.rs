@@ -1,0 +1,81 @@
+//! The random walk of the phases of slices.
+//!
+//! Model: the sum of many modes spread over a width `w` (rad/s) loses the phase that a stroke gave all of them within some `1 / w`. A
+//! single mode does the same if its frequency is shifted by `s` up or down, by a new random sign after every interval `T`: its phase
+//! walks with the diffusion `D = s^2 T / 2`, and its line becomes a Lorentzian of half width `D` at half power. Turning a mode costs no energy.
+//! In a window longer than `1 / D` lines that overlap so are noise, as those of the real modes are.
+
+use fastrand::Rng;
+
+use crate::block::BLOCK;
+use crate::modal::simd::Kernels;
+use crate::modal::{Row, zero_row};
+
+/// Time for which a slice is shifted to one side, s: a block of 44.1 kHz. At its multiples the phases take the same course.
+const INTERVAL: f64 = 32.0 / 44_100.0;
+
+/// Signs drawn at once.
+const SIGNS: usize = 32;
+
+/// The walk of so many slices.
+pub(super) struct Walk {
+    /// Shift to either side, rad/s, `[slice]`.
+    hops: Row,
+    /// Shifts of the present block, rad/s, `[slice]`.
+    shifts: Row,
+    /// Draws a seed for each interval.
+    seeds: Rng,
+    seed: u64,
+    /// Draws the signs of the present interval.
+    signs: u64,
+    /// Blocks of an interval, and how many of the present one are over.
+    blocks: u32,
+    done: u32,
+}
+
+impl Walk {
+    /// Phases that stay; the seed tells heads apart, the sample rate is in Hz. Allocates.
+    pub(super) fn new(slices: usize, seed: u32, sample_rate: f64) -> Walk {
+        let blocks = (INTERVAL * sample_rate / BLOCK as f64).round().max(1.0) as u32;
+        let seed = u64::from(seed);
+        let (hops, shifts) = (zero_row(slices), zero_row(slices));
+        Walk { hops, shifts, seeds: Rng::with_seed(seed), seed, signs: 0, blocks, done: 0 }
+    }
+
+    /// Sets the diffusion (1/s) of a slice's phase.
+    pub(super) fn set(&mut self, slice: usize, diffusion: f64) {
+        self.hops[slice] = (2.0 * diffusion / INTERVAL).sqrt() as f32;
+    }
+
+    /// Begins anew, as after a reset.
+    pub(super) fn reset(&mut self) {
+        (self.seeds, self.done) = (Rng::with_seed(self.seed), 0);
+    }
+
+    /// Shifts of the next block, rad/s: a step of the walk, and an added tension (N/m) times `rates` (rad/s over N/m).
+    ///
+    /// # Real-time
+    /// Linear in the number of slices.
+    pub(super) fn step(&mut self, kernels: Kernels, rates: &[f32], added: f32) -> &[f32] {
+        if self.done == 0 {
+            self.signs = self.seeds.u64(..);
+        }
+        self.done = (self.done + 1) % self.blocks;
+        let mut signs = Rng::with_seed(self.signs);
+        let Walk { hops, shifts, .. } = self;
+        kernels.vectorized(
+            #[inline(always)]
+            || {
+                let rows = hops.chunks(SIGNS).zip(rates.chunks(SIGNS));
+                for (shifts, (hops, rates)) in shifts.chunks_mut(SIGNS).zip(rows) {
+                    let bits = signs.u32(..);
+                    for (i, (shift, (hop, rate))) in shifts.iter_mut().zip(hops.iter().zip(rates)).enumerate()
+                    {
+                        *shift = added * rate + f32::from_bits(hop.to_bits() ^ (bits >> i << 31));
+                    }
+                }
+            },
+        );
+        &self.shifts
+    }
+}
