@@ -29,7 +29,7 @@ use crate::high_band::{HighBand, HighMuffling};
 use crate::instrument::Instrument;
 use crate::modal::Mode;
 use crate::mode::ModeInfo;
-use crate::rim::Rim;
+use crate::rim::{Rim, RimPart};
 use crate::schema::SCHEMA;
 use crate::shapes::ShapeTable;
 use crate::surface::contacts::STRIKER_PLACES;
@@ -198,7 +198,7 @@ impl Drum {
             drum.surface.attach(SnareWires::new(&wires, &resonant.material, ideal.lossless, dt));
         }
         if let Some(hoop) = spec.hoop {
-            let rim = Rim::new(spec.radius(), &hoop, points, ideal.lossless);
+            let rim = Rim::new(spec.radius(), &hoop, spec.cylinder().as_ref(), points, ideal.lossless);
             drum.surface.attach(AttachedRim::new(rim, options.sample_rate));
         }
         drum.follow_shapes();
@@ -376,15 +376,14 @@ impl Instrument for Drum {
             }
         });
         let rim = self.surface.rim().into_iter().flat_map(|rim| &rim.modes).map(|mode| ModeInfo {
-            body: "rim",
+            body: if mode.part == RimPart::Wall { "shell" } else { "rim" },
             m: mode.n,
-            n: 0,
+            n: mode.k,
             member: mode.member,
             frequency_hz: mode.mode.omega_d() / TAU,
             t60: SIGMA_T60 / mode.mode.sigma,
             modal_mass: mode.mode.mass,
-            // The narrow hoop's far field is next to nothing; it is heard from near.
-            radiation: 0.0,
+            radiation: mode.monopole_area(),
             kind: Rim::kind(mode),
         });
         let slices = self.surface.high_bands().take(1).flat_map(HighBand::slices);

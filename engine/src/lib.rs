@@ -31,6 +31,7 @@ pub mod instrument;
 pub mod surface;
 pub mod high_band;
 pub mod rim;
+pub mod shell;
 
 // Heads, plates, cavities: from descriptions to modes, shapes, losses.
 pub mod shapes;

@@ -6,15 +6,14 @@
 //! omega_n^2 = E I / (rho A R^4) * n^2 (n^2 - 1)^2 / (n^2 + 1 + E I / (G J)),   n = 2, 3, ...
 //! ```
 //!
-//! with two members each, and the drum as a whole bouncing on its stand. It is heard as the narrow ring that
-//! the hoop's top is, in a baffle.
+//! with two members each, the drum as a whole bouncing on its stand, and the [wall](crate::shell) of the shell, which a stroke on the hoop bends
+//! by way of the lugs. The hoop is heard as the narrow ring that its top is, in a baffle.
 //!
-//! Neglected: what the rods, the head's pull and the shell add to the hoop, but for its loss; the rim does not move
-//! the head's edge.
+//! Neglected: what the rods and the head's pull add to the hoop, but for its loss; the rim does not move the head's edge.
 //!
 //! Source: Love, The Mathematical Theory of Elasticity, sec. 293 (ring, motion at right angles to its plane).
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::{PI, SQRT_2, TAU};
 
 use serde::{Deserialize, Serialize};
 
@@ -24,6 +23,7 @@ use crate::modal::Mode;
 use crate::mode::{Member, ModeKind};
 use crate::numbers::{Numbers, Visitor};
 use crate::receiver::ReceiverPosition;
+use crate::shell::Cylinder;
 
 /// A hoop's description, and of the stand its drum is on.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -82,15 +82,32 @@ pub struct Rim {
     pub modes: Vec<RimMode>,
 }
 
+/// What of a drum moves in a mode of its rim.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RimPart {
+    /// The whole drum, on its stand.
+    Drum,
+    /// The hoop.
+    Hoop,
+    /// The wall of the shell.
+    Wall,
+}
+
 /// One mode of a rim.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RimMode {
-    /// Waves around; 0 is the drum on its stand.
+    /// What moves.
+    pub part: RimPart,
+    /// Waves around.
     pub n: u32,
+    /// Half waves along the shell; 0 of the hoop.
+    pub k: u32,
     /// Member of the pair.
     pub member: Member,
     /// The motion.
     pub mode: Mode,
+    /// Largest displacement of the hoop per modal displacement, dimensionless.
+    pub largest: f64,
     /// Pressure over modal acceleration at the listening point, Pa s2/m.
     pub transfer: [f64; 2],
     /// The same far away, as at a metre, Pa s2/m.
@@ -99,7 +116,14 @@ pub struct RimMode {
 
 impl Rim {
     /// The rim of a drum of that radius (m), heard from a point near and one far; without losses if asked to.
-    pub fn new(radius: f64, hoop: &HoopSpec, [point, far]: [ReceiverPosition; 2], lossless: bool) -> Rim {
+    pub fn new(
+        radius: f64,
+        hoop: &HoopSpec,
+        shell: Option<&Cylinder>,
+        points: [ReceiverPosition; 2],
+        lossless: bool,
+    ) -> Rim {
+        let [point, far] = points;
         let HoopSpec { material, wall, height, flange, .. } = *hoop;
         let shear = material.youngs_modulus / (2.0 * (1.0 + material.poisson_ratio));
         let area = wall * (height + flange);
@@ -111,9 +135,12 @@ impl Rim {
         let (mass, hz, q) = (hoop.drum_mass, hoop.stand_hz, hoop.stand_q);
         let bounce = Mode { omega: TAU * hz, sigma: loss(TAU * hz, q), mass };
         let mut modes = vec![RimMode {
+            part: RimPart::Drum,
             n: 0,
+            k: 0,
             member: Member::Cosine,
             mode: bounce,
+            largest: 1.0,
             transfer: transfer(radius, point, 0, bounce.omega),
             far_transfer: transfer(radius, far, 0, bounce.omega).map(|h| h * far.distance),
         }];
@@ -127,30 +154,62 @@ impl Rim {
             let heard = transfer(radius, point, n, omega);
             let heard_far = transfer(radius, far, n, omega).map(|h| h * far.distance);
             for member in [Member::Cosine, Member::Sine] {
-                let shown = |point: ReceiverPosition| move |h: f64| h * point.toward(n, member, 0.0);
-                let (transfer, far_transfer) = (heard.map(shown(point)), heard_far.map(shown(far)));
-                modes.push(RimMode { n, member, mode, transfer, far_transfer });
+                let [transfer, far_transfer] = shown([heard, heard_far], points, n, member);
+                let (part, largest) = (RimPart::Hoop, SQRT_2);
+                modes.push(RimMode { part, n, k: 0, member, mode, largest, transfer, far_transfer });
             }
         }
+        shell.into_iter().for_each(|wall| modes.extend(wall_modes(wall, points, lossless)));
         Rim { radius, material, modes }
     }
 
-    /// Shapes at an angle (rad), of unit mean square, `[mode]`.
+    /// Displacement of the hoop at an angle (rad) per modal displacement, `[mode]`.
     pub fn shape(&self, angle: f64, out: &mut [f32]) {
         for (out, mode) in out.iter_mut().zip(&self.modes) {
             let (sin, cos) = (f64::from(mode.n) * angle).sin_cos();
-            *out = match (mode.n, mode.member) {
-                (0, _) => 1.0,
-                (_, Member::Cosine) => (std::f64::consts::SQRT_2 * cos) as f32,
-                (_, Member::Sine) => (std::f64::consts::SQRT_2 * sin) as f32,
+            let around = match mode.member {
+                Member::Cosine => cos,
+                Member::Sine => sin,
             };
+            *out = (mode.largest * around) as f32;
         }
     }
 
     /// What a row of the list of modes says.
     pub fn kind(mode: &RimMode) -> ModeKind {
-        if mode.n == 0 { ModeKind::Rigid } else { ModeKind::Complete }
+        if mode.part == RimPart::Drum { ModeKind::Rigid } else { ModeKind::Complete }
     }
+}
+
+impl RimMode {
+    /// Area of the monopole in a baffle that would be heard as loud far away, in the direction of the overheads, m2.
+    pub fn monopole_area(&self) -> f64 {
+        let [re, im] = self.far_transfer;
+        TAU / DENSITY * re.hypot(im)
+    }
+}
+
+/// What a member shows of its pair at the near and at the far point.
+fn shown(heard: [[f64; 2]; 2], points: [ReceiverPosition; 2], n: u32, member: Member) -> [[f64; 2]; 2] {
+    std::array::from_fn(|i| heard[i].map(|h| h * points[i].toward(n, member, 0.0)))
+}
+
+/// The modes of a shell's wall, members one by one.
+fn wall_modes(
+    wall: &Cylinder,
+    points: [ReceiverPosition; 2],
+    lossless: bool,
+) -> impl Iterator<Item = RimMode> {
+    wall.modes(lossless).into_iter().flat_map(move |own| {
+        let [near, far] = points.map(|point| wall.transfer(&own, point));
+        let heard = [near, far.map(|h| h * points[1].distance)];
+        let members = [Member::Cosine, Member::Sine].into_iter().take(if own.n == 0 { 1 } else { 2 });
+        members.map(move |member| {
+            let [transfer, far_transfer] = shown(heard, points, own.n, member);
+            let (part, largest) = (RimPart::Wall, own.hoop);
+            RimMode { part, n: own.n, k: own.k, member, mode: own.mode, largest, transfer, far_transfer }
+        })
+    })
 }
 
 /// Rayleigh integral over a narrow ring; largest toward the point. The delay from the centre is taken out.
@@ -164,7 +223,7 @@ fn transfer(radius: f64, point: ReceiverPosition, n: u32, omega: f64) -> [f64; 2
         let theta = TAU * (i as f64 + 0.5) / steps as f64;
         let d = (height * height + offset * offset + radius * radius - 2.0 * offset * radius * theta.cos())
             .sqrt();
-        let around = if n == 0 { 1.0 } else { std::f64::consts::SQRT_2 * (f64::from(n) * theta).cos() };
+        let around = if n == 0 { 1.0 } else { SQRT_2 * (f64::from(n) * theta).cos() };
         let (sin_kd, cos_kd) = (k * (point.distance - d)).sin_cos();
         re += around * cos_kd / d;
         im += around * sin_kd / d;
@@ -187,7 +246,7 @@ mod tests {
 
     #[test]
     fn a_snare_hoop_rings_where_hoops_ring() {
-        let rim = Rim::new(0.178, &hoop(), [POINT; 2], false);
+        let rim = Rim::new(0.178, &hoop(), None, [POINT; 2], false);
         let hz = |n: u32| rim.modes.iter().find(|mode| mode.n == n).unwrap().mode.omega / TAU;
         assert!((80.0..250.0).contains(&hz(2)), "{}", hz(2));
         assert!((300.0..800.0).contains(&hz(3)), "{}", hz(3));
@@ -197,7 +256,7 @@ mod tests {
 
     #[test]
     fn shapes_are_of_unit_mean_square() {
-        let rim = Rim::new(0.15, &hoop(), [POINT; 2], false);
+        let rim = Rim::new(0.15, &hoop(), None, [POINT; 2], false);
         let mut sum = vec![0.0_f64; rim.modes.len()];
         let mut out = vec![0.0_f32; rim.modes.len()];
         for i in 0..720 {

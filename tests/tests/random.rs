@@ -240,7 +240,8 @@ fn a_random_drum_tuned_while_it_plays_within_a_fifth_is_the_drum_built_at_that_p
             let mut drum = Drum::new(drum, &context).expect("a drum that can be");
             drum.set_tuning(pitch);
             drum.finish_controls();
-            let of_drum = |mode: &ModeInfo| mode.kind != ModeKind::Sampled && mode.body != "rim";
+            let of_drum =
+                |mode: &ModeInfo| mode.kind != ModeKind::Sampled && !["rim", "shell"].contains(&mode.body);
             drum.modes().into_iter().filter(of_drum).collect()
         };
         let (live, built) = (modes(&live), modes(&built));

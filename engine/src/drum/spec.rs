@@ -11,6 +11,7 @@ use crate::error::SpecError;
 use crate::membrane::MembraneSpec;
 use crate::numbers::{self, Numbers, Visitor};
 use crate::rim::HoopSpec;
+use crate::shell::{Cylinder, WallSpec};
 use crate::split::Splitting;
 use crate::surface::wires::WiresSpec;
 
@@ -127,6 +128,9 @@ pub enum ShellSpec {
         depth: f64,
         /// Quality factor of the enclosed air's modes: losses at the wall and through the vent, 1 to 10,000.
         air_q: f64,
+        /// Its wall, which sounds when the hoop is struck; none of one that does not.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        wall: Option<WallSpec>,
     },
     /// A kettle, closed below.
     Kettle {
@@ -154,9 +158,12 @@ const MODES_TO_HZ: std::ops::RangeInclusive<f64> = 100.0..=4000.0;
 impl Numbers for ShellSpec {
     fn visit(&mut self, visitor: &mut dyn Visitor) {
         match self {
-            ShellSpec::Cylinder { depth, air_q } => {
+            ShellSpec::Cylinder { depth, air_q, wall } => {
                 visitor.number("depth_m", depth, 0.03..=1.0);
                 visitor.number("air_q", air_q, 1.0..=10_000.0);
+                if let Some(wall) = wall {
+                    wall.visit_part("wall", visitor);
+                }
             }
             ShellSpec::Kettle { volume, air_q } => {
                 visitor.number("volume_m3", volume, 1e-3..=0.5);
@@ -250,7 +257,7 @@ impl DrumSpec {
     pub fn cavity(&self) -> Option<CavitySpec> {
         let radius = self.radius();
         Some(match self.shell? {
-            ShellSpec::Cylinder { depth, air_q } => {
+            ShellSpec::Cylinder { depth, air_q, .. } => {
                 let open = self.resonant.is_none();
                 CavitySpec { q: air_q, open, ..CavitySpec::cylinder(radius, depth) }
             }
@@ -267,6 +274,12 @@ impl DrumSpec {
             Some(ShellSpec::Cylinder { depth, .. }) => Outside::Free { length: depth },
             Some(ShellSpec::Kettle { .. }) | None => Outside::Baffle,
         }
+    }
+
+    /// The wall of the shell, if it sounds.
+    pub fn cylinder(&self) -> Option<Cylinder> {
+        let Some(ShellSpec::Cylinder { depth, wall: Some(wall), .. }) = self.shell else { return None };
+        Some(Cylinder { radius: self.radius(), length: depth, wall })
     }
 
     /// Length behind the struck head from whose other end sound comes too, m.

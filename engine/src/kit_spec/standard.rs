@@ -20,6 +20,7 @@ use crate::microphones::CloseSpec;
 use crate::plate::Bell;
 use crate::receiver::ReceiverPosition;
 use crate::rim::HoopSpec;
+use crate::shell::WallSpec;
 use crate::split::Splitting;
 use crate::surface::wires::WiresSpec;
 
@@ -193,6 +194,14 @@ const HOOP: HoopSpec = HoopSpec {
     stand_q: fitted::DRUM_STAND_Q,
 };
 
+/// A wall of maple or birch plies, 6 mm (*trade sizes*); plies along and across the grain (*literature*: 11 and 0.9 GPa, two thirds
+/// along). The quality factor is that of wood (*literature*: 50 to 100), less what lugs and edges take (*judgement*).
+const WALL: WallSpec = WallSpec {
+    material: Material { youngs_modulus: 7.6e9, poisson_ratio: 0.3, density: 680.0 },
+    thickness: 6e-3,
+    q: 40.0,
+};
+
 /// A shell of that size (in) with a batter and a resonant head: pitch, lowest and highest, Hz.
 fn two_headed(
     [diameter_in, depth_in]: [f64; 2],
@@ -208,7 +217,7 @@ fn two_headed(
         pitch_of: PitchOf::BatterAlone,
         batter,
         resonant: Some(resonant),
-        shell: Some(ShellSpec::Cylinder { depth: inches(depth_in), air_q: fitted::AIR_Q }),
+        shell: Some(ShellSpec::Cylinder { depth: inches(depth_in), air_q: fitted::AIR_Q, wall: Some(WALL) }),
         edge: Some(EDGE),
         hoop: None,
         wires: None,

@@ -193,7 +193,8 @@ fn push_all(body: &mut ModalBody) {
 /// Modes of a piece's struck body. Left out are the sampled modes above them, and the modes of other bodies: a rim, a
 /// hi-hat's lower cymbal.
 pub fn body_modes(piece: &Piece) -> Vec<ModeInfo> {
-    let of_body = |mode: &ModeInfo| mode.kind != ModeKind::Sampled && !["rim", "bottom"].contains(&mode.body);
+    let of_body =
+        |mode: &ModeInfo| mode.kind != ModeKind::Sampled && !["rim", "shell", "bottom"].contains(&mode.body);
     piece.modes().into_iter().filter(of_body).collect()
 }
 

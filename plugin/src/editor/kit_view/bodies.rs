@@ -243,7 +243,8 @@ mod tests {
     fn sizes_and_shapes_are_those_that_sound() {
         let mut kit = KitSpec::standard();
         let InstrumentSpec::Drum(drum) = &mut kit.pieces[0].instrument else { panic!("no drum") };
-        (drum.diameter, drum.shell) = (0.508, Some(ShellSpec::Cylinder { depth: 0.4, air_q: 60.0 }));
+        (drum.diameter, drum.shell) =
+            (0.508, Some(ShellSpec::Cylinder { depth: 0.4, air_q: 60.0, wall: None }));
         let InstrumentSpec::Cymbal(crash) = &mut kit.pieces[4].instrument else { panic!("no cymbal") };
         (crash.diameter, crash.bell) = (0.457, None);
         let bodies = Body::all(&kit);
