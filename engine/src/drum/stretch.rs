@@ -348,9 +348,7 @@ mod tests {
         let mut compared = [0; HEADS];
         for (mode, above) in members.skip(first).zip(above) {
             let shares = [mode.batter, mode.resonant];
-            let Some(of) = (0..HEADS).find(|&of| shares[of] > 0.9 && shares[1 - of].abs() < 1e-6) else {
-                continue;
-            };
+            let Some(of) = (0..HEADS).find(|&of| shares[of] > 0.9 && shares[1 - of].abs() < 1e-6) else { continue };
             let (head, spec) = (heads[of], heads[of].membrane.spec());
             let by_tension = above[of] * head.tension(&place);
             let by_bending = above[of].powi(2) / spec.area() * spec.flexural_rigidity();
