@@ -6,7 +6,7 @@ use anyhow::Result;
 use overhear::kit_document::KitDocument;
 use overhear::kit_file;
 use overhear::midi::maps::NoteMap;
-use overhear::midi_map::NoteTable;
+use overhear::midi_map::{Meaning, NoteTable};
 use overhear::parameters::{self, Drives, Manner, SlotParameter, parameters};
 use overhear::presets::{self, Library, Preset};
 use overhear_engine::kit::Control;
@@ -60,7 +60,7 @@ pub fn plays(settings: &[Setting], notes: &NoteTable, note: u8) -> bool {
     let moved = |&&(index, _): &&Setting| parameters()[index].drives == Drives::Playing(Manner::Map);
     let map = settings.iter().rfind(moved).map_or(0, |&(_, value)| value as usize);
     let played = NoteMap::ALL.get(map).copied().unwrap_or_default().plays(note);
-    played.is_some_and(|note| notes.stroke(note).is_some() || notes.foot(note).is_some())
+    played.and_then(|note| notes.row(note)).is_some_and(|row| row.meaning != Meaning::Silent)
 }
 
 /// The kit and the values of `--preset` (a name or a file), `--kit` in place of the preset's kit, `--set` after both.

@@ -84,6 +84,11 @@ pub struct HighMuffling {
 impl HighMuffling {
     /// Nothing.
     pub const NONE: HighMuffling = HighMuffling { even: 0.0, pad: (0.0, 0.0) };
+
+    /// With a decay rate added to every slice, 1/s.
+    pub fn and_even(self, sigma: f64) -> HighMuffling {
+        HighMuffling { even: self.even + sigma, ..self }
+    }
 }
 
 /// A slice as the present tension has it.

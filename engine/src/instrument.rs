@@ -40,7 +40,7 @@ pub trait Instrument: Send {
     /// Asks for muffling, 0 to 1.
     fn set_muffling(&mut self, amount: f64);
 
-    /// Lets a hand take hold of it, from 0 (lets go) to 1 (firmly). Drums are not choked.
+    /// Lets a hand take hold of it, from 0 (lets go) to 1 (firmly).
     fn choke(&mut self, _strength: f64) {}
 
     /// Its number among the pieces of a kit, which share out in turns what need not be done in every block.

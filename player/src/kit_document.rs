@@ -66,7 +66,7 @@ mod tests {
     }
 
     fn row(meaning: Meaning, pedal: Option<f64>) -> Option<Row> {
-        Some(Row { name: "Tested".to_owned(), meaning, pedal })
+        Some(Row { pedal, ..Row::new("Tested", meaning) })
     }
 
     fn stroke(slot: Slot, radius: f64) -> Meaning {
@@ -85,11 +85,14 @@ mod tests {
             (Meaning::Steps(kick, Foot::Chick), None, "notes.3.pedal is given, accepted: only on a hi-hat"),
             (Meaning::Steps(hat, Foot::Position(-1.0)), None, "notes.3.pedal is -1, accepted: 0 to 1"),
             (Meaning::Steps(empty, Foot::Splash), None, "notes.3.piece is not in the kit"),
+            (Meaning::Chokes(kick), None, "notes.3.choke is given, accepted: only on a cymbal"),
+            (Meaning::Chokes(empty), None, "notes.3.piece is not in the kit"),
+            (Meaning::Throws(hat, true), None, "notes.3.wires is given, accepted: only on a drum of the kit"),
         ] {
             let error = refused(|notes| notes.set(3, row(meaning, pedal)));
             assert!(error.contains(says), "{error}");
         }
-        let nameless = Row { name: " ".to_owned(), meaning: Meaning::Silent, pedal: None };
+        let nameless = Row::new(" ", Meaning::Silent);
         assert!(refused(|notes| notes.set(3, Some(nameless))).contains("notes.3.name"));
         assert!(refused(|notes| notes.set_ordinary(kick, Some(38))).contains("notes.kick.ordinary is 38"));
         for (slot, controller) in [(kick, 4), (empty, 16)] {

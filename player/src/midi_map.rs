@@ -8,6 +8,8 @@ use overhear_engine::kit_spec::{Kind, KitSpec};
 use overhear_engine::slot::{SLOTS, Slot};
 use overhear_engine::strike::Striker;
 
+use crate::midi::figures::Figure;
+
 mod standard;
 
 /// MIDI notes.
@@ -70,6 +72,10 @@ pub enum Meaning {
     Strikes(Stroke),
     /// It is the pedal of the hi-hat in a slot.
     Steps(Slot, Foot),
+    /// A hand grips the cymbal in a slot, as firmly as the note is loud, until the cymbal's next stroke.
+    Chokes(Slot),
+    /// The snare wires of the drum in a slot are thrown on or off.
+    Throws(Slot, bool),
     /// It makes no sound.
     Silent,
 }
@@ -83,6 +89,30 @@ pub struct Row {
     pub meaning: Meaning,
     /// Position of a hi-hat's pedal at the stroke, 0 (up) to 1 (down).
     pub pedal: Option<f64>,
+    /// Whether a drum's snare wires lie on at the stroke; none where they are as the player has set them.
+    pub wires: Option<bool>,
+    /// What the stroke is the beginning of, if it is no single one.
+    pub figure: Option<Figure>,
+}
+
+impl Row {
+    /// A row of a meaning, which leaves pedals and wires where they are.
+    pub fn new(name: &str, meaning: Meaning) -> Row {
+        Row { name: name.to_owned(), meaning, pedal: None, wires: None, figure: None }
+    }
+}
+
+impl Meaning {
+    /// The slot of the piece that it is about.
+    pub fn slot(&self) -> Option<Slot> {
+        match *self {
+            Meaning::Strikes(Stroke { slot, .. })
+            | Meaning::Steps(slot, _)
+            | Meaning::Chokes(slot)
+            | Meaning::Throws(slot, _) => Some(slot),
+            Meaning::Silent => None,
+        }
+    }
 }
 
 /// What every note plays on a kit, and which controllers move the places of strokes.
@@ -117,7 +147,7 @@ impl NoteTable {
     pub fn stroke(&self, note: u8) -> Option<&Stroke> {
         match &self.row(note)?.meaning {
             Meaning::Strikes(stroke) => Some(stroke),
-            Meaning::Steps(..) | Meaning::Silent => None,
+            _ => None,
         }
     }
 
@@ -130,7 +160,7 @@ impl NoteTable {
         match row.meaning {
             Meaning::Steps(slot, foot) => Some((slot, foot)),
             Meaning::Strikes(stroke) => Some((stroke.slot, Foot::Position(row.pedal?))),
-            Meaning::Silent => None,
+            _ => None,
         }
     }
 
@@ -207,8 +237,15 @@ impl Row {
             let piece = kit.piece(slot).map(|piece| piece.instrument.kind());
             piece.ok_or_else(|| SpecError::refused("piece", "is not in the kit, accepted: one of its pieces"))
         };
+        self.check_wires(kit)?;
         let stepped = match self.meaning {
-            Meaning::Silent => None,
+            Meaning::Silent | Meaning::Throws(..) => None,
+            Meaning::Chokes(slot) => {
+                if kind(slot)? == Kind::Drum {
+                    return Err(SpecError::refused("choke", "is given, accepted: only on a cymbal"));
+                }
+                None
+            }
             Meaning::Strikes(Stroke { slot, radius, angle, .. }) => {
                 SpecError::check("radius", radius, 0.0, 1.0)?;
                 SpecError::check("angle_rad", angle, -std::f64::consts::TAU, std::f64::consts::TAU)?;
@@ -224,12 +261,35 @@ impl Row {
         if self.pedal.is_some() && !matches!(self.meaning, Meaning::Strikes(_)) {
             return Err(SpecError::refused("pedal", "is given, accepted: only before a stroke"));
         }
+        if self.figure.is_some() && !matches!(self.meaning, Meaning::Strikes(_)) {
+            return Err(SpecError::refused("figure", "is given, accepted: only with a stroke"));
+        }
         SpecError::check("pedal", self.pedal.unwrap_or(0.0), 0.0, 1.0)?;
         match stepped {
             Some(Kind::Drum | Kind::Cymbal) => {
                 Err(SpecError::refused("pedal", "is given, accepted: only on a hi-hat"))
             }
             Some(Kind::HiHat) | None => Ok(()),
+        }
+    }
+
+    /// Checks that wires which a note throws are there.
+    fn check_wires(&self, kit: &KitSpec) -> Result<(), SpecError> {
+        let thrown = match self.meaning {
+            Meaning::Throws(slot, _) => Some(slot),
+            Meaning::Strikes(stroke) if self.wires.is_some() => Some(stroke.slot),
+            _ if self.wires.is_some() => {
+                return Err(SpecError::refused("wires", "is given, accepted: only with a stroke"));
+            }
+            _ => None,
+        };
+        // On a drum without wires it does nothing.
+        let drum = |slot: Slot| kit.piece(slot).is_some_and(|piece| piece.instrument.kind() == Kind::Drum);
+        match thrown {
+            Some(slot) if !drum(slot) => {
+                Err(SpecError::refused("wires", "is given, accepted: only on a drum of the kit"))
+            }
+            _ => Ok(()),
         }
     }
 }

@@ -8,6 +8,8 @@
 //! a command line, hears the same samples.
 
 mod controls;
+mod expressions;
+mod figures;
 mod sounding;
 
 use std::sync::Arc;
@@ -24,7 +26,9 @@ use crate::building::{BuildPlan, Pace};
 use crate::denormals::flushed;
 use crate::kit_document::KitDocument;
 use crate::midi::assignments::Assignments;
-use crate::midi::playing::{Grip, NOTES_OFF_CONTROLLER, Playing, SOUND_OFF_CONTROLLER};
+use crate::midi::expressions::Expressions;
+use crate::midi::figures::Running;
+use crate::midi::playing::{Grip, Handled, Played, Playing};
 use crate::midi_map::Foot;
 use crate::parameters::{
     COUNT, SLOT_COUNT, SlotParameter, default_value, is_live, slot_index, slot_parameter,
@@ -34,9 +38,6 @@ use crate::presets::Program;
 use sounding::{Silencing, tail};
 
 pub use crate::midi::playing::velocity_from_midi;
-
-/// Most semitones of a bend, either way; the pieces' own ranges are narrower.
-const MOST_BEND: f32 = 48.0;
 
 /// Another kit for a performer, worked out beforehand: made by any thread, taken over by the audio thread, dropped by any
 /// other.
@@ -68,10 +69,16 @@ pub struct Performer {
     playing: Playing,
     /// Tuning of the pieces that stand there, before anybody moves it, `[slot]`: Hz of a drum, ratio of a cymbal.
     own: [f64; SLOTS],
-    /// Semitones by which notes bend the pitch of what they struck, `[slot]`.
-    bends: [f64; SLOTS],
+    /// What expressions of notes do to what they struck, `[slot]`.
+    expressions: [Expressions; SLOTS],
     /// Whether anything was played or rendered since the start or the latest reset.
     started: bool,
+    /// Whether snare wires lie on, as the kit was told last, `[slot]`.
+    wires: [bool; SLOTS],
+    /// Rolls and flams that are being played, `[slot]`.
+    figures: [Option<Running>; SLOTS],
+    /// Sample rate, Hz.
+    sample_rate: f64,
     /// The fade of everything that sounds.
     silencing: Silencing,
     /// What outputs of their own are to the mix.
@@ -92,8 +99,11 @@ impl Performer {
             values: [f32::NAN; COUNT],
             playing: Playing::new(Arc::new(document.clone()), assignments),
             own,
-            bends: [0.0; SLOTS],
+            expressions: [Expressions::NONE; SLOTS],
             started: false,
+            wires: [true; SLOTS],
+            figures: [None; SLOTS],
+            sample_rate,
             silencing: Silencing::new(sample_rate),
             routing: Routing::default(),
         };
@@ -130,7 +140,7 @@ impl Performer {
     pub fn change_kit(&mut self, setup: Setup) -> Setup {
         let former = self.playing.change_kit(setup.document);
         let arrangement = flushed(|| self.kit.arrange(setup.arrangement));
-        self.bends = [0.0; SLOTS];
+        self.expressions = [Expressions::NONE; SLOTS];
         for index in 0..SLOT_COUNT {
             // A foot on a hi-hat stays where it is.
             let is_pedal = matches!(slot_parameter(index), Some((_, SlotParameter::Pedal)));
@@ -190,6 +200,12 @@ impl Performer {
     /// # Real-time
     /// No allocation, no lock.
     pub fn note_on(&mut self, note: u8, velocity: f32, channel: u8) -> bool {
+        let Some(velocity) = self.playing.triggered(note, velocity, channel) else { return false };
+        match self.playing.handled(note, velocity, channel) {
+            Some(Handled::Grips(grip)) => self.grip(Some(grip)),
+            Some(Handled::Throws(slot, on)) => self.throw(slot, on),
+            None => {}
+        }
         let foot = self.playing.foot(note, velocity, channel);
         if let Some((slot, foot, speed)) = foot {
             self.step(slot, foot, speed);
@@ -197,17 +213,24 @@ impl Performer {
         let Some(played) = self.playing.note_on(note, velocity, channel) else {
             return foot.is_some();
         };
+        let played = self.begin_figure(played, (note, velocity, channel));
+        self.play(&played);
+        true
+    }
+
+    /// Plays a stroke at the next sample.
+    fn play(&mut self, played: &Played) {
         self.finish_silence();
         self.start();
-        // A bend belongs to the note that made it.
-        self.bend_piece(played.slot, 0.0);
+        // What was done to a note belongs to it.
+        self.express(played.slot, Expressions::NONE);
+        self.throw(played.slot, played.wires.unwrap_or_else(|| self.wires_by_parameter(played.slot)));
         flushed(|| {
             if played.releases {
                 self.kit.choke(played.slot, 0.0);
             }
             self.kit.strike(played.slot, &played.strike);
         });
-        true
     }
 
     /// Strikes the piece of a slot at the next sample as a hand asks, with what its parameter says.
@@ -231,16 +254,6 @@ impl Performer {
     /// No allocation, no lock.
     pub fn aim(&mut self, place: Option<f32>) {
         self.playing.aim(place);
-    }
-
-    /// Bends the pitch of the piece that a note strikes, semitones, within the piece's range and until its next stroke.
-    ///
-    /// # Real-time
-    /// No allocation, no lock.
-    pub fn bend(&mut self, note: u8, semitones: f32, channel: u8) {
-        if let Some(slot) = self.playing.bent(note, channel).filter(|_| !semitones.is_nan()) {
-            self.bend_piece(slot, f64::from(semitones.clamp(-MOST_BEND, MOST_BEND)));
-        }
     }
 
     /// Moves a hi-hat's pedal for a note.
@@ -269,6 +282,7 @@ impl Performer {
     /// # Real-time
     /// No allocation, no lock.
     pub fn note_off(&mut self, note: u8, channel: u8) {
+        self.end_figures(note, channel);
         let grip = self.playing.note_off(note, channel);
         self.grip(grip);
     }
@@ -298,6 +312,8 @@ impl Performer {
     /// # Real-time
     /// No allocation, no lock.
     pub fn notes_off(&mut self) {
+        self.playing.end_notes();
+        self.figures = [None; SLOTS];
         if self.playing.chokes_at_note_off() {
             self.choke_all();
         }
@@ -320,28 +336,6 @@ impl Performer {
     pub fn pressure(&mut self, note: u8, pressure: f32, channel: u8) {
         let grip = self.playing.pressure(note, pressure, channel);
         self.grip(grip);
-    }
-
-    /// Moves a MIDI controller to a value, 0 to 1. All sound off and all notes off (120, 123) end whatever sounds.
-    ///
-    /// # Real-time
-    /// No allocation, no lock.
-    pub fn control_change(&mut self, controller: u8, value: f32, channel: u8) {
-        let silences = matches!(controller, SOUND_OFF_CONTROLLER | NOTES_OFF_CONTROLLER);
-        if silences && self.hears(channel) {
-            self.silence();
-        }
-        self.playing.control_change(controller, value, channel);
-        if let Some(pedal) = self.playing.pedal(controller, value, channel) {
-            self.press_pedals(pedal);
-        }
-    }
-
-    /// Brings the pedals of all hi-hats to a place, 0 (up) to 1 (down).
-    fn press_pedals(&mut self, pedal: f64) {
-        for slot in self.hi_hats().into_iter().flatten() {
-            flushed(|| self.kit.set(Control::Pedal(slot), pedal));
-        }
     }
 
     /// Whether a program change on a channel loads a preset.
@@ -402,13 +396,18 @@ impl Performer {
                 flushed(|| self.kit.set(Control::Pedal(slot), value));
             }
         }
-        Slot::ALL.into_iter().for_each(|slot| self.bend_piece(slot, 0.0));
+        Slot::ALL.into_iter().for_each(|slot| self.express(slot, Expressions::NONE));
         flushed(|| {
             // Whatever hand was on a cymbal is gone with the note it belonged to.
             Slot::ALL.into_iter().for_each(|slot| self.kit.choke(slot, 0.0));
             self.kit.reset();
         });
         self.playing.reset();
+        self.figures = [None; SLOTS];
+        for slot in Slot::ALL {
+            self.apply(slot_index(slot, SlotParameter::Preload));
+            self.throw(slot, self.wires_by_parameter(slot));
+        }
         self.started = false;
     }
 
@@ -435,8 +434,18 @@ impl Performer {
     ///
     /// # Real-time
     /// No allocation, no lock.
-    pub fn render_outputs(&mut self, mut main: Stereo<'_>, outputs: &mut [Stereo<'_>]) {
+    pub fn render_outputs(&mut self, main: Stereo<'_>, outputs: &mut [Stereo<'_>]) {
+        if self.figures.iter().all(Option::is_none) {
+            self.render_stretch(main, outputs);
+        } else {
+            self.render_figures(main, outputs);
+        }
+    }
+
+    /// Renders what no figure's stroke cuts.
+    fn render_stretch(&mut self, mut main: Stereo<'_>, outputs: &mut [Stereo<'_>]) {
         self.start();
+        self.playing.advance(main[0].len().min(main[1].len()), self.sample_rate);
         let faded = self.silencing.head(&mut main, outputs, |main, outputs| {
             flushed(|| self.kit.render_routed(self.routing, main, outputs));
         });
@@ -455,6 +464,7 @@ impl Performer {
 
     /// Fades all that sounds within ten milliseconds and puts every piece to rest; feet and parameters stay where they are.
     fn silence(&mut self) {
+        self.figures = [None; SLOTS];
         if self.started {
             self.silencing.begin();
         }
@@ -469,7 +479,7 @@ impl Performer {
 
     /// Puts every piece to rest.
     fn end_all(&mut self) {
-        Slot::ALL.into_iter().for_each(|slot| self.bend_piece(slot, 0.0));
+        Slot::ALL.into_iter().for_each(|slot| self.express(slot, Expressions::NONE));
         self.playing.let_go();
         flushed(|| {
             Slot::ALL.into_iter().for_each(|slot| self.kit.choke(slot, 0.0));

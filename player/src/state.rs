@@ -14,8 +14,8 @@ use tracing::{error, warn};
 use crate::parameters::{BYPASS_ID, Parameter, default_value, name, parameters};
 
 pub use stored::{
-    KIT_FIELD, NOTES_FIELD, SCHEMA, SCHEMA_FIELD, State, StoredValue, VIEW_FIELD, WINDOW_FIELD, kit,
-    kit_text, notes, notes_text,
+    CALIBRATION_FIELD, KIT_FIELD, NOTES_FIELD, SCHEMA, SCHEMA_FIELD, State, StoredValue, VIEW_FIELD,
+    WINDOW_FIELD, calibration, kit, kit_text, notes, notes_text,
 };
 
 impl State {

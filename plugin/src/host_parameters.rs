@@ -14,6 +14,7 @@ use nice_plug::prelude::*;
 use overhear_engine::error::SpecError;
 
 use crate::guard::caught;
+use crate::incoming::Monitor;
 use crate::outputs::Used;
 use crate::scale::Scale;
 use crate::view::View;
@@ -66,8 +67,9 @@ pub struct HostParameters {
     used: AtomicU32,
     /// The bits of a sample rate that was refused, Hz, with one more above them; 0 if none was.
     refused: AtomicU64,
-    /// Of the screen, for the editor: no parameter either.
+    /// Of the screen, and what arrives, for the editor: no parameters either.
     scale: Scale,
+    monitor: Monitor,
 }
 
 impl Default for HostParameters {
@@ -87,6 +89,7 @@ impl Default for HostParameters {
             used: AtomicU32::new(Used::ALL.0),
             refused: AtomicU64::new(0),
             scale: Scale::default(),
+            monitor: Monitor::default(),
         }
     }
 }
@@ -211,6 +214,11 @@ impl HostParameters {
     /// The user's assignments of notes.
     pub fn assignments(&self) -> Arc<Assignments> {
         self.assignments.clone()
+    }
+
+    /// What arrives.
+    pub fn monitor(&self) -> &Monitor {
+        &self.monitor
     }
 
     /// Whether buffers are ready in time.
@@ -359,6 +367,10 @@ impl HostParameters {
             fields.insert(state::VIEW_FIELD.to_owned(), view);
         }
         fields.insert(state::NOTES_FIELD.to_owned(), state::notes_text(&self.assignments.changed()));
+        let learned = self.assignments.calibration().learned().to_text();
+        if !learned.is_empty() {
+            fields.insert(state::CALIBRATION_FIELD.to_owned(), learned);
+        }
         fields.extend(state::kit_text(&self.document()).map(|text| (state::KIT_FIELD.to_owned(), text)));
         fields
     }
@@ -380,6 +392,9 @@ impl HostParameters {
         // A state older than assignments has none.
         let notes = fields.get(state::NOTES_FIELD).map(|text| state::notes(text)).unwrap_or_default();
         self.assignments.replace(&notes);
+        // And one older than calibration, or of an instance without any, has none.
+        let learned = fields.get(state::CALIBRATION_FIELD).map(|text| state::calibration(text));
+        self.assignments.calibration().replace(&learned.unwrap_or_default());
         // A state older than views has none.
         let view = fields.get(state::VIEW_FIELD).and_then(|text| deserialize_field(text).ok());
         self.set_view(view.map_or_else(View::default, View::from_stored));

@@ -11,6 +11,7 @@ pub mod bypass;
 pub mod editor;
 pub mod guard;
 pub mod host_parameters;
+mod incoming;
 pub mod monitor;
 pub mod outputs;
 pub mod plugin;

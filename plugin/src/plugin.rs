@@ -32,8 +32,10 @@ use overhear_player::performer::Performer;
 use overhear_player::strokes::{self, Strokes, Waiting};
 
 mod events;
+mod sounding;
 
 use events::play;
+use sounding::Sounding;
 
 /// How long activation waits for the pieces.
 ///
@@ -68,6 +70,7 @@ pub struct Instrument<O> {
 /// A performer, where its pieces come from, and the host's sample rate.
 struct Stage {
     performer: Performer,
+    sounding: Sounding,
     /// For a host whose sample rate is too low for the engine.
     decimation: Option<Decimation>,
     delivery: Delivery,
@@ -179,6 +182,7 @@ impl<O: Outputs> Plugin for Instrument<O> {
                 stage.bypass.settle(bypassed);
                 stage.guarded(|stage| {
                     stage.performer.reset();
+                    stage.sounding.forget();
                     stage.decimation.iter_mut().for_each(Decimation::reset);
                 });
             }
@@ -204,9 +208,14 @@ impl<O: Outputs> Plugin for Instrument<O> {
                     self.waiting.deliver(&mut stage.performer);
                     // A program of its own has nobody who times whole buffers.
                     self.parameters.deadlines().bounded(buffers.len(), || {
-                        let Stage { performer, decimation, .. } = stage;
+                        let Stage { performer, sounding, decimation, .. } = stage;
                         let next_event = || context.next_event();
-                        play(performer, decimation.as_mut(), &mut buffers, &self.parameters, next_event);
+                        let parameters = &self.parameters;
+                        play(performer, sounding, decimation.as_mut(), &mut buffers, parameters, next_event);
+                        // A host without room for it asks for nothing.
+                        sounding.tell(|event| {
+                            let _ = context.try_send_event(event);
+                        });
                     });
                     stage.bypass.apply(bypassed, buffers.channels());
                     let (heard, _) = buffers.stretch(0, buffers.len());
@@ -269,8 +278,11 @@ impl<O: Outputs> Instrument<O> {
             performer.route(Routing::Instead);
             let bypass = Bypass::new(sample_rate, self.parameters.is_bypassed());
             let decimation = Decimation::new(factor);
-            self.stage = Some(Stage { performer, decimation, delivery, sample_rate, bypass, broken: false });
+            let sounding = Sounding::default();
+            self.stage =
+                Some(Stage { performer, sounding, decimation, delivery, sample_rate, bypass, broken: false });
             self.publisher.set_sample_rate(f64::from(sample_rate));
+            self.parameters.monitor().set_rate(f64::from(sample_rate));
         }
         self.follow();
         true

@@ -64,7 +64,10 @@ impl Session {
             500..600 => {
                 let (number, channel) = (self.chance.below(256) as u8, self.chance.below(20) as u8);
                 let value = self.chance.of(&[f32::NAN, -1.0, 0.0, 0.3, 1.0, 9.0]);
-                match self.chance.below(6) {
+                match self.chance.below(9) {
+                    6 => self.performer.scale(number, value, channel),
+                    7 => self.performer.pan(number, value, channel),
+                    8 => self.performer.move_hand(number, value, channel),
                     4 => self.performer.aim(Some(value)),
                     5 => self.performer.bend(number, 40.0 * value, channel),
                     0 => self.performer.note_off(number, channel),

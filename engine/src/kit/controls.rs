@@ -41,7 +41,7 @@ impl Kit {
         }
     }
 
-    /// Chokes a cymbal by hand, from 0 (free) to 1 (firmly held); see [`Piece::choke`]. A NaN is ignored.
+    /// Chokes a cymbal or damps a head by hand, from 0 (free) to 1 (firmly held); see [`Piece::choke`]. A NaN is ignored.
     ///
     /// # Real-time
     /// No allocation, no lock.

@@ -25,8 +25,8 @@ impl Piece {
         self.instrument.set_muffling(amount);
     }
 
-    /// Lets a hand take hold of a cymbal, firmly at 1, or let go of it, 0. Closes over some 25 ms from
-    /// this sample on; takes energy and gives none. Drums are not choked.
+    /// Lets a hand take hold of a cymbal or lie on a drum's batter head, firmly at 1, or let go of it, 0. Closes over some 25 ms from
+    /// this sample on; takes energy and gives none.
     ///
     /// # Real-time
     /// No allocation, no lock.

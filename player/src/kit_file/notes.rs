@@ -13,7 +13,7 @@ use crate::kit_document::KitDocument;
 use crate::midi_map::{Meaning, NOTES, NoteTable, Row, Stroke};
 
 use super::drafts::{Draft, NONE};
-use super::error::Fault;
+use super::error::{Fault, quoted};
 use super::source::Origins;
 use super::typed;
 
@@ -96,10 +96,14 @@ impl Reader<'_> {
                     keeps(stroke.slot).map(|slot| Meaning::Strikes(Stroke { slot, ..stroke }))
                 }
                 Meaning::Steps(slot, foot) => keeps(slot).map(|slot| Meaning::Steps(slot, foot)),
+                Meaning::Chokes(slot) => keeps(slot).map(Meaning::Chokes),
+                Meaning::Throws(slot, on) => keeps(slot).map(|slot| Meaning::Throws(slot, on)),
                 Meaning::Silent => None,
             };
-            let pedal = row.pedal.filter(|_| meaning.is_some());
-            let row = Row { name: row.name.clone(), meaning: meaning.unwrap_or(Meaning::Silent), pedal };
+            let (pedal, wires, figure) =
+                meaning.map_or((None, None, None), |_| (row.pedal, row.wires, row.figure));
+            let meaning = meaning.unwrap_or(Meaning::Silent);
+            let row = Row { name: row.name.clone(), meaning, pedal, wires, figure };
             table.set(note, Some(row));
         }
         for (old, piece) in start.kit.slots() {
@@ -182,9 +186,10 @@ impl Reader<'_> {
         let known = self.known(note, piece.instrument.kind());
         let known_name = || known.map_or_else(|| piece.title.clone(), |row| row.name.clone());
         let name = entry.name.clone().unwrap_or_else(known_name);
-        let places =
-            [entry.at.is_some(), entry.angle_rad.is_some(), entry.stick.is_some(), entry.pedal.is_some()];
-        let is_stroke = places.contains(&true);
+        let is_stroke = entry.is_stroke();
+        if let Some(meaning) = self.by_hand(&entry, path, slot, known)? {
+            return Ok((note, Row::new(&name, meaning), entry.ordinary));
+        }
         let steps = match (entry.foot, known.map(|row| row.meaning)) {
             (Some(_), _) if is_stroke => {
                 let reason = "is given with a stroke, accepted: foot alone, or at, angle_rad, stick, pedal";
@@ -195,11 +200,7 @@ impl Reader<'_> {
             (None, _) => None,
         };
         if let Some(foot) = steps {
-            return Ok((
-                note,
-                Row { name, meaning: Meaning::Steps(slot, foot), pedal: None },
-                entry.ordinary,
-            ));
+            return Ok((note, Row::new(&name, Meaning::Steps(slot, foot)), entry.ordinary));
         }
         let as_known = known.filter(|row| matches!(row.meaning, Meaning::Strikes(_))).unwrap_or(usual);
         let Meaning::Strikes(stroke) = as_known.meaning else {
@@ -209,18 +210,49 @@ impl Reader<'_> {
         let radius = entry.at.unwrap_or(stroke.radius);
         let angle = entry.angle_rad.unwrap_or(stroke.angle);
         let meaning = Meaning::Strikes(Stroke { slot, radius, angle, striker });
-        Ok((note, Row { name, meaning, pedal: entry.pedal.unwrap_or(as_known.pedal) }, entry.ordinary))
+        let (pedal, wires) = (entry.pedal.unwrap_or(as_known.pedal), entry.wires.or(as_known.wires));
+        let figure = entry.figure(path, self.origins)?.or(as_known.figure);
+        Ok((note, Row { name, meaning, pedal, wires, figure }, entry.ordinary))
+    }
+
+    /// What a hand does instead of a stroke, if the entry or what is known of its note says so.
+    fn by_hand(
+        &self,
+        entry: &Entry,
+        path: &str,
+        slot: Slot,
+        known: Option<&Row>,
+    ) -> Result<Option<Meaning>, Fault> {
+        let Some(hand) = &entry.hand else {
+            let nothing = !entry.is_stroke() && entry.foot.is_none();
+            return Ok(known.filter(|_| nothing).and_then(|row| match row.meaning {
+                Meaning::Chokes(_) => Some(Meaning::Chokes(slot)),
+                Meaning::Throws(_, on) => Some(Meaning::Throws(slot, on)),
+                _ => None,
+            }));
+        };
+        let path = format!("{path}.hand");
+        if entry.is_stroke() || entry.foot.is_some() {
+            return Err(Fault::of(
+                &path,
+                self.origins,
+                "is given with a stroke or a foot, accepted: hand alone",
+            ));
+        }
+        let meaning =
+            entry::HANDS.into_iter().find(|(name, _)| name == hand).map(|(_, meaning)| meaning(slot));
+        let refused = || {
+            let names = entry::HANDS.map(|(name, _)| name).join(", ");
+            Fault::of(&path, self.origins, &format!("is {}, accepted: {names}", quoted(hand)))
+        };
+        meaning.map(Some).ok_or_else(refused)
     }
 
     /// What a note plays in the start, if it is on a piece of that kind.
     fn known(&self, note: u8, kind: Kind) -> Option<&Row> {
         let KitDocument { kit, notes } = self.start?;
         let row = notes.row(note)?;
-        let slot = match row.meaning {
-            Meaning::Strikes(stroke) => stroke.slot,
-            Meaning::Steps(slot, _) => slot,
-            Meaning::Silent => return None,
-        };
+        let slot = row.meaning.slot()?;
         (kit.piece(slot)?.instrument.kind() == kind).then_some(row)
     }
 
@@ -248,7 +280,7 @@ impl Reader<'_> {
         };
         // The slot is that of whoever asks.
         let stroke = Stroke { slot: Slot::ALL[0], radius, angle: 0.0, striker };
-        Row { name: piece.title.clone(), meaning: Meaning::Strikes(stroke), pedal: None }
+        Row::new(&piece.title, Meaning::Strikes(stroke))
     }
 
     fn silence(
@@ -275,8 +307,8 @@ impl Reader<'_> {
                 return Err(Fault::of(&path, self.origins, &reason));
             };
             claims.take(note, &path, self.origins)?;
-            let name = typed::read(name, &path, &[], self.origins)?;
-            table.set(note, Some(Row { name, meaning: Meaning::Silent, pedal: None }));
+            let name: String = typed::read(name, &path, &[], self.origins)?;
+            table.set(note, Some(Row::new(&name, Meaning::Silent)));
         }
         Ok(())
     }
@@ -296,6 +328,9 @@ fn in_file(error: SpecError, claims: &Claims, origins: &Origins) -> SpecError {
         Some(silent) if silent.starts_with("silent") => silent.to_owned(),
         // Two names of the table's are others in a file.
         Some(entry) if what == "radius" => format!("{entry}.at"),
+        Some(entry) if matches!(what, "choke" | "wires") && origins.has(&format!("{entry}.hand")) => {
+            format!("{entry}.hand")
+        }
         Some(entry) if what == "pedal" && origins.has(&format!("{entry}.foot")) => format!("{entry}.foot"),
         Some(entry) => format!("{entry}.{what}"),
         None if of.parse::<u8>().is_ok() => format!("notes.{field}"),

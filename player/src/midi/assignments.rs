@@ -7,6 +7,8 @@ use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hasher};
 use std::sync::atomic::{AtomicU8, Ordering};
 
+use super::calibration::{Calibration, Learned};
+
 pub use crate::midi_map::NOTES;
 
 /// Stored for a note that follows its map.
@@ -67,16 +69,30 @@ impl Assignment {
     }
 }
 
-/// Assignments of all notes, and the reference note that waits for a pad.
+/// Assignments of all notes, the reference note that waits for a pad, and the calibration of pads and pedal.
 #[derive(Debug)]
 pub struct Assignments {
     notes: [AtomicU8; NOTES],
     learning: AtomicU8,
+    calibration: Calibration,
+}
+
+/// All that a user has taught an instance about what arrives.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Taught {
+    /// Every note that does not follow its map.
+    pub notes: BTreeMap<u8, Assignment>,
+    /// What was learned of pads and pedal.
+    pub calibration: Learned,
 }
 
 impl Default for Assignments {
     fn default() -> Self {
-        Assignments { notes: [const { AtomicU8::new(MAPPED) }; NOTES], learning: AtomicU8::new(IDLE) }
+        Assignments {
+            notes: [const { AtomicU8::new(MAPPED) }; NOTES],
+            learning: AtomicU8::new(IDLE),
+            calibration: Calibration::default(),
+        }
     }
 }
 
@@ -109,11 +125,28 @@ impl Assignments {
         Some(self.learning.load(Ordering::Relaxed)).filter(|&note| note != IDLE)
     }
 
-    /// A number that changes with whatever is assigned or waits to be learned.
+    /// The calibration of pads and pedal.
+    pub fn calibration(&self) -> &Calibration {
+        &self.calibration
+    }
+
+    /// All that the user has taught.
+    pub fn taught(&self) -> Taught {
+        Taught { notes: self.changed(), calibration: self.calibration.learned() }
+    }
+
+    /// Puts this in place of all that the user has taught.
+    pub fn teach(&self, taught: &Taught) {
+        self.replace(&taught.notes);
+        self.calibration.replace(&taught.calibration);
+    }
+
+    /// A number that changes with whatever is assigned, calibrated or waits to be learned.
     pub fn fingerprint(&self) -> u64 {
         let bytes = self.notes.iter().chain([&self.learning]).map(|byte| byte.load(Ordering::Relaxed));
         let mut hasher = DefaultHasher::new();
         bytes.for_each(|byte| hasher.write_u8(byte));
+        self.calibration.words().for_each(|word| hasher.write_u64(word));
         hasher.finish()
     }
 

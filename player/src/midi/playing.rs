@@ -5,21 +5,24 @@
 //! Nothing here touches the engine: what comes out is a [`Played`] note or a [`Grip`] for the performer to pass on.
 
 mod arm;
+mod controllers;
+mod triggers;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use fastrand::Rng;
-use overhear_engine::hi_hat::TOUCHING;
 use overhear_engine::kit_spec::Kind;
 use overhear_engine::slot::{SLOTS, Slot};
 use overhear_engine::strike::{Strike, Striker};
 
 use super::assignments::{Assignment, Assignments};
+use super::figures::Figure;
 use super::maps::NoteMap;
 use crate::kit_document::KitDocument;
-use crate::midi_map::{Foot, POSITION_CONTROLLERS, Stroke, reach};
+use crate::midi_map::{POSITION_CONTROLLERS, Stroke, reach};
 use arm::{Arm, Limb};
+use triggers::Triggers;
 
 /// Stick speed of the softest note, m/s. *By ear*: the faintest tap a pad reports.
 pub const SOFTEST: f64 = 0.4;
@@ -55,6 +58,12 @@ const FOOT: (f64, f64) = (0.15, 2.0);
 /// Controller that carries the lower seven bits of the next note's velocity (MMA CA-031).
 pub const FINE_VELOCITY_CONTROLLER: u8 = 88;
 
+/// Controller of the force of snare wires' strainers: from the weakest to the strongest.
+pub const STRAINER_CONTROLLER: u8 = 20;
+
+/// Controller of snare wires' throw-offs: off below 64.
+pub const THROW_OFF_CONTROLLER: u8 = 80;
+
 /// Silences everything at once.
 pub const SOUND_OFF_CONTROLLER: u8 = 120;
 
@@ -62,8 +71,18 @@ pub const SOUND_OFF_CONTROLLER: u8 = 120;
 pub const NOTES_OFF_CONTROLLER: u8 = 123;
 
 /// Every controller that acts.
-pub const CONTROLLERS: [u8; 8] =
-    [PEDAL_CONTROLLER, 16, 17, 18, 19, FINE_VELOCITY_CONTROLLER, SOUND_OFF_CONTROLLER, NOTES_OFF_CONTROLLER];
+pub const CONTROLLERS: [u8; 10] = [
+    PEDAL_CONTROLLER,
+    16,
+    17,
+    18,
+    19,
+    FINE_VELOCITY_CONTROLLER,
+    SOUND_OFF_CONTROLLER,
+    NOTES_OFF_CONTROLLER,
+    STRAINER_CONTROLLER,
+    THROW_OFF_CONTROLLER,
+];
 
 /// A MIDI velocity, 0 to 127, as a share of full velocity.
 pub fn velocity_from_midi(velocity: u8) -> f32 {
@@ -84,7 +103,7 @@ fn position_of(controller: u8) -> Option<usize> {
     POSITION_CONTROLLERS.contains(&controller).then(|| usize::from(controller - POSITION_CONTROLLERS.start()))
 }
 
-/// Which events let a hand grip a cymbal.
+/// Which events let a hand grip a cymbal; pressure also lays one on a head.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ChokeRule {
     /// None.
@@ -107,13 +126,22 @@ impl ChokeRule {
     pub const NAMES: [&'static str; 4] = ["off", "pressure", "note-off", "both"];
 }
 
-/// A hand on a cymbal.
+/// A hand on a cymbal or on a head.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Grip {
-    /// Slot of the cymbal.
+    /// Slot of the cymbal, or of the drum whose head it lies on.
     pub slot: Slot,
     /// How firmly, from 0 (let go) to 1.
     pub strength: f64,
+}
+
+/// What a note comes to that is no stroke.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Handled {
+    /// A hand grips a cymbal.
+    Grips(Grip),
+    /// Snare wires were thrown: those of this slot, on or off.
+    Throws(Slot, bool),
 }
 
 /// What a note comes to.
@@ -125,6 +153,10 @@ pub struct Played {
     pub strike: Strike,
     /// Whether a hand that gripped the piece at the end of an earlier note lets go first.
     pub releases: bool,
+    /// Whether the drum's wires lie on at the stroke; none where the parameter says.
+    pub wires: Option<bool>,
+    /// What the stroke is the beginning of, if it is no single one.
+    pub figure: Option<Figure>,
 }
 
 /// What the parameters say of playing.
@@ -179,12 +211,18 @@ struct PlayingState {
     positions: [Option<f64>; 4],
     /// Where the next stroke lands, 0 to 1, if its note says.
     aim: Option<f64>,
+    /// Where a hand was moved while its note lasts: the note and the place, 0 to 1, `[slot]`.
+    hands: [Option<(u8, f64)>; SLOTS],
     /// Velocity to add to the next note, `[channel]`.
     fine: [f32; CHANNELS],
     /// Gripped by the end of a note, until the next stroke, `[slot]`.
     gripped: [bool; SLOTS],
     /// Where a controller has the hi-hats' pedals, 0 (up) to 1 (down), if one plays them.
     pedal: Option<f64>,
+    /// The pedal's latest reading that was no noise, 0 to 1.
+    reading: Option<f32>,
+    /// Whether a note or a controller has thrown wires on or off, `[slot]`.
+    thrown: [Option<bool>; SLOTS],
     /// Where the random numbers stand from which the unevenness of strokes is drawn.
     seed: u64,
     /// Strokes of hands so far.
@@ -195,9 +233,12 @@ impl PlayingState {
     const REST: PlayingState = PlayingState {
         positions: [None; 4],
         aim: None,
+        hands: [None; SLOTS],
         fine: [0.0; CHANNELS],
         gripped: [false; SLOTS],
         pedal: None,
+        reading: None,
+        thrown: [None; SLOTS],
         seed: 0,
         by_hand: 0,
     };
@@ -210,12 +251,14 @@ pub struct Playing {
     document: Arc<KitDocument>,
     assignments: Arc<Assignments>,
     state: PlayingState,
+    triggers: Triggers,
 }
 
 impl Playing {
     /// A player of the default style at a kit.
     pub fn new(document: Arc<KitDocument>, assignments: Arc<Assignments>) -> Playing {
-        Playing { style: Style::default(), document, assignments, state: PlayingState::REST }
+        let triggers = Triggers::default();
+        Playing { style: Style::default(), document, assignments, state: PlayingState::REST, triggers }
     }
 
     /// The kit that is played.
@@ -239,7 +282,17 @@ impl Playing {
     /// No allocation.
     pub fn reset(&mut self) {
         // A foot stays where it is when the transport stops.
-        self.state = PlayingState { pedal: self.state.pedal, ..PlayingState::REST };
+        let PlayingState { pedal, reading, .. } = self.state;
+        self.state = PlayingState { pedal, reading, ..PlayingState::REST };
+        self.triggers.forget();
+    }
+
+    /// Lets samples at a rate (Hz) pass: double triggers are told by the time between notes.
+    ///
+    /// # Real-time
+    /// An addition.
+    pub fn advance(&mut self, samples: usize, rate: f64) {
+        self.triggers.advance(samples, rate);
     }
 
     /// What a note of a velocity (0 to 1) comes to, if it sounds. Takes part in learning.
@@ -257,7 +310,10 @@ impl Playing {
         }
         self.assignments.heard(note);
         let fine = self.state.fine.get_mut(usize::from(channel)).map_or(0.0, std::mem::take);
-        let stroke = *self.stroke(note)?;
+        let named = self.reference(note)?;
+        let stroke = *self.document.notes.stroke(named)?;
+        let (wires, figure) =
+            self.document.notes.row(named).map_or((None, None), |row| (row.wires, row.figure));
         let slot = stroke.slot.index();
         let aimed = self.aimed(&stroke, aim) + self.style.offsets[slot];
         let limb = self.next_limb(stroke.striker);
@@ -274,7 +330,8 @@ impl Playing {
             striker: self.style.strikers[slot].unwrap_or(stroke.striker),
         };
         let releases = std::mem::take(&mut self.state.gripped[slot]);
-        Some(Played { slot: stroke.slot, strike, releases })
+        let wires = wires.or(self.state.thrown[slot]);
+        Some(Played { slot: stroke.slot, strike, releases, wires, figure })
     }
 
     /// Where the next note's stroke lands, 0 (centre) to 1 (rim), if it has a place to choose.
@@ -290,52 +347,18 @@ impl Playing {
         Some(self.stroke(note).filter(|_| self.hears(channel))?.slot)
     }
 
-    /// What a note of a velocity (0 to 1) does with the pedal of the hi-hat in a slot, if it does, and the speed of the
-    /// foot, m/s.
-    ///
-    /// A stroke names closed or open cymbals. Where a controller plays the pedal, the foot is where the controller says if that
-    /// is closed or open as the note names it, otherwise where the note says. A note that only moves the pedal then does
-    /// nothing.
-    ///
-    /// # Real-time
-    /// Table look-ups; no allocation, no lock.
-    pub fn foot(&self, note: u8, velocity: f32, channel: u8) -> Option<(Slot, Foot, f64)> {
-        let heard = velocity > 0.0 && self.hears(channel);
-        let (slot, foot) = self.document.notes.foot(self.reference(note).filter(|_| heard)?)?;
-        let speed = FOOT.0 * libm::pow(FOOT.1 / FOOT.0, f64::from(velocity.min(1.0)));
-        let foot = match (foot, self.state.pedal) {
-            (Foot::Position(named), Some(controlled)) => {
-                self.stroke(note)?;
-                // The note says whether the rims touch, the controller by how much.
-                let agree = (named > TOUCHING) == (controlled > TOUCHING);
-                Foot::Position(if agree { controlled } else { named })
-            }
-            _ => foot,
-        };
-        Some((slot, foot, speed))
-    }
-
-    /// Where a controller brings the pedals of all hi-hats, 0 (up) to 1 (down), if it is the one for that.
-    ///
-    /// # Real-time
-    /// No allocation, no lock.
-    pub fn pedal(&mut self, controller: u8, value: f32, channel: u8) -> Option<f64> {
-        let heard = controller == PEDAL_CONTROLLER && self.hears(channel) && !value.is_nan();
-        let place = heard.then_some(f64::from(value.clamp(0.0, 1.0)));
-        self.state.pedal = place.or(self.state.pedal);
-        place
-    }
-
-    /// Where a controller has the hi-hats' pedals, 0 (up) to 1 (down), if one plays them.
-    pub fn pedal_at(&self) -> Option<f64> {
-        self.state.pedal
-    }
-
     /// What the end of a note comes to.
     ///
     /// # Real-time
     /// Table look-ups; no allocation, no lock.
     pub fn note_off(&mut self, note: u8, channel: u8) -> Option<Grip> {
+        if self.hears(channel) {
+            self.state
+                .hands
+                .iter_mut()
+                .filter(|hand| hand.is_some_and(|(of, _)| of == note))
+                .for_each(|hand| *hand = None);
+        }
         if self.chokes_at_note_off() { self.choke(note, channel) } else { None }
     }
 
@@ -376,31 +399,8 @@ impl Playing {
         if !chokes || pressure.is_nan() {
             return None;
         }
-        let slot = self.cymbal(note, channel)?;
+        let slot = self.stroke(note).filter(|_| self.hears(channel))?.slot;
         Some(Grip { slot, strength: f64::from(pressure.clamp(0.0, 1.0)) })
-    }
-
-    /// Takes in a controller's value, 0 to 1.
-    ///
-    /// # Real-time
-    /// No allocation, no lock.
-    pub fn control_change(&mut self, controller: u8, value: f32, channel: u8) {
-        if !self.hears(channel) || value.is_nan() {
-            return;
-        }
-        let value = value.clamp(0.0, 1.0);
-        match controller {
-            FINE_VELOCITY_CONTROLLER => {
-                if let Some(fine) = self.state.fine.get_mut(usize::from(channel)) {
-                    // 127 steps between two velocities of 7 bits, 128 of which make one.
-                    *fine = value * 127.0 / 128.0 / 127.0;
-                }
-            }
-            _ => {
-                let place = position_of(controller).and_then(|at| self.state.positions.get_mut(at));
-                place.into_iter().for_each(|place| *place = Some(f64::from(value)));
-            }
-        }
     }
 
     /// Whether a program change on a channel loads a preset.
@@ -453,11 +453,20 @@ impl Playing {
         let controlled = controller
             .filter(|_| self.style.follows_position)
             .and_then(|controller| *self.state.positions.get(position_of(controller)?)?);
-        let position = aim.or(controlled).filter(|_| stroke.moves_with_hand(kind));
+        let moved = self.state.hands[stroke.slot.index()].map(|(_, place)| place);
+        let position = aim.or(moved).or(controlled).filter(|_| stroke.moves_with_hand(kind));
         position.map_or(stroke.radius, |place| {
             let (inner, outer) = reach(kind);
             inner + (outer - inner) * place
         })
+    }
+
+    /// Lets the next stroke be made by the hand that made the latest: its stick bounces.
+    ///
+    /// # Real-time
+    /// A subtraction.
+    pub fn hold_hand(&mut self) {
+        self.state.by_hand = self.state.by_hand.wrapping_sub(1);
     }
 
     /// The limb of the present stroke: hands alternate.

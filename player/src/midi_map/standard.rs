@@ -32,6 +32,14 @@
 //! | 97 | the hi-hat's pedal, down and up at once: a foot splash |
 //! | 98, 99 | hi-hat, stick on the bow and on the bell, the pedal where it is |
 //! | 100 | hi-hat, half open: stick shoulder on the edge; brings the pedal to where the rims just meet |
+//! | 101 to 104 | hi-hat, stick on the bow and on the bell, closed and open |
+//! | 105 to 110 | hi-hat, stick shoulder on the edge: tight, loose, and four openings up to the widest |
+//! | 111 to 114 | a hand on crash, ride, splash, hi-hat |
+//! | 115 to 117 | snare with its wires thrown off: stick, rimshot, cross-stick |
+//! | 118 | snare, soft mallet for a brush |
+//! | 119, 120 | the snare's wires thrown off, and on |
+//! | 121 | snare, a flam |
+//! | 122 to 124 | snare, rolls that last as long as the note: double strokes, pressed, buzz |
 //!
 //! All others are silent. Places are where drummers play: a third of the way out on a drum rather than dead centre, where only
 //! the round modes answer.
@@ -41,6 +49,8 @@ use std::f64::consts::PI;
 use overhear_engine::kit_spec::KitSpec;
 use overhear_engine::strike::Striker::{self, *};
 
+use crate::midi::figures::Figure;
+
 use super::{Foot, Meaning, NoteTable, Row, Stroke};
 
 impl NoteTable {
@@ -48,20 +58,22 @@ impl NoteTable {
     /// does not have are silent.
     pub fn standard(kit: &KitSpec) -> NoteTable {
         let mut table = NoteTable::default();
-        for Note { number, name, plays, pedal } in NOTES_PLAYED {
+        for Note { number, name, plays, pedal, wires, figure } in NOTES_PLAYED {
             let slot = |piece: &str| kit.find(piece).map(|(slot, _)| slot);
             let meaning = match plays {
                 Plays::Stroke(piece, radius, angle, striker) => {
                     slot(piece).map(|slot| Meaning::Strikes(Stroke { slot, radius, angle, striker }))
                 }
                 Plays::Pedal(piece, foot) => slot(piece).map(|slot| Meaning::Steps(slot, foot)),
+                Plays::Choke(piece) => slot(piece).map(Meaning::Chokes),
+                Plays::Throw(piece, on) => slot(piece).map(|slot| Meaning::Throws(slot, on)),
             };
-            let pedal = pedal.filter(|_| meaning.is_some());
+            let (pedal, wires, figure) = meaning.map_or((None, None, None), |_| (pedal, wires, figure));
             let meaning = meaning.unwrap_or(Meaning::Silent);
-            table.set(number, Some(Row { name: name.to_owned(), meaning, pedal }));
+            table.set(number, Some(Row { name: name.to_owned(), meaning, pedal, wires, figure }));
         }
         for (number, name) in SILENT {
-            table.set(number, Some(Row { name: name.to_owned(), meaning: Meaning::Silent, pedal: None }));
+            table.set(number, Some(Row::new(name, Meaning::Silent)));
         }
         for (piece, ordinary, controller) in PIECES {
             if let Some((slot, _)) = kit.find(piece) {
@@ -92,6 +104,10 @@ enum Plays {
     /// Strikes a piece: distance from the centre (share of the radius), direction (rad), what is swung.
     Stroke(&'static str, f64, f64, Striker),
     Pedal(&'static str, Foot),
+    /// A hand on a cymbal.
+    Choke(&'static str),
+    /// Snare wires on or off.
+    Throw(&'static str, bool),
 }
 
 #[derive(Clone, Copy)]
@@ -100,6 +116,8 @@ struct Note {
     name: &'static str,
     plays: Plays,
     pedal: Option<f64>,
+    wires: Option<bool>,
+    figure: Option<Figure>,
 }
 
 const fn note(
@@ -109,7 +127,34 @@ const fn note(
     (radius, angle): (f64, f64),
     striker: Striker,
 ) -> Note {
-    Note { number, name, plays: Plays::Stroke(piece, radius, angle, striker), pedal: None }
+    Note {
+        number,
+        name,
+        plays: Plays::Stroke(piece, radius, angle, striker),
+        pedal: None,
+        wires: None,
+        figure: None,
+    }
+}
+
+/// What is no stroke.
+const fn action(number: u8, name: &'static str, plays: Plays) -> Note {
+    Note { number, name, plays, pedal: None, wires: None, figure: None }
+}
+
+/// A figure on the snare.
+const fn figure(number: u8, name: &'static str, figure: Figure) -> Note {
+    Note { figure: Some(figure), ..note(number, name, "snare", (0.25, 0.3), Stick) }
+}
+
+/// A stroke on the snare with its wires thrown off.
+const fn snare_off(number: u8, name: &'static str, at: (f64, f64), striker: Striker) -> Note {
+    Note { wires: Some(false), ..note(number, name, "snare", at, striker) }
+}
+
+/// A stroke with the tip on a hi-hat's bow or bell with the pedal brought to a place.
+const fn tip(number: u8, name: &'static str, radius: f64, pedal: f64) -> Note {
+    Note { pedal: Some(pedal), ..note(number, name, "hi-hat", (radius, 0.0), Stick) }
 }
 
 /// A stroke on a hi-hat's edge with the pedal brought to a place.
@@ -118,12 +163,12 @@ const fn edge(number: u8, name: &'static str, pedal: f64) -> Note {
 }
 
 const fn pedal(number: u8, name: &'static str, foot: Foot) -> Note {
-    Note { number, name, plays: Plays::Pedal("hi-hat", foot), pedal: None }
+    action(number, name, Plays::Pedal("hi-hat", foot))
 }
 
 /// Every note that sounds. Places are *by ear*. Pedals are where drummers have them: firmly closed; open, so that a stroke
 /// makes the rims clash; resting on one side.
-const NOTES_PLAYED: [Note; 41] = [
+const NOTES_PLAYED: [Note; 65] = [
     note(35, "Acoustic Bass Drum", "kick", (0.20, 0.0), FeltBeater),
     note(36, "Bass Drum 1", "kick", (0.20, 0.0), FeltBeater),
     note(37, "Side Stick", "snare", (0.30, 0.0), CrossStick),
@@ -165,6 +210,31 @@ const NOTES_PLAYED: [Note; 41] = [
     note(98, "Hi-Hat Bow", "hi-hat", (0.65, 0.0), Stick),
     note(99, "Hi-Hat Bell", "hi-hat", (0.12, 0.0), Stick),
     edge(100, "Hi-Hat Half Open", 0.5),
+    tip(101, "Hi-Hat Closed Bow", 0.65, 0.8),
+    tip(102, "Hi-Hat Open Bow", 0.65, 0.4),
+    tip(103, "Hi-Hat Closed Bell", 0.12, 0.8),
+    tip(104, "Hi-Hat Open Bell", 0.12, 0.4),
+    edge(105, "Hi-Hat Tight", 1.0),
+    edge(106, "Hi-Hat Loose", 0.65),
+    edge(107, "Hi-Hat Open 1", 0.45),
+    edge(108, "Hi-Hat Open 2", 0.3),
+    edge(109, "Hi-Hat Open 3", 0.15),
+    edge(110, "Hi-Hat Fully Open", 0.0),
+    action(111, "Crash Choke", Plays::Choke("crash")),
+    action(112, "Ride Choke", Plays::Choke("ride")),
+    action(113, "Splash Choke", Plays::Choke("splash")),
+    action(114, "Hi-Hat Choke", Plays::Choke("hi-hat")),
+    snare_off(115, "Snare Off", (0.25, 0.3), Stick),
+    snare_off(116, "Snare Off Rim Shot", (0.40, 0.3), RimShot),
+    snare_off(117, "Snare Off Side Stick", (0.30, 0.0), CrossStick),
+    // No striker of the engine's sweeps: the softest that taps.
+    note(118, "Snare Brush", "snare", (0.25, 0.3), YarnMallet),
+    action(119, "Snare Wires Off", Plays::Throw("snare", false)),
+    action(120, "Snare Wires On", Plays::Throw("snare", true)),
+    figure(121, "Snare Flam", Figure::Flam),
+    figure(122, "Snare Double Strokes", Figure::DoubleStrokes),
+    figure(123, "Snare Press Roll", Figure::Press),
+    figure(124, "Snare Buzz Roll", Figure::Buzz),
 ];
 
 /// Notes of General MIDI that are silent: nothing in the kit sounds like them.
@@ -219,6 +289,13 @@ mod tests {
                     assert!((0.1..=1.0).contains(&stroke.radius), "{}", row.name);
                 }
                 Meaning::Steps(..) => assert!(table.foot(note).is_some()),
+                Meaning::Chokes(slot) => {
+                    assert_ne!(
+                        kit.piece(slot).unwrap().instrument.kind(),
+                        overhear_engine::kit_spec::Kind::Drum
+                    );
+                }
+                Meaning::Throws(slot, _) => assert!(kit.piece(slot).unwrap().defaults.preload.is_some()),
                 Meaning::Silent => assert!(SILENT.iter().any(|(silent, _)| *silent == note), "{}", row.name),
             }
         }
@@ -238,7 +315,11 @@ mod tests {
         let (_, table) = standard();
         for note in (0..35).chain(82..=u8::MAX) {
             let plays = table.stroke(note).is_some() || table.foot(note).is_some();
-            assert_eq!(plays, (88..=100).contains(&note));
+            assert_eq!(
+                plays,
+                (88..=110).contains(&note) || (115..=118).contains(&note) || (121..=124).contains(&note),
+                "{note}"
+            );
         }
     }
 
@@ -272,11 +353,11 @@ mod tests {
             (&[88, 89, 90], Some("timpani")),
             (&[91, 92], Some("crash")),
             (&[93], Some("ride")),
-            (&[94], Some("snare")),
+            (&[94, 115, 116, 117, 118, 121, 122, 123, 124], Some("snare")),
             (&[95], Some("rack-tom")),
             (&[96], Some("floor-tom")),
-            (&[42, 46, 98, 99, 100], Some("hi-hat")),
-            (&[44, 97, 39, 54, 56, 58, 67, 81], None),
+            (&[42, 46, 98, 99, 100, 101, 102, 103, 104, 105, 106, 107, 108, 109, 110], Some("hi-hat")),
+            (&[44, 97, 111, 112, 113, 114, 119, 120, 39, 54, 56, 58, 67, 81], None),
         ] {
             assert!(notes.iter().all(|&note| struck(note) == expected), "{notes:?}");
         }

@@ -6,7 +6,7 @@ use overhear_engine::strike::Striker;
 
 use super::{Performer, flushed};
 use crate::midi::maps::NoteMap;
-use crate::midi::playing::ChokeRule;
+use crate::midi::playing::{ChokeRule, NOTES_OFF_CONTROLLER, SOUND_OFF_CONTROLLER, STRAINER_CONTROLLER};
 use crate::parameters::{Drives, Manner, SlotParameter, default_value, is_live, parameters, slot_index};
 use crate::placing;
 
@@ -56,10 +56,14 @@ impl Performer {
         let (control, value) = match what {
             SlotParameter::Tune => return self.tune(slot),
             SlotParameter::Muffle => (Control::Muffling(slot), value),
-            SlotParameter::Level => (Control::Level(slot), value),
-            SlotParameter::Pan => (Control::Pan(slot), value / 100.0),
+            SlotParameter::Level => (Control::Level(slot), self.expressions[slot.index()].level(value)),
+            SlotParameter::Pan => (Control::Pan(slot), self.expressions[slot.index()].pan(value / 100.0)),
             SlotParameter::Preload => (Control::Preload(slot), value),
-            SlotParameter::Wires => (Control::Wires(slot), value),
+            SlotParameter::Wires => {
+                let on = self.playing.thrown(slot).unwrap_or(value >= 0.5);
+                self.wires[slot.index()] = on;
+                (Control::Wires(slot), if on { 1.0 } else { 0.0 })
+            }
             SlotParameter::Pedal => (Control::Pedal(slot), value),
             SlotParameter::Position => {
                 self.playing.style.offsets[slot.index()] = value;
@@ -104,17 +108,64 @@ impl Performer {
         }
     }
 
-    pub(super) fn bend_piece(&mut self, slot: Slot, semitones: f64) {
-        if std::mem::replace(&mut self.bends[slot.index()], semitones) != semitones {
-            self.tune(slot);
+    /// Brings the piece of a slot to the pitch that its parameter and its bend come to.
+    pub(super) fn tune(&mut self, slot: Slot) {
+        let semitones = f64::from(self.values[slot_index(slot, SlotParameter::Tune)])
+            + self.expressions[slot.index()].bend;
+        let tuning = self.own[slot.index()] * libm::exp2(semitones / 12.0);
+        flushed(|| self.kit.set(Control::Tuning(slot), tuning));
+    }
+
+    /// Moves a MIDI controller to a value, 0 to 1. All sound off and all notes off (120, 123) end whatever sounds.
+    ///
+    /// # Real-time
+    /// No allocation, no lock.
+    pub fn control_change(&mut self, controller: u8, value: f32, channel: u8) {
+        let silences = matches!(controller, SOUND_OFF_CONTROLLER | NOTES_OFF_CONTROLLER);
+        if silences && self.hears(channel) {
+            self.silence();
+        }
+        self.playing.control_change(controller, value, channel);
+        if let Some(pedal) = self.playing.pedal(controller, value, channel) {
+            self.press_pedals(pedal);
+        }
+        if let Some(on) = self.playing.throw(controller, value, channel) {
+            Slot::ALL.into_iter().for_each(|slot| self.throw(slot, on));
+        }
+        if controller == STRAINER_CONTROLLER && self.hears(channel) && !value.is_nan() {
+            self.strain(f64::from(value.clamp(0.0, 1.0)));
         }
     }
 
-    /// Brings the piece of a slot to the pitch that its parameter and its bend come to.
-    pub(super) fn tune(&mut self, slot: Slot) {
-        let semitones =
-            f64::from(self.values[slot_index(slot, SlotParameter::Tune)]) + self.bends[slot.index()];
-        let tuning = self.own[slot.index()] * libm::exp2(semitones / 12.0);
-        flushed(|| self.kit.set(Control::Tuning(slot), tuning));
+    /// Brings the pedals of all hi-hats to a place, 0 (up) to 1 (down).
+    pub(super) fn press_pedals(&mut self, pedal: f64) {
+        for slot in self.hi_hats().into_iter().flatten() {
+            flushed(|| self.kit.set(Control::Pedal(slot), pedal));
+        }
+    }
+
+    /// Throws the snare wires of a slot's drum on or off, unless they are so.
+    pub(super) fn throw(&mut self, slot: Slot, on: bool) {
+        if std::mem::replace(&mut self.wires[slot.index()], on) != on {
+            flushed(|| self.kit.set(Control::Wires(slot), if on { 1.0 } else { 0.0 }));
+        }
+    }
+
+    /// Whether the parameter of a slot has its wires on.
+    pub(super) fn wires_by_parameter(&self, slot: Slot) -> bool {
+        self.values[slot_index(slot, SlotParameter::Wires)] >= 0.5
+    }
+
+    /// Presses the wires of all drums on as a share of the strainer's way says, 0 (weakest) to 1: equal ways are equal ratios of
+    /// force.
+    fn strain(&mut self, way: f64) {
+        for slot in Slot::ALL {
+            let index = slot_index(slot, SlotParameter::Preload);
+            if is_live(index, &self.document().kit) {
+                let [weak, strong] = [parameters()[index].min, parameters()[index].max].map(f64::from);
+                let force = weak * libm::pow(strong / weak, way);
+                flushed(|| self.kit.set(Control::Preload(slot), force));
+            }
+        }
     }
 }

@@ -92,7 +92,7 @@ pub(super) fn tail(
 }
 
 /// A part of each output, empty where it has none.
-fn parts<'a>(
+pub(super) fn parts<'a>(
     outputs: &'a mut [Stereo<'_>],
     part: impl SliceIndex<[f32], Output = [f32]> + Clone,
 ) -> [Stereo<'a>; OUTPUTS] {

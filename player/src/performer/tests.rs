@@ -367,3 +367,59 @@ fn a_foot_stays_on_the_pedal_through_all_notes_off() {
         pedal(&mut performer)
     );
 }
+
+/// What a snare plays of a note that is held for a while, in buffers of a length, and how many strokes.
+fn held(note: u8, samples: usize, buffer: usize) -> (Vec<f32>, u32) {
+    let mut kit = overhear_engine::kit_spec::KitSpec::standard();
+    kit.pieces.retain(|piece| piece.name == "snare");
+    let notes = crate::midi_map::NoteTable::standard(&kit);
+    let mut performer = ready(&KitDocument { kit, notes });
+    let mut sound = Vec::new();
+    let render = |performer: &mut Performer, sound: &mut Vec<f32>, samples: usize| {
+        let mut left = samples;
+        while left > 0 {
+            let length = buffer.min(left);
+            let (mut a, mut b) = (vec![0.0; length], vec![0.0; length]);
+            performer.render(&mut a, &mut b);
+            sound.extend(a);
+            left -= length;
+        }
+    };
+    assert!(performer.note_on(note, 0.6, 9));
+    render(&mut performer, &mut sound, samples);
+    performer.note_off(note, 9);
+    render(&mut performer, &mut sound, 9_600);
+    let mut snapshot = KitSnapshot::default();
+    performer.snapshot(&mut snapshot);
+    (sound, snapshot.pieces[0].strike.count)
+}
+
+#[test]
+fn rolls_last_as_long_as_their_note_and_no_buffer_moves_a_stroke() {
+    // Half a second, in strokes of the figures' own times.
+    for (note, strokes) in [(121, 2..=2), (122, 9..=9), (123, 19..=23), (124, 44..=50)] {
+        let (sound, count) = held(note, 24_000, 24_000);
+        println!("note {note}: {count} strokes");
+        assert!(strokes.contains(&count), "note {note}: {count} strokes");
+        for buffer in [1_000, 64] {
+            let (cut, other) = held(note, 24_000, buffer);
+            assert!(cut == sound && other == count, "note {note} in buffers of {buffer}");
+        }
+    }
+    let (_, count) = held(38, 24_000, 512);
+    assert_eq!(count, 1);
+}
+
+#[test]
+fn a_flam_s_grace_note_is_softer_and_elsewhere() {
+    let mut playing = Playing::new(Arc::default(), Arc::default());
+    let mut strike = |velocity: f32| playing.note_on(38, velocity, 9).unwrap().strike;
+    for _ in 0..8 {
+        let (grace, stroke) = (strike(0.25), strike(0.85));
+        assert!(grace.speed < 0.5 * stroke.speed);
+        let place =
+            |strike: &Strike| (strike.radius * strike.angle.sin(), strike.radius * strike.angle.cos());
+        let ((ax, ay), (bx, by)) = (place(&grace), place(&stroke));
+        assert!((ax - bx).hypot(ay - by) > 0.005, "two hands at one place");
+    }
+}

@@ -140,7 +140,7 @@ fn a_broken_file_is_named_with_its_line() {
             "pieces.snare.diameter_in",
         ),
         ("format = 2\n[kit]\nformat = 9\n", 3, "format is `9`, accepted: 1"),
-        ("format = 2\n[notes]\n5 = 101\n", 3, "note 5 plays nothing known"),
+        ("format = 2\n[notes]\n5 = 126\n", 3, "note 5 plays nothing known"),
         ("format = 2\n[parameters]\nkick_tune = \n", 3, ""),
         ("format = 2\n[notes]\n200 = 38\n", 3, "`200` is not a note"),
         ("format = 2\n[notes]\n38 = 127\n", 3, "note 38 plays nothing known"),

@@ -7,6 +7,7 @@ use tracing::warn;
 use crate::kit_document::KitDocument;
 use crate::kit_file::{self, KitFileError};
 use crate::midi::assignments::{Assignment, NOTES};
+use crate::midi::calibration::Learned;
 
 /// Version of the meaning of what is stored; counts up when a migration is needed.
 pub const SCHEMA: u32 = 2;
@@ -22,6 +23,10 @@ pub const VIEW_FIELD: &str = "view";
 
 /// Field that holds the user's assignments: `38=49 40=silent`.
 pub const NOTES_FIELD: &str = "notes";
+
+/// Field that holds the calibration of pads and pedal; see
+/// [`Learned::to_text`]. Left out while nothing is learned.
+pub const CALIBRATION_FIELD: &str = "calibration";
 
 /// Field that holds the text of the kit file. Left out while the kit is the standard one.
 pub const KIT_FIELD: &str = "kit";
@@ -62,6 +67,15 @@ pub fn notes(text: &str) -> BTreeMap<u8, Assignment> {
         assignment
     });
     entries.collect()
+}
+
+/// Reads a calibration; what is not understood is logged and left out.
+pub fn calibration(text: &str) -> Learned {
+    let (learned, unknown) = Learned::from_text(text);
+    for word in unknown {
+        warn!("The state has a calibration {word:?}, which is not understood: ignored");
+    }
+    learned
 }
 
 /// A value of a parameter as a project stores it.

@@ -1,10 +1,12 @@
-//! Undo and redo of what hands did to parameters, and two settings to compare.
+//! Undo and redo of what hands did to parameters and of what was learned, and two settings to compare.
 //!
 //! An edit is what lies between taking hold of a parameter and letting it go; what is done in one frame, as by a
 //! preset, is one step. Automation and other windows are not hands: undoing puts back what a parameter was when it
 //! was taken hold of, whatever it is now.
 
 use nice_plug::prelude::{FloatParam, Param};
+
+use overhear_player::midi::assignments::Taught;
 
 use super::gesture::{Gesture, put};
 
@@ -19,11 +21,27 @@ struct Edit {
     to: f32,
 }
 
+/// What can be taken back at once.
+enum Step {
+    /// Parameters were moved.
+    Moved(Vec<Edit>),
+    /// Notes or a calibration were learned: what was taught before and after.
+    Learned(Box<[Taught; 2]>),
+}
+
+/// Where what is undone and done again goes.
+pub struct Undoing<'a> {
+    /// Receives what is done to the parameter of an index.
+    pub set: &'a mut dyn FnMut(usize, Gesture),
+    /// Receives what is taught instead of what was.
+    pub teach: &'a mut dyn FnMut(&Taught),
+}
+
 /// What was done.
 #[derive(Default)]
 pub struct History {
-    done: Vec<Vec<Edit>>,
-    undone: Vec<Vec<Edit>>,
+    done: Vec<Step>,
+    undone: Vec<Step>,
     /// Held now: from where each was taken and where it was last put.
     held: Vec<Edit>,
     /// What this frame has brought.
@@ -62,7 +80,17 @@ impl History {
         if self.fresh.is_empty() {
             return;
         }
-        self.done.push(std::mem::take(&mut self.fresh));
+        let fresh = std::mem::take(&mut self.fresh);
+        self.add(Step::Moved(fresh));
+    }
+
+    /// Takes note of what was learned, which is a step.
+    pub fn learned(&mut self, before: Taught, after: Taught) {
+        self.add(Step::Learned(Box::new([before, after])));
+    }
+
+    fn add(&mut self, step: Step) {
+        self.done.push(step);
         self.undone.clear();
         if self.done.len() > DEPTH {
             self.done.remove(0);
@@ -80,16 +108,22 @@ impl History {
     }
 
     /// Takes back the latest step.
-    pub fn undo(&mut self, set: &mut dyn FnMut(usize, Gesture)) {
+    pub fn undo(&mut self, to: &mut Undoing<'_>) {
         let Some(step) = self.done.pop() else { return };
-        step.iter().rev().for_each(|edit| put(edit.index, edit.from, set));
+        match &step {
+            Step::Moved(edits) => edits.iter().rev().for_each(|edit| put(edit.index, edit.from, to.set)),
+            Step::Learned(taught) => (to.teach)(&taught[0]),
+        }
         self.undone.push(step);
     }
 
     /// Does again what was undone last.
-    pub fn redo(&mut self, set: &mut dyn FnMut(usize, Gesture)) {
+    pub fn redo(&mut self, to: &mut Undoing<'_>) {
         let Some(step) = self.undone.pop() else { return };
-        step.iter().for_each(|edit| put(edit.index, edit.to, set));
+        match &step {
+            Step::Moved(edits) => edits.iter().for_each(|edit| put(edit.index, edit.to, to.set)),
+            Step::Learned(taught) => (to.teach)(&taught[1]),
+        }
         self.done.push(step);
     }
 
@@ -128,10 +162,12 @@ mod tests {
         history.note(3, Gesture::End, 15.0);
         history.end_frame();
         let mut moved = Vec::new();
-        history.undo(&mut |index, gesture| moved.push((index, gesture)));
+        let set = &mut |index, gesture| moved.push((index, gesture));
+        history.undo(&mut Undoing { set, teach: &mut |_| {} });
         assert_eq!(moved, [Gesture::Begin, Gesture::Set(10.0), Gesture::End].map(|gesture| (3, gesture)));
         moved.clear();
-        history.redo(&mut |index, gesture| moved.push((index, gesture)));
+        let set = &mut |index, gesture| moved.push((index, gesture));
+        history.redo(&mut Undoing { set, teach: &mut |_| {} });
         assert_eq!(moved[1], (3, Gesture::Set(15.0)));
         assert!(history.can_undo() && !history.can_redo());
     }
@@ -144,7 +180,8 @@ mod tests {
         }
         history.end_frame();
         let mut undone = 0;
-        history.undo(&mut |_, gesture| undone += usize::from(gesture == Gesture::Set(0.0)));
+        let set = &mut |_, gesture| undone += usize::from(gesture == Gesture::Set(0.0));
+        history.undo(&mut Undoing { set, teach: &mut |_| {} });
         assert_eq!(undone, 5);
         assert!(!history.can_undo());
     }

@@ -7,7 +7,7 @@ use overhear_engine::slot::Slot;
 use overhear_engine::snapshot::{FieldShapes, KitSnapshot};
 
 use super::gesture::Gesture;
-use super::history::History;
+use super::history::{History, Undoing};
 use super::kit_view::camera::Camera;
 use super::kit_view::{KitView, Seen};
 use super::levels::Levels;
@@ -25,6 +25,7 @@ use crate::sound::Sound;
 use crate::view::View;
 use overhear_player::NAME;
 use overhear_player::kit_document::KitDocument;
+use overhear_player::midi::assignments::Taught;
 use overhear_player::presets::Library;
 use overhear_player::strokes::Stroke;
 
@@ -103,6 +104,8 @@ pub struct Panels {
     presets: PresetBar,
     playing: PlayingPanel,
     history: History,
+    /// What the user had taught at the latest look, and its fingerprint.
+    taught: Option<(u64, Taught)>,
     pair: PairHand,
     /// Where the kit was drawn last.
     picture: Rect,
@@ -132,6 +135,7 @@ impl Panels {
             presets: PresetBar::new(library),
             playing: PlayingPanel::default(),
             history: History::default(),
+            taught: None,
             pair: PairHand::default(),
             picture: Rect::ZERO,
             former: KitSnapshot::default(),
@@ -171,6 +175,7 @@ impl Panels {
         self.physics.forget();
         self.mix.forget();
         self.history.forget();
+        self.taught = None;
         self.latest = Latest::default();
         self.former = *inputs.snapshot;
         self.document = document;
@@ -184,6 +189,9 @@ impl Panels {
         self.latest.follow(&self.former, inputs.snapshot);
         self.former = *inputs.snapshot;
         self.follow_physics(ui.input(|input| input.time), inputs);
+        if !ui.input(|input| input.pointer.any_down()) {
+            self.follow_taught(inputs);
+        }
 
         let whole = ui.max_rect().shrink(GAP);
         let (header, rest) = whole.split_top_bottom_at_y(whole.min.y + HEADER);
@@ -242,6 +250,20 @@ impl Panels {
             Page::Mix => self.mix.show(ui, rect, values, &self.levels, hands.set),
             Page::Midi => self.playing.show(ui, rect, inputs.parameters, document),
             Page::Settings => settings::show(ui, rect, values, &mut self.zoom, hands.set),
+        }
+    }
+
+    /// Takes note of what was learned on the page for that: it can be undone.
+    fn follow_taught(&mut self, inputs: &Inputs<'_>) {
+        let assignments = inputs.parameters.assignments();
+        let now = assignments.fingerprint();
+        if self.taught.as_ref().is_some_and(|(known, _)| *known == now) {
+            return;
+        }
+        let taught = assignments.taught();
+        let former = self.taught.replace((now, taught.clone()));
+        if let Some((_, former)) = former.filter(|(_, former)| self.page == Page::Midi && *former != taught) {
+            self.history.learned(former, taught);
         }
     }
 
@@ -358,11 +380,19 @@ impl Panels {
             let z = input.modifiers.command && input.key_pressed(egui::Key::Z);
             (z && !input.modifiers.shift, z && input.modifiers.shift)
         });
+        let assignments = inputs.parameters.assignments();
+        let mut back = Undoing { set, teach: &mut |taught| assignments.teach(taught) };
+        let mut acted = false;
         if ui.add_enabled(self.history.can_redo(), Button::new("Redo")).clicked() || redo {
-            self.history.redo(set);
+            self.history.redo(&mut back);
+            acted = true;
         }
         if ui.add_enabled(self.history.can_undo(), Button::new("Undo")).clicked() || undo {
-            self.history.undo(set);
+            self.history.undo(&mut back);
+            acted = true;
+        }
+        if acted {
+            self.taught = Some((assignments.fingerprint(), assignments.taught()));
         }
     }
 }

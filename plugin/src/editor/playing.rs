@@ -1,15 +1,16 @@
-//! The page of notes: which note plays what, and learning of new ones.
+//! The page of notes: which note plays what, learning of new ones, and calibration of what arrives.
 
 use egui::{Align2, ComboBox, Rect, ScrollArea, Sense, Ui, UiBuilder, pos2, vec2};
 use overhear_engine::slot::Slot;
 
+use super::calibration::CalibrationPanel;
 use super::theme;
 use super::values::Values;
 use crate::host_parameters::HostParameters;
 use overhear_player::kit_document::KitDocument;
 use overhear_player::midi::assignments::{Assignment, Assignments};
 use overhear_player::midi::maps::NoteMap;
-use overhear_player::midi_map::{Meaning, NoteTable, Row};
+use overhear_player::midi_map::{NoteTable, Row};
 
 /// Height of a note's row, points.
 const ROW: f32 = 24.0;
@@ -22,6 +23,9 @@ const COLUMN: f32 = 270.0;
 pub struct PlayingPanel {
     /// Reference note to be learned.
     reference: u8,
+    /// Whether it is about calibration instead of notes.
+    calibrates: bool,
+    calibration: CalibrationPanel,
 }
 
 /// What the rows of the page are drawn from.
@@ -43,7 +47,20 @@ impl PlayingPanel {
         let map = values.named("note_map").and_then(|map| NoteMap::ALL.get(map.plain() as usize).copied());
         let notes = Notes { table: &document.notes, assignments: &assignments, map: map.unwrap_or_default() };
         ui.scope_builder(UiBuilder::new().max_rect(inner), |ui| {
-            ui.horizontal(|ui| self.learn(ui, &notes));
+            ui.horizontal(|ui| {
+                ui.selectable_value(&mut self.calibrates, false, "Notes");
+                ui.selectable_value(&mut self.calibrates, true, "Calibration");
+                if !self.calibrates {
+                    ui.separator();
+                    self.learn(ui, &notes);
+                }
+            });
+            self.calibration.follow(parameters.monitor());
+            if self.calibrates {
+                ui.add_space(6.0);
+                self.calibration.show(ui, &assignments);
+                return;
+            }
             ui.add_space(6.0);
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| self.rows(ui, parameters, &notes));
         });
@@ -147,9 +164,5 @@ fn sounds(row: &Row) -> bool {
 
 /// The piece that a row plays.
 fn piece_of(row: &Row) -> Option<Slot> {
-    match row.meaning {
-        Meaning::Strikes(stroke) => Some(stroke.slot),
-        Meaning::Steps(slot, _) => Some(slot),
-        Meaning::Silent => None,
-    }
+    row.meaning.slot()
 }

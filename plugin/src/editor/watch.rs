@@ -86,7 +86,7 @@ impl Drop for Watch {
 }
 
 /// What a resting window would look different by, as a number: which kit it is and what it does, where parameters are, what
-/// notes play, and buffers that were late.
+/// notes play, what arrived, and buffers that were late.
 fn seen(viewer: &Viewer, parameters: &HostParameters) -> u64 {
     let mut hasher = DefaultHasher::new();
     let places = parameters.values().iter().map(|value| value.unmodulated_normalized_value());
@@ -95,7 +95,8 @@ fn seen(viewer: &Viewer, parameters: &HostParameters) -> u64 {
     let document = Arc::as_ptr(&parameters.document()).addr() as u64;
     let assigned = parameters.assignments().fingerprint();
     let refused = parameters.refused_rate().map_or(0, |rate| 1 + u64::from(rate.to_bits()));
-    let rest = [viewer.news(), document, assigned, parameters.deadlines().late(), refused];
+    let (late, arrived) = (parameters.deadlines().late(), parameters.monitor().count());
+    let rest = [viewer.news(), document, assigned, late, refused, arrived];
     rest.into_iter().for_each(|number| hasher.write_u64(number));
     hasher.finish()
 }

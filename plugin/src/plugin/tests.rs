@@ -39,13 +39,13 @@ fn expression(timing: u32, place: Option<f32>, tuning: f32) -> NoteEvent<()> {
 fn played(slices: &[(usize, Vec<NoteEvent<()>>)]) -> Vec<f32> {
     let mut performer = Performer::new(RATE, &KitDocument::standard(), Arc::default());
     performer.install_kit(RATE, Pace::RealTime).unwrap();
-    let mut sound = Vec::new();
+    let (mut sound, mut sounding) = (Vec::new(), Sounding::default());
     for (samples, events) in slices {
         let (mut left, mut right) = (vec![f32::NAN; *samples], vec![f32::NAN; *samples]);
         let mut events = events.iter().copied();
         let mut main = [left.as_mut_slice(), right.as_mut_slice()];
         let mut buffers = Buffers::new(&mut main, &mut [], Used::ALL).unwrap();
-        play(&mut performer, None, &mut buffers, &HostParameters::default(), || events.next());
+        play(&mut performer, &mut sounding, None, &mut buffers, &HostParameters::default(), || events.next());
         sound.extend(left);
     }
     sound
@@ -76,7 +76,10 @@ fn a_note_takes_the_place_and_the_pitch_that_come_with_it() {
     assert!(moved[..2_000] == by_controller[..2_000]);
     assert!(moved[2_000..] != by_controller[2_000..], "the next note is where the map says");
     let late = played(&[(4_000, vec![note(10), expression(11, Some(0.9), 0.0), note(2_000)])]);
-    assert!(late == plain, "it has landed");
+    assert!(late[..2_000] == plain[..2_000], "it has landed");
+    assert!(late[2_000..] != plain[2_000..], "but the hand has moved");
+    let ended = played(&[(4_000, vec![note(10), expression(11, Some(0.9), 0.0), other(500), note(2_000)])]);
+    assert!(ended == plain, "until the note ends");
 
     let bent = played(&[(4_000, vec![note(10), expression(10, None, 3.0), expression(3_000, None, 1.0)])]);
     assert!(bent[..10] == plain[..10] && bent[10..2_000] != plain[10..2_000]);
@@ -98,7 +101,7 @@ fn a_program_change_that_moved_no_parameter_changes_nothing() {
         let (mut left, mut right) = (vec![0.0; 2_000], vec![0.0; 2_000]);
         let mut main = [left.as_mut_slice(), right.as_mut_slice()];
         let mut buffers = Buffers::new(&mut main, &mut [], Used::ALL).unwrap();
-        play(&mut performer, None, &mut buffers, &parameters, || events.next());
+        play(&mut performer, &mut Sounding::default(), None, &mut buffers, &parameters, || events.next());
         left
     };
     let is_at = |program| parameters.with_program(program, 9, |program| parameters.are_at(program));
@@ -113,7 +116,9 @@ fn more_notes_at_a_sample_than_can_wait_are_all_struck() {
     let mut events = (0..40).map(|_| note(3));
     let mut main = [left.as_mut_slice(), right.as_mut_slice()];
     let mut buffers = Buffers::new(&mut main, &mut [], Used::ALL).unwrap();
-    play(&mut performer, None, &mut buffers, &HostParameters::default(), || events.next());
+    play(&mut performer, &mut Sounding::default(), None, &mut buffers, &HostParameters::default(), || {
+        events.next()
+    });
     let mut snapshot = KitSnapshot::default();
     performer.snapshot(&mut snapshot);
     assert_eq!(snapshot.dropped_strikes, 40);
@@ -126,7 +131,9 @@ fn notes_out_of_order_and_beyond_the_slice_are_not_lost() {
     let mut events = [note(60), note(10), note(u32::MAX)].into_iter();
     let mut main = [left.as_mut_slice(), right.as_mut_slice()];
     let mut buffers = Buffers::new(&mut main, &mut [], Used::ALL).unwrap();
-    play(&mut performer, None, &mut buffers, &HostParameters::default(), || events.next());
+    play(&mut performer, &mut Sounding::default(), None, &mut buffers, &HostParameters::default(), || {
+        events.next()
+    });
     let mut snapshot = KitSnapshot::default();
     performer.snapshot(&mut snapshot);
     assert_eq!((snapshot.dropped_strikes, snapshot.clock), (3, 64));

@@ -1,10 +1,12 @@
 //! An entry of a piece's notes as the file has it.
 
+use overhear_engine::slot::Slot;
 use overhear_engine::strike::Striker;
 use serde::Deserialize;
 use toml::Value;
 
-use crate::midi_map::Foot;
+use crate::midi::figures::Figure;
+use crate::midi_map::{Foot, Meaning};
 
 use super::super::drafts::NONE;
 use super::super::error::{Fault, quoted};
@@ -21,6 +23,12 @@ pub(super) struct Entry {
     pub(super) angle_rad: Option<f64>,
     pub(super) stick: Option<String>,
     pub(super) ordinary: Option<bool>,
+    /// Whether snare wires lie on at the stroke.
+    pub(super) wires: Option<bool>,
+    /// What the stroke is the beginning of: the name of a figure.
+    pub(super) figure: Option<String>,
+    /// What a hand does instead of a stroke: one of [`HANDS`].
+    pub(super) hand: Option<String>,
     /// Where the pedal is brought before a stroke: a number, or nowhere.
     #[serde(skip)]
     pub(super) pedal: Option<Option<f64>>,
@@ -35,6 +43,16 @@ const PEDAL: [&str; 2] = ["pedal", "foot"];
 /// How a pedal that is brought down is written.
 pub(super) const CHICK: &str = "chick";
 pub(super) const SPLASH: &str = "splash";
+
+/// What a hand does to the piece in a slot.
+type Hand = fn(Slot) -> Meaning;
+
+/// What hands do that is no stroke, as it is written.
+pub(super) const HANDS: [(&str, Hand); 3] = [
+    ("choke", Meaning::Chokes),
+    ("wires-on", |slot| Meaning::Throws(slot, true)),
+    ("wires-off", |slot| Meaning::Throws(slot, false)),
+];
 
 impl Entry {
     /// Reads an entry: a note, or a table.
@@ -72,6 +90,23 @@ impl Entry {
         };
         let entry: Entry = typed::read(&Value::Table(own), path, &PEDAL, origins)?;
         Ok(Entry { pedal, foot, ..entry })
+    }
+
+    /// Whether the entry says something of a stroke.
+    pub(super) fn is_stroke(&self) -> bool {
+        let places =
+            [self.at.is_some(), self.angle_rad.is_some(), self.stick.is_some(), self.pedal.is_some()];
+        places.contains(&true) || self.wires.is_some() || self.figure.is_some()
+    }
+
+    /// What the stroke is the beginning of, if the entry says so.
+    pub(super) fn figure(&self, path: &str, origins: &Origins) -> Result<Option<Figure>, Fault> {
+        let Some(figure) = &self.figure else { return Ok(None) };
+        Figure::from_name(figure).map(Some).ok_or_else(|| {
+            let figures = Figure::ALL.map(|(_, name)| name).join(", ");
+            let reason = format!("is {}, accepted: {figures}", quoted(figure));
+            Fault::of(&format!("{path}.figure"), origins, &reason)
+        })
     }
 
     /// What is swung, if the entry says so.

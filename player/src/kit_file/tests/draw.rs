@@ -169,12 +169,19 @@ fn notes(draw: &mut Draw, kit: &KitSpec) -> NoteTable {
             0 | 1 => continue,
             2 => Meaning::Silent,
             3 if hat => Meaning::Steps(slot, foot),
+            3 if kit.piece(slot).is_some_and(|piece| piece.drum().is_some()) => {
+                Meaning::Throws(slot, draw.one_in(2))
+            }
+            3 => Meaning::Chokes(slot),
             _ => stroke,
         };
         let strikes = matches!(meaning, Meaning::Strikes(_));
         let pedal = (hat && strikes && draw.one_in(2)).then_some(place);
+        let drum = kit.piece(slot).is_some_and(|piece| piece.drum().is_some());
+        let wires = (drum && strikes && draw.one_in(4)).then(|| draw.one_in(2));
+        let figure = (strikes && draw.one_in(4)).then(|| draw.of(&crate::midi::figures::Figure::ALL).0);
         let name = draw.of(&["Hand \"Clap\"", "none", "A # b", " \\ "]).to_owned();
-        table.set(note, Some(Row { name, meaning, pedal }));
+        table.set(note, Some(Row { name, meaning, pedal, wires, figure }));
         if strikes && draw.one_in(3) {
             table.set_ordinary(slot, Some(note));
         }

@@ -1,5 +1,8 @@
 use super::*;
 use crate::kit_document::standard_slot;
+use crate::midi_map::Foot;
+
+mod streams;
 
 /// Someone whose strokes are even.
 fn playing() -> Playing {
@@ -101,11 +104,12 @@ fn fine_velocity_lies_between_two_velocities_and_is_used_once() {
 }
 
 #[test]
-fn pressure_grips_cymbals_and_lets_go() {
+fn pressure_lays_a_hand_on_a_piece_and_lets_go() {
     let mut playing = playing();
     assert_eq!(playing.pressure(49, 1.0, 9), Some(Grip { slot: standard_slot("crash"), strength: 1.0 }));
     assert_eq!(playing.pressure(49, 0.0, 9).unwrap().strength, 0.0);
-    assert_eq!(playing.pressure(38, 1.0, 9), None, "drums are not choked");
+    assert_eq!(playing.pressure(38, 0.5, 9), Some(Grip { slot: standard_slot("snare"), strength: 0.5 }));
+    assert_eq!(playing.choke(38, 9), None, "drums are not choked");
     assert_eq!(playing.note_off(49, 9), None, "not by default");
     assert!(!playing.note_on(49, 1.0, 9).unwrap().releases, "the hand is where the pressure says");
 }

@@ -74,7 +74,7 @@ fn fourteen() -> KitDocument {
     let (left_kick, _) = kit.find("left-kick").unwrap();
     let mut notes = overhear_player::midi_map::NoteTable::standard(&kit);
     let stroke = NoteStroke { slot: left_kick, radius: 0.2, angle: 0.0, striker: Striker::PlasticBeater };
-    let row = Row { name: "Left Kick".to_owned(), meaning: Meaning::Strikes(stroke), pedal: None };
+    let row = Row::new("Left Kick", Meaning::Strikes(stroke));
     notes.set(33, Some(row));
     notes.set_ordinary(left_kick, Some(33));
     KitDocument { kit, notes }

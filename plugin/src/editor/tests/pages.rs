@@ -91,6 +91,73 @@ fn a_note_is_learned_by_clicks_and_given_back_by_one() {
     assert!(window.gestures.is_empty() && window.strokes.is_empty());
 }
 
+/// Moves the focus by the Tab key until it is on a text, and presses Space.
+fn press(window: &mut Window, text: &str) {
+    let place = window.find(text).unwrap_or_else(|| panic!("there is no `{text}`"));
+    for _ in 0..200 {
+        window.key(Key::Tab);
+        window.frame(Vec::new());
+        let focused = window.context.memory(|memory| memory.focused());
+        let rect = focused.and_then(|id| window.context.read_response(id)).map(|response| response.rect);
+        if rect.is_some_and(|rect| rect.contains(place)) {
+            window.key(Key::Space);
+            window.frame(Vec::new());
+            return;
+        }
+    }
+    panic!("no key leads to `{text}`");
+}
+
+#[test]
+fn pads_and_a_pedal_are_calibrated_by_the_keyboard_alone_and_it_is_undone() {
+    use overhear_player::midi::calibration::Learned;
+    use overhear_player::midi::learning::MidiMessage;
+
+    let mut window = Window::new();
+    window.panels.open(Page::Midi);
+    window.frame(Vec::new());
+    press(&mut window, "Calibration");
+    press(&mut window, "Learn a pad");
+    assert!(window.find("0 strokes so far, of at least 4 that differ").is_some());
+    let monitor = |window: &Window, message| {
+        window.parameters.monitor().write(0, 9, message);
+        window.parameters.monitor().advance(24_000);
+    };
+    for velocity in [12, 60, 100, 62, 20] {
+        monitor(&window, MidiMessage::Note(38, velocity));
+    }
+    window.frame(Vec::new());
+    window.frame(Vec::new());
+    assert!(window.find("note 38 velocity 100").is_some(), "the monitor shows what arrives");
+    press(&mut window, "Keep");
+    let learned = |window: &Window| window.parameters.assignments().calibration().learned();
+    let pad = learned(&window).pads[&38];
+    assert_eq!((pad.low, pad.high), (12, 100));
+
+    press(&mut window, "Learn the pedal");
+    for value in [120, 120, 80, 30, 10, 10, 60, 120, 50, 10, 90, 120] {
+        monitor(&window, MidiMessage::Controller(4, value));
+    }
+    window.frame(Vec::new());
+    window.frame(Vec::new());
+    press(&mut window, "Keep");
+    let pedal = learned(&window).pedal.unwrap();
+    assert_eq!((pedal.up, pedal.down), (120, 10), "inverted");
+    // What a project stores brings it back.
+    let fields = nice_plug::params::Params::serialize_fields(&window.parameters);
+    let restored = HostParameters::default();
+    nice_plug::params::Params::deserialize_fields(&restored, &fields);
+    assert_eq!(restored.assignments().calibration().learned(), learned(&window));
+    // Undone one by one, and done again.
+    window.frame(Vec::new());
+    press(&mut window, "Undo");
+    assert_eq!(learned(&window).pedal, None);
+    press(&mut window, "Undo");
+    assert_eq!(learned(&window), Learned::default());
+    press(&mut window, "Redo");
+    assert_eq!(learned(&window).pads[&38], pad);
+}
+
 /// A folder that is gone in the end.
 struct Folder(std::path::PathBuf);
 

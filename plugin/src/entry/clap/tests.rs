@@ -13,6 +13,7 @@ use super::*;
 use overhear_player::kit_document::standard_slot;
 
 mod calls;
+pub(in crate::entry) mod expressions;
 mod panics;
 mod sweep;
 

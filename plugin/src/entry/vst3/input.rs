@@ -130,7 +130,7 @@ struct Events(UnsafeCell<EventList>);
 struct EventList {
     /// From calls without samples: they come first.
     kept: Vec<Event>,
-    /// Those of the host's events that are passed on.
+    /// Those of the host's events that are passed on: of expressions the framework takes one kind for another.
     places: Vec<int32>,
     host: *mut IEventList,
 }
@@ -143,6 +143,26 @@ impl Class for Events {
 fn is_sound(event: &Event) -> bool {
     // SAFETY: an event of this type is of this form.
     event.r#type != EventTypes_::kDataEvent as u16 || unsafe { !event.__field0.data.bytes.is_null() }
+}
+
+/// The format's numbers of the expressions `expression` and `brightness`. The framework (nice-plug 0.4.2) takes each for the
+/// other.
+const MISTAKEN: [u32; 2] = [4, 5];
+
+/// Whether the framework would take an event for another.
+fn is_mistaken(event: &Event) -> bool {
+    // SAFETY: an event of this type is of this form.
+    event.r#type == EventTypes_::kNoteExpressionValueEvent as u16
+        && MISTAKEN.contains(unsafe { &event.__field0.noteExpressionValue.typeId })
+}
+
+/// Writes an event so that the framework takes it for what it is.
+fn correct(event: &mut Event) {
+    if is_mistaken(event) {
+        // SAFETY: as above.
+        let kind = unsafe { &mut event.__field0.noteExpressionValue.typeId };
+        *kind = MISTAKEN[0] + MISTAKEN[1] - *kind;
+    }
 }
 
 impl EventList {
@@ -163,6 +183,7 @@ impl EventList {
             // SAFETY: there is room for an event.
             let told = unsafe { list.getEvent(index, &mut event) } == kResultOk;
             if told && is_sound(&event) && self.places.len() < MOST_EVENTS {
+                whole &= !is_mistaken(&event);
                 self.places.push(index);
             } else {
                 whole = false;
@@ -208,10 +229,15 @@ impl IEventListTrait for Events {
             let Ok(index) = usize::try_from(index) else { return kInvalidArgument };
             if let Some(kept) = list.kept.get(index) {
                 *room = *kept;
+                correct(room);
                 return kResultOk;
             }
             match (list.places.get(index - list.kept.len()), ComRef::from_raw(list.host)) {
-                (Some(&place), Some(host)) => host.getEvent(place, into),
+                (Some(&place), Some(host)) => {
+                    let told = host.getEvent(place, into);
+                    correct(room);
+                    told
+                }
                 _ => kInvalidArgument,
             }
         }

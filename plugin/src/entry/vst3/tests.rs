@@ -14,6 +14,7 @@ use crate::entry::clap::tests::{FRAMES, Instance, struck};
 use overhear_player::kit_document::standard_slot;
 
 mod calls;
+mod expressions;
 mod panics;
 mod sweep;
 
