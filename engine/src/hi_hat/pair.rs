@@ -40,6 +40,7 @@ use crate::surface::contacts::STRIKER_PLACES;
 
 use super::foot::Foot;
 use super::rigid::{Rigid, Weights};
+use super::rigid_sound::RigidSound;
 use super::rim_points::{self, POINTS};
 
 use pedal::Pedal;
@@ -58,6 +59,8 @@ pub struct PairParts {
     pub folded: [RimHarmonics; 2],
     /// Both as rigid bodies.
     pub rigid: [Rigid; 2],
+    /// How both are heard as such.
+    pub rigid_sounds: [RigidSound; 2],
     /// The law of every point.
     pub law: ContactLaw,
     /// Loss of a lasting contact, s/m.
@@ -102,7 +105,7 @@ impl Pair {
             folded: parts.folded,
             rigid: parts.rigid,
             statics: Statics::new(parts.depth),
-            dynamics: Dynamics::default(),
+            dynamics: Dynamics::new(parts.rigid_sounds),
             rims: RimState::new(parts.law, parts.lasting_loss, parts.depth),
             pedal: Pedal::up(),
             strikers: [StrikerPlace::default(); STRIKER_PLACES],
@@ -247,6 +250,7 @@ impl Pair {
         self.rims.touching = compression.map(|d| d > 0.0);
         self.rims.lambda = [self.rims.lasting_loss; POINTS];
         (self.engaged, self.still) = (false, true);
+        self.dynamics.rigid_heard.sounds.iter_mut().for_each(RigidSound::reset);
         self.dynamics.update_offset(&rest.preload);
     }
 

@@ -22,8 +22,11 @@ pub struct Mount {
     pub bounce_hz: f64,
     /// Frequency at which it rocks, Hz, 0.5 to 100.
     pub rock_hz: f64,
-    /// Quality factor of both, 0.6 to 100.
+    /// Quality factor of the bounce, and of the rock unless it has its own, 0.6 to 100.
     pub q: f64,
+    /// Quality factor of the rock, 0.6 to 100.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rock_q: Option<f64>,
     /// Decay rate that the felts add to a mode of unit mean square under them, 1/s, 0 to 100.
     #[serde(rename = "damping_1_s")]
     pub damping: f64,
@@ -36,6 +39,9 @@ impl Numbers for Mount {
         visitor.number("bounce_hz", &mut self.bounce_hz, 1.0..=200.0);
         visitor.number("rock_hz", &mut self.rock_hz, 0.5..=100.0);
         visitor.number("q", &mut self.q, 0.6..=100.0);
+        if let Some(q) = &mut self.rock_q {
+            visitor.number("rock_q", q, 0.6..=100.0);
+        }
         visitor.number("damping_1_s", &mut self.damping, 0.0..=100.0);
         visitor.number("reach", &mut self.reach, 0.0..=0.5);
     }
@@ -53,12 +59,13 @@ pub struct Rigid {
 impl Rigid {
     /// A cymbal of that mass (kg), at rest.
     pub fn new(mass: f64, mount: &Mount, lossless: bool, dt: f64) -> Rigid {
-        let omegas = [mount.bounce_hz, mount.rock_hz, mount.rock_hz].map(|hz| TAU * hz);
-        let sigma = |omega: f64| if lossless { 0.0 } else { omega / (2.0 * mount.q) };
+        let rock = (TAU * mount.rock_hz, mount.rock_q.unwrap_or(mount.q));
+        let motions = [(TAU * mount.bounce_hz, mount.q), rock, rock];
+        let sigma = |(omega, q): (f64, f64)| if lossless { 0.0 } else { omega / (2.0 * q) };
         Rigid {
-            parts: omegas.map(|omega| Oscillator::sprung(mass, omega, sigma(omega), dt)),
-            stiffness: omegas.map(|omega| mass * omega * omega),
-            damping: 2.0 * sigma(omegas[0]) * mass,
+            parts: motions.map(|motion| Oscillator::sprung(mass, motion.0, sigma(motion), dt)),
+            stiffness: motions.map(|(omega, _)| mass * omega * omega),
+            damping: 2.0 * sigma(motions[0]) * mass,
         }
     }
 
@@ -76,6 +83,11 @@ impl Rigid {
     /// Heave and tilts, m.
     pub fn place(&self) -> [f64; 3] {
         self.parts.map(|part| part.q)
+    }
+
+    /// Speeds of heave and tilts, m/s.
+    pub fn speeds(&self) -> Weights {
+        self.parts.map(|part| part.v)
     }
 
     /// Puts it to rest at this heave and these tilts, m.

@@ -12,6 +12,7 @@ use crate::modal::simd::MAX_RUN;
 use crate::modal::simd::rim_harmonics::Amplitudes;
 use crate::modal::{InputVector, ModalBody, Pressure, RECEIVERS};
 use crate::potential::NonlinearForce;
+use crate::surface::body::add;
 
 use super::pair::Pair;
 use super::rigid::Rigid;
@@ -77,15 +78,44 @@ impl Pair {
         self.pedal.work += self.held() - before;
     }
 
+    /// Steps both cymbals as rigid bodies, the rod moving at a speed (m/s). Returns the force of the clutch's damper, N.
+    fn step_rigid(&mut self, speed: f64) -> f64 {
+        let (drawn, damper) = self.rigid[0].drawn(self.pedal.foot.place(), speed);
+        let before = self.rigid.each_ref().map(Rigid::speeds);
+        self.rigid.iter_mut().for_each(Rigid::step);
+        self.rigid[0].push(&[1.0, 0.0, 0.0], drawn);
+        // Notes send the foot off at once, where a drummer's sets out earlier and gently: its way is not heard.
+        let flies = self.pedal.foot.moves() && !self.is_touching() || self.pedal.arrival.is_some();
+        self.dynamics.rigid_heard.from =
+            if flies { self.rigid.each_ref().map(Rigid::speeds) } else { before };
+        damper
+    }
+
+    /// Pressure of both cymbals as rigid bodies at the end of a sample, Pa.
+    fn hear_rigid(&mut self) -> Pressure {
+        let mut sum = Pressure::default();
+        if self.still {
+            return sum;
+        }
+        let cymbals = self
+            .dynamics
+            .rigid_heard
+            .sounds
+            .iter_mut()
+            .zip(self.rigid.iter().zip(&self.dynamics.rigid_heard.from));
+        for (sound, (rigid, before)) in cymbals {
+            let after = rigid.speeds();
+            add(&mut sum, sound.hear(&std::array::from_fn(|part| (after[part] - before[part]) / self.dt)));
+        }
+        sum
+    }
+
     /// Steps both cymbals as rigid bodies, and the lower shell if the rims may meet. The upper shell has stepped before; `mean`
     /// (m) and the dimensionless `divisor` are those of its nonlinear force.
     pub(super) fn step_free(&mut self, top: &ModalBody, mean: f64, divisor: f64) {
         self.follow_pedal();
         self.pedal.from = self.rigid[0].place()[0];
-        let (drawn, damper) = self.rigid[0].drawn(self.pedal.foot.place(), self.pedal.foot.speed());
-        self.rigid.iter_mut().for_each(Rigid::step);
-        self.rigid[0].push(&[1.0, 0.0, 0.0], drawn);
-        self.pedal.damper = damper;
+        self.pedal.damper = self.step_rigid(self.pedal.foot.speed());
         self.rims.age += 1;
         if !self.engaged {
             return;
@@ -155,8 +185,18 @@ impl Pair {
         for (weights, force) in self.statics.weights.iter().zip(&self.rims.force) {
             felt.iter_mut().zip(weights).for_each(|(felt, weight)| *felt += weight * force);
         }
+        let before = self.rigid.each_ref().map(Rigid::speeds);
         self.rigid[0].push_parts(&felt.map(|force| -force));
         self.rigid[1].push_parts(&felt);
+        if self.pedal.arrival.is_some() {
+            // Rims that are led to another equilibrium are not heard as they let go.
+            for ((heard_from, rigid), before) in
+                self.dynamics.rigid_heard.from.iter_mut().zip(&self.rigid).zip(&before)
+            {
+                let now = rigid.speeds();
+                (0..now.len()).for_each(|part| heard_from[part] += now[part] - before[part]);
+            }
+        }
         let down = self.kernels.vectorized(
             #[inline(always)]
             || rim_points::amplitudes(&dynamic),
@@ -185,8 +225,9 @@ impl Pair {
         divisor: f64,
     ) -> Pressure {
         self.pedal.work += self.pedal.damper * (self.rigid[0].place()[0] - self.pedal.from);
+        let mut heard = self.hear_rigid();
         if !self.engaged {
-            return Pressure::default();
+            return heard;
         }
         let of_strikers: f64 = strikers.clone().map(|(_, force, u)| force * u).sum();
         let of_rims: f64 =
@@ -204,17 +245,18 @@ impl Pair {
             self.rims.compression[j] = self.rims.free[j] - moved + self.dynamics.coupling[j] * coupled;
         }
         self.rims.count();
-        self.lower.modal.listen(&self.lower.receiver)
+        add(&mut heard, self.lower.modal.listen(&self.lower.receiver));
+        heard
     }
 
     /// Renders samples in which the rims do not touch, and adds the pressure of the lower shell, Pa. As rigid bodies both
     /// cymbals have stepped for the first `stiff` samples already.
-    pub(super) fn ring_apart(&mut self, out: [&mut [f32]; RECEIVERS], stiff: usize) {
+    pub(super) fn ring_apart(&mut self, mut out: [&mut [f32]; RECEIVERS], stiff: usize) {
         let samples = out[0].len();
-        for _ in stiff..samples {
-            let (drawn, _) = self.rigid[0].drawn(self.pedal.foot.place(), 0.0);
-            self.rigid.iter_mut().for_each(Rigid::step);
-            self.rigid[0].push(&[1.0, 0.0, 0.0], drawn);
+        for sample in stiff..samples {
+            self.step_rigid(0.0);
+            let heard = self.hear_rigid();
+            out.iter_mut().zip(heard).for_each(|(out, heard)| out[sample] += heard);
             self.rims.age += 1;
         }
         if !self.lower.modal.is_still() {

@@ -6,6 +6,7 @@ use std::f64::consts::{PI, TAU};
 
 use crate::build_context::Idealization;
 use crate::contact::Material;
+use crate::cymbal::FELT_RADIUS;
 use crate::cymbal::hammering::HammeringSpec;
 use crate::cymbal::spec::{CymbalSpec, Stand};
 use crate::damping::{EdgeSpec, LossLaw, Muffler};
@@ -353,6 +354,26 @@ fn stand(radius: f64, height: f64) -> Stand {
     Stand { bounce_hz: 20.0, rock_hz: (10.0 * rock_hz).round() / 10.0, q: 3.0, rock_q: 6.0 }
 }
 
+/// The clutch of a hi-hat whose upper cymbal has a radius and a height, m.
+///
+/// *Derived*: players leave it loose, so that the cymbal lies on the lower felt by its weight and swings. The felt gives as that of a
+/// stand does, `k = M w^2` at its bounce; it is a ring of the radius `f`, so that a tilt `t` has the moment `k f^2 / 2 t`, and the
+/// cymbal hangs below by half its height. Struck hats tilt by less than the felt is pressed in, 0.6 mm over its radius. The bounce
+/// here is that of a rod that pushes the cymbal down through both felts, *by ear*, the rock's quality that of a stand.
+fn clutch(radius: f64, height: f64) -> Mount {
+    let loose = stand(radius, height);
+    let felt = (TAU * loose.bounce_hz * FELT_RADIUS).powi(2) / 2.0;
+    let rock_hz = ((felt + 0.5 * GRAVITY * height) * 4.0 / (radius * radius)).sqrt() / TAU;
+    Mount {
+        bounce_hz: 60.0,
+        rock_hz: (10.0 * rock_hz).round() / 10.0,
+        q: 2.0,
+        rock_q: Some(loose.rock_q),
+        damping: 0.5,
+        reach: 0.08,
+    }
+}
+
 /// A cymbal hammered in its own way.
 fn hammered(cymbal: CymbalSpec, seed: u32) -> InstrumentSpec {
     let hammering =
@@ -390,8 +411,8 @@ fn hi_hat() -> InstrumentSpec {
     InstrumentSpec::HiHat(HiHatSpec {
         top: half(0.95, 5),
         bottom: half(1.25, 6),
-        clutch: Mount { bounce_hz: 60.0, rock_hz: 6.0, q: 2.0, damping: 0.5, reach: 0.08 },
-        seat: Mount { bounce_hz: 50.0, rock_hz: 12.0, q: 2.0, damping: 0.5, reach: 0.12 },
+        clutch: clutch(inches(14.0) / 2.0, fitted::HAT_BOW + fitted::HAT_BELL_RISE),
+        seat: Mount { bounce_hz: 50.0, rock_hz: 12.0, q: 2.0, rock_q: None, damping: 0.5, reach: 0.12 },
         tilt: 0.009,
         toward: 2.0,
         edge: 1e-3,

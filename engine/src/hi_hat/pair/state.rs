@@ -3,6 +3,7 @@
 use crate::contact::ContactLaw;
 use crate::contact::solver::Compliances;
 use crate::hi_hat::rigid::{Rigid, Weights};
+use crate::hi_hat::rigid_sound::{RigidHeard, RigidSound};
 use crate::hi_hat::rim_points::{self, POINTS};
 use crate::modal::simd::rim_harmonics::{Amplitudes, RimHarmonics};
 use crate::modal::{ModalBody, RECEIVERS, ReceiverWeights};
@@ -28,9 +29,17 @@ pub(crate) struct Dynamics {
     pub(crate) direct: [[Amplitudes; RECEIVERS]; 2],
     /// Coupling of the rim points with the upper cymbal's nonlinear force, positive as a point presses.
     pub(crate) coupling: [f64; POINTS],
+    /// How both cymbals are heard as rigid bodies.
+    pub(crate) rigid_heard: RigidHeard,
 }
 
 impl Dynamics {
+    /// Of cymbals that are so heard as rigid bodies, and are yet to be [followed](Self::follow).
+    pub(crate) fn new(sounds: [RigidSound; 2]) -> Dynamics {
+        let rigid_heard = RigidHeard { sounds, ..RigidHeard::default() };
+        Dynamics { rigid_heard, ..Dynamics::default() }
+    }
+
     /// Updates the response after a change of the modes or receiver weights of both cymbals.
     pub(crate) fn follow(
         &mut self,
