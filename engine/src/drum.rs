@@ -218,7 +218,12 @@ impl Drum {
         drum.follow_controls();
         if let (Some(resonant), Some(wires)) = (spec.resonant, spec.wires) {
             let dt = 1.0 / options.sample_rate;
-            drum.surface.attach(SnareWires::new(&wires, &resonant.material, ideal.lossless, dt));
+            drum.surface.attach(SnareWires::new(
+                &wires,
+                (&resonant.material, spec.radius()),
+                ideal.lossless,
+                dt,
+            ));
         }
         if let Some(hoop) = spec.hoop {
             let rim = Rim::new(spec.radius(), &hoop, spec.cylinder().as_ref(), points, ideal.lossless);

@@ -105,8 +105,6 @@ fitted! {
     SNARE_PRELOAD = 0.08, "N", "pieces.snare.defaults.preload_n";
         to "how much brighter a hard stroke buzzes in recordings (the literature's strainers: 0.15)"; tried "0.15 (the first) and 0.08";
         moves "landings, length of the buzz, sympathetic buzz";
-    WIRE_PATCH = 0.04, "m", "wire_patch";
-        to "by ear: how hard a group of strands lands"; tried "between 0.03 (a group's share) and 0.07 (its length)"; moves "landings, the snare's highs";
     STRIKER_AWAY = 0.010, "m", "striker_away";
         to "by ear: no head comes up so far to a stick that has left"; tried "not recorded"; moves "second touches";
     STRIKER_LIFTED_AFTER = 0.3, "s", "striker_lifted_after";

@@ -99,11 +99,11 @@ pub struct StrikeSnapshot {
 /// What snare wires have done since the latest stroke.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct WireSnapshot {
-    /// Landings of all groups.
+    /// Landings of all sections.
     pub landings: u32,
-    /// Groups off the head now, a bit each in the order of [`PLACES`](crate::surface::wires::PLACES).
+    /// Sections off the head now, a bit each in the order of [`PLACES`](crate::surface::wires::PLACES).
     pub aloft: u32,
-    /// When a group last lifted off, s after the stroke; 0 if none has.
+    /// When a section last lifted off, s after the stroke; 0 if none has.
     pub last_lift: f32,
 }
 

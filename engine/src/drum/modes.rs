@@ -131,6 +131,6 @@ impl DrumModes {
         let Receivers { near, far } = context.receivers;
         let ear = Receiver { point: near.from_behind(behind), away: far, outside: spec.outside(), far: true };
         let head = self.heads.resonant.as_ref()?;
-        Some(head.high_band(ear, context, wires::GROUPS))
+        Some(head.high_band(ear, context, wires::SECTIONS))
     }
 }

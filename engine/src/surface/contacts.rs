@@ -4,7 +4,7 @@
 //! over the sample exactly. A contact is therefore one scalar equation, and several contacts are a small system of such
 //! equations, which the [solver] solves.
 //!
-//! Strikers come first; exciters of attachments follow, with one point each.
+//! Strikers come first; exciters of attachments follow, with [`ATTACHED_POINTS`] each.
 
 use crate::contact::ContactStep;
 use crate::contact::force::ContactLanes;
@@ -23,12 +23,19 @@ pub(super) const STRIKER_POINTS: usize = 2;
 /// Points of all strikers, which come before all others.
 pub const STRIKER_PLACES: usize = STRIKER_POINTS * MAX_STRIKERS;
 
+/// Points of every exciter of an attachment.
+pub const ATTACHED_POINTS: usize = 4;
+
 /// Most points.
 const MAX_POINTS: usize = solver::MAX_CONTACTS;
 
 /// The exciter of a point.
 pub(super) const fn owner(point: usize) -> usize {
-    if point < STRIKER_PLACES { point / STRIKER_POINTS } else { MAX_STRIKERS + point - STRIKER_PLACES }
+    if point < STRIKER_PLACES {
+        point / STRIKER_POINTS
+    } else {
+        MAX_STRIKERS + (point - STRIKER_PLACES) / ATTACHED_POINTS
+    }
 }
 
 /// The points of an exciter.
@@ -36,8 +43,8 @@ pub(super) const fn points_of(exciter: usize) -> std::ops::Range<usize> {
     if exciter < MAX_STRIKERS {
         STRIKER_POINTS * exciter..STRIKER_POINTS * (exciter + 1)
     } else {
-        let point = STRIKER_PLACES + exciter - MAX_STRIKERS;
-        point..point + 1
+        let point = STRIKER_PLACES + ATTACHED_POINTS * (exciter - MAX_STRIKERS);
+        point..point + ATTACHED_POINTS
     }
 }
 
@@ -45,7 +52,7 @@ pub(super) const fn points_of(exciter: usize) -> std::ops::Range<usize> {
 pub struct Contacts {
     /// Strikers, then those of attachments.
     pub(super) exciters: Vec<Exciter>,
-    /// Tip and shaft of every striker, then one point of every other exciter.
+    /// Tip and shaft of every striker, then the points of every other exciter.
     pub(super) points: Vec<ContactPoint>,
     /// Points present.
     present: [usize; MAX_POINTS],
@@ -106,15 +113,14 @@ impl Contacts {
         self.dt
     }
 
-    /// Adds an exciter with a point of its own; returns the index of the point. Allocates.
+    /// Adds an exciter with points of its own. Allocates.
     ///
     /// # Panics
-    /// If there are as many points as the solver takes (debug builds).
-    pub fn add(&mut self, exciter: Exciter, point: ContactPoint) -> usize {
-        debug_assert!(self.points.len() < MAX_POINTS);
+    /// If there are more points than the solver takes (debug builds).
+    pub fn add(&mut self, exciter: Exciter, points: [ContactPoint; ATTACHED_POINTS]) {
+        debug_assert!(self.points.len() + ATTACHED_POINTS <= MAX_POINTS);
         self.exciters.push(exciter);
-        self.points.push(point);
-        self.points.len() - 1
+        self.points.extend(points);
     }
 
     /// Sets the number of modes of the body that the shafts of strikers meet. Allocates.

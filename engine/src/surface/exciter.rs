@@ -1,7 +1,7 @@
 //! Exciters of a struck body: their masses and springs, and their points of contact.
 //!
 //! A striker is a free mass behind a tip, a stick also bends and may meet the rim with its shaft; a
-//! group of snare wires is a mass on a spring that a preload presses on. All are a few
+//! row of snare wires is a string that a preload presses on. All are a few
 //! [oscillators](super::oscillator), of which every point feels a weighted sum, and all meet the
 //! surface by the one [contact law](crate::contact).
 //!
@@ -16,8 +16,8 @@ use crate::strike::{Across, Striker, StrikerSpec};
 use super::local_compliance::BANDS;
 use super::oscillator::Oscillator;
 
-/// Oscillators of one exciter: two of a rigid stick, three of its bending.
-pub const PARTS: usize = 5;
+/// Oscillators of one exciter, at most: two of a rigid stick with three of its bending, or six modes of snare wires.
+pub const PARTS: usize = 6;
 
 /// What a point presses on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -152,7 +152,7 @@ impl ContactPoint {
     }
 }
 
-/// A striker or a group of wires, with one or two points of contact.
+/// A striker with one or two points of contact, or a row of snare wires with four.
 pub struct Exciter {
     /// Whether there is one.
     pub present: bool,

@@ -41,6 +41,11 @@ impl Oscillator {
         Oscillator { q: 0.0, v: 0.0, mass, omega, turn, hold }
     }
 
+    /// Moves as another from now on.
+    pub fn become_like(&mut self, other: Oscillator) {
+        *self = Oscillator { q: self.q, v: self.v, ..other };
+    }
+
     /// One-sample compliance: displacement at the end of a sample by a unit force held over it, m/N.
     pub fn compliance(&self) -> f64 {
         self.hold[0]

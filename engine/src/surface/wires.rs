@@ -1,20 +1,35 @@
-//! Snare wires: groups of strands that lie against the far head, fly off it and land again.
+//! Snare wires: strands stretched across the far head that lie against it, fly off it and slap back.
 //!
-//! Model: the twenty strands move as [`GROUPS`] masses, each on a soft spring with a little damping, pressed
-//! against the head by its share of the strainer's force; steel on film, the law of every contact. Where the
-//! head falls back faster than the preload can follow, a group flies, and each landing is an impact.
+//! Model: the strands of each of [`ROWS`] rows move together, as one string between the end plates of which the first
+//! [`MODES`] transverse modes are kept. A string of mass `m`, length `L` and tension `T` has
+//!
+//! ```text
+//! omega_n = n pi / L sqrt(T L / m)      modal mass m / 2      sigma_n = omega_n / (2 Q)
+//! ```
+//!
+//! It touches the head along its whole length, in four sections. The force on a section is spread evenly along it, so it
+//! moves mode `n` by the mean of the mode's shape over the section, and the head as a uniform load along a line does. The mean
+//! deflection by that is that of a disc of radius `exp(-5/4)` of the line's length (the mean logarithm of distance of two points on
+//! a segment is `ln L - 3/2`, on a disc `ln b - 1/4`). Steel on film, the law of every contact.
+//!
+//! What presses the wires on is their tension: the snare bed bends them over the head by a small angle, `T` times which is the
+//! preload. Tightening the strainer thus raises both. The head is bent next to the bed: a dip of width `w` in its edge flattens
+//! out as `exp(-pi d / w)` (Laplace's equation), so the outer sections are pressed on more than the inner ones, as this at the distance
+//! `d` from the rim. The rows are not equally tight. Where the head falls back faster than the preload can follow, a section flies, and each landing is
+//! an impact.
 //!
 //! Displacements are measured from where the preload alone holds head and wires, so that a drum at rest is
 //! at rest exactly, whatever the preload.
 //!
-//! Neglected: motion of the strands against each other, their own bending waves, their weight.
+//! Neglected: motion of a row's strands against each other, the stiffness of the coils, stretching by large deflection, the
+//! weight, the motion of the end plates.
 
+use std::f64::consts::PI;
 use std::ops::{Range, RangeInclusive};
 
 use serde::{Deserialize, Serialize};
 
 use crate::contact::{ContactLaw, Material, Tip};
-use crate::fitted;
 use crate::modal::Pressure;
 use crate::numbers::{Numbers, Visitor};
 use crate::shapes::ShapeTable;
@@ -22,27 +37,47 @@ use crate::snapshot::WireSnapshot;
 
 use super::attachment::{Attachment, Site};
 use super::body::FreeStep;
-use super::contacts::{Contacts, owner};
-use super::exciter::{ContactPoint, Exciter, Ground};
+use super::contacts::{ATTACHED_POINTS, Contacts, owner, points_of};
+use super::exciter::{ContactPoint, Exciter, Ground, PARTS};
 use super::local_compliance::LocalHeadCompliance;
 use super::oscillator::Oscillator;
 
-/// Groups of strands.
-pub const GROUPS: usize = 8;
+/// Rows of strands.
+pub const ROWS: usize = 2;
 
-/// Where they lie on the head, shares of its radius: two rows of four across it.
-pub const PLACES: [[f64; 2]; GROUPS] = [
-    [-0.56, -0.105],
-    [-0.19, -0.105],
-    [0.19, -0.105],
-    [0.56, -0.105],
-    [-0.56, 0.105],
-    [-0.19, 0.105],
-    [0.19, 0.105],
-    [0.56, 0.105],
-];
+/// Modes of each row. *Derived*: those by which four sections can move apart, and half as many again.
+pub const MODES: usize = PARTS;
 
-/// Least and greatest force of the strainer on all groups, N.
+/// Sections of all rows.
+pub const SECTIONS: usize = ROWS * ATTACHED_POINTS;
+
+/// Length between the end plates as a share of the head's diameter. *Measured*: 27 cm on a 14-inch drum.
+const LENGTH: f64 = 0.76;
+
+/// Distance of each row from the middle, a share of the radius: twenty strands are some 6 cm wide.
+const ROW: f64 = 0.105;
+
+/// Middles of the sections on the head, shares of its radius: one row after the other.
+pub const PLACES: [[f64; 2]; SECTIONS] = {
+    let mut places = [[0.0; 2]; SECTIONS];
+    let mut i = 0;
+    while i < SECTIONS {
+        places[i] =
+            [(2.0 * along(i % ATTACHED_POINTS) - 1.0) * LENGTH, if i < ATTACHED_POINTS { -ROW } else { ROW }];
+        i += 1;
+    }
+    places
+};
+
+/// The middle of a section, a share of the length.
+const fn along(section: usize) -> f64 {
+    (section as f64 + 0.5) / ATTACHED_POINTS as f64
+}
+
+/// How tight each row is, relative to the mean. *By judgement*: coils soldered between two plates are uneven by some percent.
+const TIGHTNESS: [f64; ROWS] = [0.96, 1.04];
+
+/// Least and greatest force that presses all wires on, N.
 pub const PRELOAD: RangeInclusive<f64> = 0.03..=1.5;
 
 /// A description of snare wires.
@@ -52,10 +87,14 @@ pub struct WiresSpec {
     /// Mass of all strands, kg, 0.001 to 0.03.
     #[serde(rename = "mass_kg")]
     pub mass: f64,
-    /// Stiffness of the spring that a group of strands is on, N/m, 10 to 5000.
-    #[serde(rename = "stiffness_n_m")]
-    pub stiffness: f64,
-    /// Quality factor of that spring, 0.6 to 100.
+    /// Angle by which the snare bed bends them over the head, rad, 0.0005 to 0.1: the force that presses them on over their
+    /// tension.
+    #[serde(rename = "bend_rad")]
+    pub bend: f64,
+    /// Width of the snare bed, m, 0.02 to 0.4: what it presses on falls by `e` within a third of it from the rim.
+    #[serde(rename = "bed_m")]
+    pub bed: f64,
+    /// Quality factor of their modes, 0.6 to 2000.
     pub q: f64,
     /// Radius of a wire, m, 0.0001 to 0.003.
     #[serde(rename = "wire_radius_m")]
@@ -69,49 +108,52 @@ pub struct WiresSpec {
 impl Numbers for WiresSpec {
     fn visit(&mut self, visitor: &mut dyn Visitor) {
         visitor.number("mass_kg", &mut self.mass, 1e-3..=0.03);
-        visitor.number("stiffness_n_m", &mut self.stiffness, 10.0..=5000.0);
-        visitor.number("q", &mut self.q, 0.6..=100.0);
+        visitor.number("bend_rad", &mut self.bend, 5e-4..=0.1);
+        visitor.number("bed_m", &mut self.bed, 0.02..=0.4);
+        visitor.number("q", &mut self.q, 0.6..=2000.0);
         visitor.number("wire_radius_m", &mut self.radius, 1e-4..=3e-3);
         self.material.visit_part("material", visitor);
         visitor.number("restitution", &mut self.restitution, 0.05..=0.95);
     }
 }
 
-/// Radius of the disc that a group falls on, m: what it moves of the head at once decides how hard a landing is.
-/// *By ear*, between the 3 cm of a disc as large as a group's share of the wires and the 7 cm of its length.
-pub const PATCH: f64 = fitted::WIRE_PATCH;
+/// Radius of the disc that gives way as a section's line does, a share of the section's length: `exp(-5/4)`.
+const SPREAD: f64 = 0.286_505;
+
 /// Radius of the disc on which a single turn of a strand strikes, m: as fine as that are the waves that landings
 /// set going. *Derived*: some wire radii.
 pub const TURN: f64 = 0.002;
 
 /// The speed of landing that a touch without one, as of wires at rest, is as lossy as, m/s. *Derived*: what a
-/// group falling back by the preload reaches in a millisecond.
+/// section falling back by the preload reaches in a millisecond.
 const RESTING_SPEED: f64 = 0.02;
 
 /// Energy of the drum under which the wires lie still, J: nothing is heard of them.
 pub const STILL: f64 = 1e-10;
 
-/// All groups of one drum.
+/// All wires of one drum.
 pub struct SnareWires {
     /// Whether they lie against the head.
     on: bool,
     /// Whether they and the head lie still together.
     parked: bool,
-    /// Force of the strainer, N.
+    /// Force that presses them on, N.
     preload: f64,
-    /// The law of every group.
+    /// The law of every section.
     law: ContactLaw,
-    /// The head right under a group.
+    /// The head right under a section.
     head: Option<LocalHeadCompliance>,
-    /// Place of the first group's point among the contacts.
+    /// The first point among the contacts.
     first: usize,
+    /// Radius of the head, m.
+    radius: f64,
     spec: WiresSpec,
     count: Landings,
     lossless: bool,
     dt: f64,
 }
 
-/// What the groups have done since the latest stroke.
+/// What the sections have done since the latest stroke.
 #[derive(Default)]
 struct Landings {
     /// Samples since the stroke.
@@ -121,10 +163,10 @@ struct Landings {
 }
 
 impl SnareWires {
-    /// Wires against a head of that material, at rest; a sample lasts `dt` s. [`lay`](Self::lay) tells where.
-    pub fn new(spec: &WiresSpec, head: &Material, lossless: bool, dt: f64) -> SnareWires {
+    /// Wires against a head of that material and radius (m), at rest; a sample lasts `dt` s. [`lay`](Self::lay) tells where.
+    pub fn new(spec: &WiresSpec, head: (&Material, f64), lossless: bool, dt: f64) -> SnareWires {
         let tip = Tip::Solid { material: spec.material, radius: spec.radius };
-        let law = ContactLaw::new(&tip, head, if lossless { 1.0 } else { spec.restitution });
+        let law = ContactLaw::new(&tip, head.0, if lossless { 1.0 } else { spec.restitution });
         SnareWires {
             on: true,
             parked: true,
@@ -132,6 +174,7 @@ impl SnareWires {
             law,
             head: None,
             first: 0,
+            radius: head.1,
             spec: *spec,
             count: Landings::default(),
             lossless,
@@ -139,29 +182,50 @@ impl SnareWires {
         }
     }
 
-    /// A group on its spring.
-    fn group(&self) -> Oscillator {
-        let WiresSpec { mass, stiffness, q, .. } = self.spec;
-        let mass = mass / GROUPS as f64;
-        let omega = (stiffness / mass).sqrt();
+    /// A mode of a string under the present preload.
+    fn mode(&self, row: usize, n: usize) -> Oscillator {
+        let WiresSpec { mass, bend, q, .. } = self.spec;
+        let mass = mass / ROWS as f64;
+        let tension = self.share(row) / bend;
+        let omega = n as f64 * PI * (tension / (mass * self.length())).sqrt();
         let sigma = if self.lossless { 0.0 } else { omega / (2.0 * q) };
-        Oscillator::sprung(mass, omega, sigma, self.dt)
+        Oscillator::sprung(0.5 * mass, omega, sigma, self.dt)
     }
 
-    /// Each group's share of the preload (N), and the compression (m) it holds.
-    fn static_compression(&self) -> (f64, f64) {
-        let share = self.preload / GROUPS as f64;
+    /// Length between the end plates, m.
+    fn length(&self) -> f64 {
+        2.0 * LENGTH * self.radius
+    }
+
+    /// Radius of the disc on which a section presses, m.
+    fn patch(&self) -> f64 {
+        SPREAD * self.length() / ATTACHED_POINTS as f64
+    }
+
+    /// A string's share of the preload, N.
+    fn share(&self, row: usize) -> f64 {
+        self.preload * TIGHTNESS[row] / ROWS as f64
+    }
+
+    /// The preload of a section of a string (N), and the compression (m) it holds.
+    fn static_compression(&self, row: usize, section: usize) -> (f64, f64) {
+        let bent = |section: usize| {
+            let [x, y] = PLACES[section];
+            (-(1.0 - x.hypot(y)) * self.radius * PI / self.spec.bed).exp()
+        };
+        let all: f64 = (0..ATTACHED_POINTS).map(bent).sum();
+        let share = self.share(row) * bent(section) / all;
         (share, (share / self.law.stiffness).powf(1.0 / self.law.exponent))
     }
 
-    /// The points of all groups.
+    /// All points.
     fn points(&self) -> Range<usize> {
-        self.first..self.first + GROUPS
+        self.first..self.first + SECTIONS
     }
 
-    /// The exciters of all groups.
+    /// All strings.
     fn exciters(&self) -> Range<usize> {
-        owner(self.first)..owner(self.first) + GROUPS
+        owner(self.first)..owner(self.first) + ROWS
     }
 
     /// Lays the wires against the far head of these shapes (positive along the stroke), which yields right under them
@@ -172,8 +236,8 @@ impl SnareWires {
     pub fn lay(&mut self, head: Option<LocalHeadCompliance>, far: &ShapeTable, site: Site<'_>) {
         let Site { body, contacts, observers } = site;
         self.head = head;
-        let disc = head.map_or(0.0, |film| PATCH / film.radius);
-        for (i, [x, y]) in self.points().zip(PLACES) {
+        let disc = head.map_or(0.0, |film| self.patch() / film.radius);
+        for (i, [x, y]) in (self.first..).zip(PLACES) {
             let shape = contacts.points[i].port.shape_mut();
             far.fill_pressed(x.hypot(y), x.atan2(-y), disc, shape);
             // They lie on the other side: their way into the head is against the stroke.
@@ -204,21 +268,27 @@ impl SnareWires {
         }
     }
 
-    /// Sets the force of the strainer, N; live.
+    /// Sets the force that presses them on, N, and with it their tension; live. The strainer does work on wires that are bent.
     pub fn set_preload(&mut self, preload: f64, site: Site<'_>) {
         self.preload = preload.clamp(*PRELOAD.start(), *PRELOAD.end());
-        let (share, compression) = self.static_compression();
-        for point in &mut site.contacts.points[self.points()] {
-            // What is measured from equilibrium stays; equilibrium itself moves.
-            point.compression += compression - point.static_compression;
-            (point.preload, point.static_compression) = (share, compression);
+        for (row, exciter) in self.exciters().enumerate() {
+            for (section, point) in site.contacts.points[points_of(exciter)].iter_mut().enumerate() {
+                let (share, compression) = self.static_compression(row, section);
+                // What is measured from equilibrium stays; equilibrium itself moves.
+                point.compression += compression - point.static_compression;
+                (point.preload, point.static_compression) = (share, compression);
+                point.stale = true;
+            }
+            for (n, part) in (1..).zip(&mut site.contacts.exciters[exciter].parts[..MODES]) {
+                part.become_like(self.mode(row, n));
+            }
         }
     }
 
     /// What the wires have done since the latest stroke.
     pub fn snapshot(&self, contacts: &Contacts) -> WireSnapshot {
-        let groups = contacts.points[self.points()].iter().map(|point| point.present && !point.touching);
-        let aloft = groups.enumerate().fold(0, |bits, (group, aloft)| bits | (u32::from(aloft) << group));
+        let points = contacts.points[self.points()].iter().map(|point| point.present && !point.touching);
+        let aloft = points.enumerate().fold(0, |bits, (i, aloft)| bits | (u32::from(aloft) << i));
         let Landings { landings, last_lift, .. } = self.count;
         WireSnapshot { landings, aloft, last_lift: (last_lift as f64 * self.dt) as f32 }
     }
@@ -226,15 +296,20 @@ impl SnareWires {
 
 impl Attachment for SnareWires {
     fn attached(&mut self, site: Site<'_>) {
-        let (preload, compression) = self.static_compression();
         self.first = site.contacts.points.len();
-        for _ in PLACES {
-            let mut point = ContactPoint::absent(site.body.modal().len(), self.dt);
-            point.arrive(Ground::Body, self.law, [1.0, 0.0, 0.0, 0.0, 0.0]);
-            (point.present, point.preload, point.static_compression) = (false, preload, compression);
-            let mut group = Exciter::absent(self.dt);
-            (group.parts[0], group.part_count) = (self.group(), 1);
-            site.contacts.add(group, point);
+        for row in 0..ROWS {
+            let points = std::array::from_fn(|section| {
+                let (preload, compression) = self.static_compression(row, section);
+                let mut point = ContactPoint::absent(site.body.modal().len(), self.dt);
+                let weights = std::array::from_fn(|i| mean_shape(i + 1, section));
+                point.arrive(Ground::Body, self.law, weights);
+                (point.present, point.preload, point.static_compression) = (false, preload, compression);
+                point
+            });
+            let mut exciter = Exciter::absent(self.dt);
+            exciter.parts = std::array::from_fn(|i| self.mode(row, i + 1));
+            exciter.part_count = MODES;
+            site.contacts.add(exciter, points);
         }
     }
 
@@ -249,13 +324,14 @@ impl Attachment for SnareWires {
             (point.present, point.touching, point.lambda) = (true, true, lambda);
             (point.compression, point.force) = (point.static_compression, point.preload);
             if let Some(head) = self.head {
-                (point.bands, point.band_count) = head.bands(x.hypot(y), PATCH, !self.lossless, self.dt);
+                (point.bands, point.band_count) =
+                    head.bands(x.hypot(y), self.patch(), !self.lossless, self.dt);
             }
             point.origin = -site.body.modal().displacement_at(&point.port);
             point.stale = true;
-            let group = site.contacts.exciter_mut(i);
-            group.present = true;
-            group.parts[0].rest();
+            let row = site.contacts.exciter_mut(i);
+            row.present = true;
+            row.parts.iter_mut().for_each(Oscillator::rest);
         }
         site.contacts.list();
     }
@@ -292,7 +368,7 @@ impl Attachment for SnareWires {
     fn park(&mut self, contacts: &mut Contacts) {
         self.parked = true;
         contacts.points[self.points()].iter_mut().for_each(|point| point.present = false);
-        contacts.exciters[self.exciters()].iter_mut().for_each(|group| group.present = false);
+        contacts.exciters[self.exciters()].iter_mut().for_each(|row| row.present = false);
         contacts.list();
     }
 
@@ -302,5 +378,62 @@ impl Attachment for SnareWires {
 
     fn reset(&mut self, contacts: &mut Contacts) {
         self.park(contacts);
+    }
+}
+
+/// Mean over a section of the shape of mode `n`.
+fn mean_shape(n: usize, section: usize) -> f64 {
+    let half = 0.5 * n as f64 * PI / ATTACHED_POINTS as f64;
+    (n as f64 * PI * along(section)).sin() * half.sin() / half
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_force_along_a_section_moves_it_as_the_mass_of_the_section() {
+        // All modes: sum 2 <shape>^2 / m is the inverse of a section's mass.
+        for section in 0..ATTACHED_POINTS {
+            let all: f64 = (1..20_000).map(|n| 2.0 * mean_shape(n, section).powi(2)).sum();
+            assert!((all / ATTACHED_POINTS as f64 - 1.0).abs() < 1e-3, "{all}");
+            let kept: f64 = (1..=MODES).map(|n| 2.0 * mean_shape(n, section).powi(2)).sum();
+            assert!((0.75..1.0).contains(&(kept / all)), "{}", kept / all);
+        }
+    }
+
+    #[test]
+    fn a_line_gives_way_as_the_disc_that_stands_for_it() {
+        // Mean of the logarithm of the distance of two points on a segment of unit length: twice that of |x - y| below.
+        const STEPS: i32 = 4000;
+        let of = |i: i32| (f64::from(i) + 0.5) / f64::from(STEPS);
+        let mean: f64 = (0..STEPS).map(|i| 2.0 * (1.0 - of(i)) * of(i).ln()).sum::<f64>() / f64::from(STEPS);
+        assert!((SPREAD.ln() - 0.25 - mean).abs() < 1e-3, "{mean}");
+    }
+
+    #[test]
+    fn the_bed_presses_on_the_outer_sections_and_the_whole_preload_is_shared_out() {
+        let spec = WiresSpec {
+            mass: 0.02,
+            bend: 0.002,
+            bed: 0.1,
+            q: 100.0,
+            radius: 8e-4,
+            material: Material::STEEL,
+            restitution: 0.35,
+        };
+        let mut wires = SnareWires::new(&spec, (&Material::FILM, 0.178), false, 1.0 / 48e3);
+        wires.preload = 0.08;
+        let shares: Vec<f64> = (0..ROWS)
+            .flat_map(|row| (0..ATTACHED_POINTS).map(move |section| (row, section)))
+            .map(|(row, section)| wires.static_compression(row, section).0)
+            .collect();
+        assert!((shares.iter().sum::<f64>() / 0.08 - 1.0).abs() < 1e-9, "{shares:?}");
+        // A step inward is .38 of the radius nearly: exp(-pi .0676 / .1).
+        assert!((shares[1] / shares[0] / 0.12 - 1.0).abs() < 0.1, "{shares:?}");
+        // Tightened, they are stiffer.
+        let slack = wires.mode(0, 1).compliance();
+        wires.preload = 0.32;
+        assert!(wires.mode(0, 1).compliance() < slack);
     }
 }

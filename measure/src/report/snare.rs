@@ -30,7 +30,8 @@ pub fn page() -> Result<Page> {
         "Snare",
         PLAYED,
         "A snare alone, struck at .3 of its radius, 44.1 kHz: that of the standard kit, and one of 220 Hz with a fixed disc under\n\
-         the stick and .15 N on its wires, for which landings were published. Landings count every group of wires. `hear snare`\n\
+         the stick and .15 N on its wires, for which landings were published. Those were counted of eight\n\
+         masses on springs, here all sections of the strings count. `hear snare`\n\
          gives the same figures of the first; `tests/tests/strokes.rs` and `tests/tests/drums.rs` hold them.",
     );
     let (published, played) = (reference::fixed_disc_snare(), spec("snare"));
@@ -41,11 +42,11 @@ pub fn page() -> Result<Page> {
     let lines = preloads(&played).map(|preload| (format!("{preload} N"), aloft(&played, preload))).into();
     sheet.plot(
         "wires",
-        "Groups of the standard kit's wires off the head after a stroke of 4 m/s, for three preloads, means over 10 ms",
+        "Sections of the standard kit's wires off the head after a stroke of 4 m/s, for three preloads, means over 10 ms",
         &Plot {
             across: Axis::linear("s after the stroke", 0.0..0.3),
-            up: Axis::linear("groups off the head", 0.0..8.5),
-            panels: vec![("eight groups of wires".to_owned(), lines)],
+            up: Axis::linear("sections off the head", 0.0..8.5),
+            panels: vec![("eight sections of wires".to_owned(), lines)],
         },
     )?;
     Ok(sheet.finish())
@@ -169,7 +170,7 @@ fn struck(snare: &PieceSpec, speed: f64, controls: Controls) -> (Piece, Vec<f32>
     (snare, sound)
 }
 
-/// Groups off the head over time, s, the wires pressed on with so many N.
+/// Sections off the head over time, s, the wires pressed on with so many N.
 fn aloft(snare: &PieceSpec, preload: f64) -> Vec<(f64, f64)> {
     let mut snare = set(snare, Controls { preload, ..Controls::own(snare) });
     snare.strike(&stroke(Striker::Stick, 4.0, 0.3, 0.0));
