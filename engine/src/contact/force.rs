@@ -100,9 +100,9 @@ fn secant_of_roots(stiffness: f64, d0: f64, d1: f64, s0: f64) -> (f64, f64) {
     let (a, b, c) = (s1 * s1, s0 * s0, s1 * s0);
     let through = k * (a * a + b * b + c * (a + b + c)) * over;
     let rises = 0.5 * k * (s1 * (3.0 * a + 6.0 * c + 4.0 * b) + 2.0 * s0 * b) * over * over;
-    // It closes or opens within.
+    // It closes or opens within. By less than the least normal number it has not moved: the inverse would be infinite.
     let moved = d1 - d0;
-    let by = 1.0 / if moved == 0.0 { 1.0 } else { moved };
+    let by = 1.0 / if moved.abs() < f64::MIN_POSITIVE { 1.0 } else { moved };
     let mean = k * (a * a * s1 - b * b * s0) * by;
     let steepens = (2.5 * k * a * s1 - mean) * by;
     let closed = s0 > 0.0 && s1 > 0.0;
@@ -183,6 +183,18 @@ mod tests {
                 let (force, slope) = law.elastic(d + 0.5 * moved);
                 assert!((forces[0] / force - 1.0).abs() < 1e-9, "{law:?} {moved}: {} {force}", forces[0]);
                 assert!((slopes[0] / (0.5 * slope) - 1.0).abs() < 1e-4, "{law:?} {moved}: {}", slopes[0]);
+            }
+        }
+    }
+
+    #[test]
+    fn a_contact_that_closes_by_a_denormal_number_has_no_force() {
+        for law in laws() {
+            for (before, after) in [(0.0, 2.3e-315), (-1e-315, 1e-315), (1e-315, 0.0), (5e-324, 1e-323)] {
+                let lanes = lanes(&law, 30.0, 1e-5, before);
+                let (forces, slopes) = lanes.gradient::<false>(&lanes.roots(), &[after; 4]);
+                assert_eq!(forces[0], 0.0, "{law:?} {before:e} {after:e}");
+                assert!(slopes[0].is_finite(), "{law:?} {before:e} {after:e}: {}", slopes[0]);
             }
         }
     }

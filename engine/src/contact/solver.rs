@@ -217,7 +217,8 @@ fn between_bounds(lane: &ContactLanes<1>, compliance: f64) -> f64 {
     // g(d) = d + C F(d) - free grows strictly; its root lies in [free - C F(free), free].
     let (mut low, mut high) = (free - compliance * free_force, free);
     let tolerance = 1e-15 * before.abs().max(free.abs());
-    let mut d = before.clamp(low, high);
+    // Bounds that are not numbers must not end the program, as `clamp` would; the force then is none and the piece is reset.
+    let mut d = before.max(low).min(high);
     let mut force = free_force;
     for _ in 0..MAX_ITERATIONS {
         let (value, slope) = at(d);

@@ -164,7 +164,6 @@ mod tests {
                     let db = 20.0 * (sums[at][0].hypot(sums[at][1]) / want).log10();
                     // Heave is what is heard: the tilts, of opposite halves, are softer and less exact.
                     let most = if m == 0 { 3.0 } else { 10.0 };
-                    println!("part {part}, receiver {at}, {hz} Hz: {db:.2} dB");
                     assert!(db.abs() < most, "part {part}, receiver {at}, {hz} Hz: {db} dB");
                 }
             }

@@ -79,3 +79,48 @@ impl Walk {
         &self.shifts
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SLICES: usize = 2048;
+
+    /// Phases after so many blocks at a rate, rad.
+    fn phases(walk: &mut Walk, rate: f64, blocks: usize) -> Vec<f64> {
+        let (still, mut phases) = (zero_row(SLICES), vec![0.0; SLICES]);
+        for _ in 0..blocks {
+            let shifts = walk.step(Kernels::detect(), &still, 0.0);
+            let turned = shifts.iter().map(|shift| f64::from(*shift) * BLOCK as f64 / rate);
+            phases.iter_mut().zip(turned).for_each(|(phase, turn)| *phase += turn);
+        }
+        phases
+    }
+
+    fn walk(rate: f64) -> Walk {
+        let mut walk = Walk::new(SLICES, 7, rate);
+        (0..SLICES).for_each(|slice| walk.set(slice, 10.0));
+        walk
+    }
+
+    #[test]
+    fn phases_spread_by_twice_the_diffusion_times_the_time_at_every_rate() {
+        for (rate, blocks) in [(44_100.0, 200), (88_200.0, 400), (176_400.0, 800)] {
+            let phases = phases(&mut walk(rate), rate, blocks);
+            let square = phases.iter().map(|phase| phase * phase).sum::<f64>() / SLICES as f64;
+            let expected = 2.0 * 10.0 * (blocks * BLOCK) as f64 / rate;
+            assert!((square / expected - 1.0).abs() < 0.1, "{rate}: {square} for {expected}");
+        }
+    }
+
+    #[test]
+    fn a_walk_that_begins_anew_takes_the_same_course_and_another_head_another() {
+        let mut walk = walk(44_100.0);
+        let first = phases(&mut walk, 44_100.0, 9);
+        walk.reset();
+        assert_eq!(first, phases(&mut walk, 44_100.0, 9));
+        let mut other = Walk::new(SLICES, 8, 44_100.0);
+        (0..SLICES).for_each(|slice| other.set(slice, 10.0));
+        assert_ne!(first, phases(&mut other, 44_100.0, 9));
+    }
+}
