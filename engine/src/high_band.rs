@@ -151,6 +151,8 @@ pub struct HighBand {
     walk: Walk,
     /// Whether anything moves.
     rings: bool,
+    /// Whether a force has acted in the present block.
+    loaded: bool,
 }
 
 impl HighBand {
@@ -183,6 +185,7 @@ impl HighBand {
             glide: zero_row(count),
             walk: Walk::new(count, spec.seed, spec.sample_rate),
             rings: false,
+            loaded: false,
         };
         band.body.allow_detuning();
         band.retune(spec.tensions[1], &HighMuffling::NONE);
@@ -235,6 +238,7 @@ impl HighBand {
     /// No allocation; some 100 ns a slice.
     pub fn put(&mut self, i: usize, radius: f64, angle: f64, patch: f64) {
         let HighBand { spec, body, pickup, slices, places, pressed, .. } = self;
+        body.end_detuning();
         let PointBand { port, direct, sheet, .. } = &mut places[i];
         *sheet = endless_sheet(spec, slices, radius, angle) as f32;
         let known = pressed.of(patch);
@@ -260,6 +264,7 @@ impl HighBand {
     pub fn push(&mut self, i: usize, sample: usize, force: f32) {
         self.places[i].forces[sample] = force;
         self.places[i].pressed |= force != 0.0;
+        self.loaded |= force != 0.0;
     }
 
     /// Ends the run: adds its sound to what is heard at the point and far away, Pa, at most [`MAX_RUN`] samples.
@@ -309,13 +314,14 @@ impl HighBand {
         self.body.is_finite() && self.places.iter().all(|place| place.slow.is_finite())
     }
 
-    /// Lets the slices follow a tension (N/m) that is added to the head's for the next block, and their phases take a step.
+    /// Lets the slices follow a tension (N/m) that is added to the head's for the next block, and their phases take a step. While a force acts they
+    /// turn by their equation: what it holds bent must not be turned into motion.
     ///
     /// # Real-time
     /// Linear in the number of slices; nothing at rest.
     pub fn glide(&mut self, added: f64) {
-        if !self.rings {
-            return;
+        if std::mem::take(&mut self.loaded) || !self.rings {
+            return self.body.end_detuning();
         }
         let shifts = self.walk.step(self.body.kernels(), &self.glide, added as f32);
         self.body.shift_frequencies(0, &shifts[..self.slices.len()]);
@@ -332,7 +338,7 @@ impl HighBand {
         self.body.end_detuning();
         self.walk.reset();
         self.smoothing = Smoothing::default();
-        self.rings = false;
+        (self.rings, self.loaded) = (false, false);
         for place in &mut self.places {
             place.forces.fill(0.0);
             (place.pressed, place.slow) = (false, 0.0);

@@ -132,3 +132,30 @@ fn tuned_back_and_forth_it_is_what_it_was() {
     band.retune(tension, &HighMuffling::NONE);
     assert!(before == band.slices().collect::<Vec<_>>());
 }
+
+/// Energy (J) after a force that rises and falls within 16 ms, with or without a walk of the phases.
+fn energy_after_a_slow_force(walks: bool) -> f64 {
+    let (built, build) = rack_tom();
+    let mut band = band(&built, &build);
+    band.put(0, 0.3, 0.2, 0.004);
+    let (mut near, mut far) = ([0.0; 32], [0.0; 32]);
+    for block in 0..30 {
+        for sample in 0..32 {
+            let share = f64::from(block * 32 + sample) / 700.0;
+            let force = if share < 1.0 { 20.0 * (std::f64::consts::PI * share).sin().powi(4) } else { 0.0 };
+            band.push(0, sample as usize, force as f32);
+        }
+        band.render(&mut near, &mut far);
+        band.settle();
+        if walks {
+            band.glide(0.0);
+        }
+    }
+    band.energy()
+}
+
+#[test]
+fn what_a_slow_force_bends_is_not_turned_into_motion() {
+    let [still, walking] = [false, true].map(energy_after_a_slow_force);
+    assert!((walking / still - 1.0).abs() < 0.01, "{walking:e} J for {still:e} J");
+}
