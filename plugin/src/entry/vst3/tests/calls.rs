@@ -164,13 +164,15 @@ fn only_controllers_that_act_are_offered_and_each_is_where_it_was_moved_last() {
     let guard = multi();
     // SAFETY: the call a host makes.
     let count = unsafe { guard.getParameterCount() };
-    assert_eq!(count as usize, COUNT + 1 + 8 * 16);
+    assert_eq!(count as usize, COUNT + 1 + 10 * 16);
     // What a host would send again as it opens a project: all that differs from its default.
     let offered: Vec<_> = (COUNT as i32 + 1..count).map(|index| info(&guard, index)).collect();
     assert!(offered.iter().all(|info| info.defaultNormalizedValue == present(&guard, info.id)));
     let mapped = |channel, number| controller(&guard, channel, number);
     let known: Vec<_> = (0..16)
-        .flat_map(|channel| [4, 16, 17, 18, 19, 88, 120, 123].map(|number| mapped(channel, number).unwrap()))
+        .flat_map(|channel| {
+            [4, 16, 17, 18, 19, 20, 80, 88, 120, 123].map(|number| mapped(channel, number).unwrap())
+        })
         .collect();
     assert_eq!(offered.iter().map(|info| info.id).collect::<Vec<_>>(), known);
     assert_eq!((mapped(9, 7), mapped(9, 128), mapped(9, 129), mapped(16, 4)), (None, None, None, None));

@@ -247,7 +247,7 @@ impl<P: Vst3Plugin> Sweep<P> {
             return self.chance.id();
         }
         let (channel, controller) =
-            (self.chance.random.i16(0..16), self.chance.of(&[4, 16, 17, 18, 19, 88, 120, 123]));
+            (self.chance.random.i16(0..16), self.chance.of(&[4, 16, 17, 18, 19, 20, 80, 88, 120, 123]));
         let mut id = 0;
         // SAFETY: there is room for an id.
         let told = unsafe { self.guard.getMidiControllerAssignment(0, channel, controller, &mut id) };
