@@ -62,8 +62,8 @@ fitted! {
         to "the same"; tried "0.2 and 0.3 of the radius"; moves "how many orders mix";
     PILLOW_SIGMA = 80.0, "1/s", "pieces.kick.muffler.sigma_1_s";
         to "early decays of kicks from 250 Hz to 1 kHz, .1 to .3 s, at 0.15 of its amount"; tried "21 without a corner, 70 and 80; amounts of 0.1 to 0.5 are no nearer and no farther"; moves "the kick's decay";
-    KICK_PITCH_HZ = 44.0, "Hz", "pieces.kick.pitch_hz";
-        to "fundamental of recorded kicks, 47 Hz (39 to 116): the drum sounds at 49"; tried "44 and 55, which sounds at 61"; moves "density of modes, glide, contact time";
+    KICK_PITCH_HZ = 45.0, "Hz", "pieces.kick.pitch_hz";
+        to "fundamental of recorded kicks, 47 Hz (39 to 116): the drum sounds at 50"; tried "44, 45 and 55, which sounds at 61"; moves "density of modes, glide, contact time";
     RACK_TOM_PITCH_HZ = 115.0, "Hz", "pieces.rack-tom.pitch_hz";
         to "fundamental of recorded rack toms, 120 Hz (99 to 156)"; tried "112, 115 and 140"; moves "density of modes, glide, contact time";
     SNARE_BATTER_LOSS = 4.0, "1/s", "pieces.snare.batter.loss.constant_1_s";

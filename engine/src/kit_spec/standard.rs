@@ -248,7 +248,7 @@ const UNEVEN: TensionFieldSpec =
 /// The corner of the filling of a pillow: a quarter wave in 0.1 m of filling in which waves go at some 50 m/s. *Judgement*.
 const PILLOW_CORNER: f64 = 125.0;
 
-/// 22 x 18 in bass drum with a pillow, heard at 49 Hz, as recorded ones are. Its pitch is *fitted*.
+/// 22 x 18 in bass drum with a pillow, heard at 50 Hz, as recorded ones are. Its pitch is *fitted*.
 fn kick() -> InstrumentSpec {
     let drum = two_headed(
         [22.0, 18.0],

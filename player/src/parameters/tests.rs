@@ -225,7 +225,7 @@ fn errors_name_the_value_and_what_is_accepted() {
 fn assignments_take_plain_units() {
     let kit = standard();
     let read = |text: &str| parse_assignment(text, &kit);
-    assert_eq!(read("kick_tune=55"), Ok((at("kick_tune"), 0.0)));
+    assert_eq!(read("kick_tune=45"), Ok((at("kick_tune"), 0.0)));
     assert_eq!(read("kick_muffle=.5"), Ok((at("kick_muffle"), 0.5)));
     assert_eq!(read(" crash_tune = -3 st"), Ok((at("crash_tune"), -3.0)));
     assert_eq!(read("master_level=-inf"), Ok((SLOT_COUNT, -60.0)));

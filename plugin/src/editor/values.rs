@@ -149,13 +149,13 @@ mod tests {
 
         let (slot, _) = kit.find("kick").unwrap();
         let tune = values.of_slot(slot, SlotParameter::Tune).unwrap();
-        assert_eq!((tune.group, tune.text(tune.usual()).as_str()), ("Kick", "44.00 Hz"));
+        assert_eq!((tune.group, tune.text(tune.usual()).as_str()), ("Kick", "45.00 Hz"));
         // Its knob ends where the drum does.
         let (low, high) = tune.limits();
-        assert!((44.0 * (low / 12.0).exp2() - 35.0).abs() < 1e-3, "{low}");
-        assert!((44.0 * (high / 12.0).exp2() - 90.0).abs() < 1e-3, "{high}");
+        assert!((45.0 * (low / 12.0).exp2() - 35.0).abs() < 1e-3, "{low}");
+        assert!((45.0 * (high / 12.0).exp2() - 90.0).abs() < 1e-3, "{high}");
         assert_eq!((tune.at(0.0), tune.at(1.0)), (low, high));
-        assert!((tune.parse("60").unwrap() - 12.0 * (60.0_f32 / 44.0).log2()).abs() < 1e-3);
+        assert!((tune.parse("60").unwrap() - 12.0 * (60.0_f32 / 45.0).log2()).abs() < 1e-3);
         assert!(tune.parse("20").is_err());
     }
 }

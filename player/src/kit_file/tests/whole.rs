@@ -37,7 +37,7 @@ fn a_complete_file_is_one_for_people() {
     ] {
         assert!(text.lines().any(|own| own == line), "{line}\n{text}");
     }
-    assert!(text.contains("diameter_in = 22") && text.contains("mass_g = 6"), "{text}");
+    assert!(text.contains("diameter_in = 22") && text.contains("mass_g = 20"), "{text}");
 }
 
 proptest! {
