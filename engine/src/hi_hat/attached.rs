@@ -168,8 +168,10 @@ impl Attachment for Pair {
         self.held_energy()
     }
 
+    /// A rock that nobody hears keeps nothing awake, as of a cymbal on a stand.
     fn motion(&self, _contacts: &Contacts) -> f64 {
-        self.held_energy()
+        let rock = if self.is_touching() { 0.0 } else { self.rigid[0].rock_energy() };
+        self.held_energy() - rock
     }
 
     fn settle(&mut self, body: &mut StruckBody, contacts: &mut Contacts) -> bool {

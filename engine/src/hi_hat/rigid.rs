@@ -145,6 +145,11 @@ impl Rigid {
         absolute + self.stiffness[0] * y * (0.5 * y - self.parts[0].q)
     }
 
+    /// Energy of the tilts, J.
+    pub fn rock_energy(&self) -> f64 {
+        self.parts[1..].iter().map(Oscillator::energy).sum()
+    }
+
     /// Largest distance, m, of any point on the rim from its rest position with the mount at `y`, if nothing else acts.
     pub fn reach(&self, y: f64) -> f64 {
         let far = |part: &Oscillator, stiffness: f64, rest: f64| {

@@ -171,7 +171,7 @@ fn only_controllers_that_act_are_offered_and_each_is_where_it_was_moved_last() {
     let mapped = |channel, number| controller(&guard, channel, number);
     let known: Vec<_> = (0..16)
         .flat_map(|channel| {
-            [4, 16, 17, 18, 19, 20, 80, 88, 120, 123].map(|number| mapped(channel, number).unwrap())
+            [4, 16, 17, 18, 19, 88, 120, 123, 20, 80].map(|number| mapped(channel, number).unwrap())
         })
         .collect();
     assert_eq!(offered.iter().map(|info| info.id).collect::<Vec<_>>(), known);
