@@ -5,7 +5,7 @@
 //! is made of; their difference has unit mean square and is zero at the rim. It weighs `M / count`, so that
 //! a force sets going as much energy as it would in all of them, and is heard by `sqrt(count)` less than
 //! one mode so moved would be, for real modes do not add in step. Such modes lose their common phase in the inverse of the
-//! slice's width, so the phase of the one that stands for them walks at random ([`walk`](walk::Walk)), which costs no energy. It listens to
+//! slice's width, so the phase of the one that stands for them walks at random (`walk.rs`), which costs no energy. It listens to
 //! the contact force and does not push back: the complete set does that. It does not stretch the head, and its frequencies follow the tension of the stretched head
 //! as those of complete modes do ([`HighBand::glide`]).
 //!

@@ -1,5 +1,5 @@
 //! Maps of other instruments: which of their notes plays which [reference](crate::midi_map) note.
-//! The notes are in [`modules`].
+//! The notes are in `modules.rs`.
 
 mod modules;
 
