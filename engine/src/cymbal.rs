@@ -21,6 +21,7 @@ use crate::build_context::BuildContext;
 use crate::damping::SIGMA_T60;
 use crate::error::SpecError;
 use crate::glide::Glide;
+use crate::grip::Grip;
 use crate::instrument::Instrument;
 use crate::modal::Mode;
 use crate::mode::{ModeInfo, ModeKind};
@@ -28,7 +29,6 @@ use crate::plate::ShellMode;
 use crate::surface::Surface;
 
 use assembly::{CymbalPlate, Ordered, RigidMotion};
-use hand::Grip;
 use modes::CymbalModes;
 pub use spec::{CymbalSpec, Stand};
 

@@ -25,6 +25,7 @@ use crate::cache::{Cache, Shared};
 use crate::damping::SIGMA_T60;
 use crate::error::SpecError;
 use crate::glide::Glide;
+use crate::grip::Grip;
 use crate::high_band::{HighBand, HighMuffling};
 use crate::instrument::Instrument;
 use crate::modal::Mode;
@@ -64,19 +65,40 @@ struct Controls {
     pitch: Glide,
     /// 0 to 1.
     muffling: Glide,
-    /// How firmly a hand lies on the batter head, 0 to 1.
-    hand: Glide,
-    /// What a firm hand takes from a mode of the batter head alone, 1/s.
-    palm: f64,
+    /// How firmly a hand lies on the batter head.
+    hand: Grip,
     /// Force of the strainer, N.
     preload: Glide,
 }
 
 impl Controls {
-    /// Those that the modes follow.
-    fn of_modes(&mut self) -> [&mut Glide; 3] {
-        [&mut self.pitch, &mut self.muffling, &mut self.hand]
+    /// Moves pitch and muffling, and notes which of them did.
+    fn move_modes(&mut self, mut by: impl FnMut(&mut Glide) -> bool, stale: &mut Stale) {
+        let pitch = by(&mut self.pitch);
+        stale.pitch |= pitch;
+        stale.losses |= by(&mut self.muffling) | pitch;
     }
+}
+
+/// What has yet to follow the controls.
+struct Stale {
+    /// Where the modes ring.
+    pitch: bool,
+    /// What they lose.
+    losses: bool,
+    /// The shapes.
+    shapes: bool,
+}
+
+/// What the modes lose.
+struct Losses {
+    muffler: MufflerCoefs,
+    /// What a firm hand takes from a mode of the batter head alone, 1/s.
+    palm: f64,
+    /// What full muffling takes from each mode at the present pitch, 1/s, if that is known: nobody asks while it is off.
+    muffled: Vec<f64>,
+    is_known: bool,
+    lossless: bool,
 }
 
 /// Resistance of a palm that is pressed on a head, kg/s, spread over it. *Assumed*: no measurement is known. A film of 30 g by itself
@@ -87,6 +109,22 @@ const PALM: f64 = 4.0;
 fn palm(spec: &DrumSpec) -> f64 {
     let membrane = spec.membrane(&spec.batter);
     0.5 * PALM / (membrane.area_density() * membrane.area())
+}
+
+impl Losses {
+    /// Works out what full muffling takes where the pitch is.
+    fn follow_pitch(
+        &mut self,
+        modes: &[BodyMode],
+        at_pitch: &[ModeAtPitch],
+        built: &DrumModes,
+        place: &PitchPosition,
+    ) {
+        self.is_known = true;
+        for (muffled, mode) in self.muffled.iter_mut().zip(modes) {
+            *muffled = self.muffler.sigma(mode, &at_pitch[mode.row], built, place);
+        }
+    }
 }
 
 /// What becomes of the modes of even heads.
@@ -127,15 +165,11 @@ pub struct Drum {
     modes: Vec<BodyMode>,
     /// Shapes on the resonant head, where wires lie against it.
     far_shapes: Option<ShapeTable>,
-    muffler: MufflerCoefs,
-    lossless: bool,
+    losses: Losses,
     /// Whether the heads wrap themselves around tips.
     patch_grows: bool,
     controls: Controls,
-    /// Whether a control has moved since the modes last followed.
-    stale: bool,
-    /// Whether the shapes have yet to follow the pitch.
-    shapes_stale: bool,
+    stale: Stale,
     /// `[kept pair, then mixed mode]`: where each rings now.
     at_pitch: Vec<ModeAtPitch>,
 }
@@ -194,19 +228,22 @@ impl Drum {
             mixing: mixed.map(Mixing::new),
             hearing,
             far_distance: receivers.far.distance,
+            losses: Losses {
+                muffler,
+                palm: palm(spec),
+                muffled: vec![0.0; modes.len()],
+                is_known: false,
+                lossless: ideal.lossless,
+            },
             modes,
-            muffler,
-            lossless: ideal.lossless,
             patch_grows: spec.contact == HeadContact::Wraps,
             controls: Controls {
                 pitch: Glide::new(pitch, low, high),
                 muffling: Glide::new(0.0, 0.0, 1.0),
-                hand: Glide::new(0.0, 0.0, 1.0),
-                palm: palm(spec),
+                hand: Grip::new(),
                 preload: Glide::new(*PRELOAD.start(), *PRELOAD.start(), *PRELOAD.end()),
             },
-            stale: true,
-            shapes_stale: true,
+            stale: Stale { pitch: true, losses: true, shapes: true },
             at_pitch,
         };
         if spec.high_band {
@@ -242,6 +279,14 @@ impl Drum {
     /// Its mixed modes, if its heads are uneven.
     fn mixed(&self) -> Option<&MixedModes> {
         self.mixing.as_ref().map(|mixing| &*mixing.modes)
+    }
+
+    /// Brings where the modes ring to where the pitch is.
+    fn follow_pitch(&mut self, place: &PitchPosition) {
+        self.stale.shapes = true;
+        self.losses.is_known = false;
+        let now = at_pitch(&self.built, self.mixing.as_ref().map(|mixing| &*mixing.modes), place);
+        self.at_pitch.iter_mut().zip(now).for_each(|(row, now)| *row = now);
     }
 
     /// Brings what is heard of the modes to where the pitch is.
@@ -296,7 +341,7 @@ impl Instrument for Drum {
     /// Brings the shapes and what is heard of them to where the pitch is; only strokes need the shapes, and hide that
     /// what still rings is heard a little differently.
     fn follow_shapes(&mut self) {
-        if !std::mem::take(&mut self.shapes_stale) {
+        if !std::mem::take(&mut self.stale.shapes) {
             return;
         }
         let place = self.built.heads.scale.place(self.controls.pitch.value());
@@ -336,6 +381,10 @@ impl Instrument for Drum {
         self.controls.hand.set(strength);
     }
 
+    fn take_turn(&mut self, number: usize) {
+        self.controls.hand.take_turn(number);
+    }
+
     fn throw_wires(&mut self, on: bool) {
         self.surface.with(|wires: &mut SnareWires, site| wires.throw(on, site));
     }
@@ -345,35 +394,37 @@ impl Instrument for Drum {
     }
 
     fn advance_controls(&mut self, seconds: f64) {
-        let moved = self.controls.of_modes().map(|glide| glide.advance(seconds));
-        self.stale |= moved.contains(&true);
+        self.controls.move_modes(|glide| glide.advance(seconds), &mut self.stale);
+        self.controls.hand.advance(seconds);
         if self.controls.preload.advance(seconds) {
             self.follow_preload();
         }
     }
 
     fn follow_controls(&mut self) {
-        if !std::mem::take(&mut self.stale) {
+        if !(self.controls.hand.is_due() | std::mem::take(&mut self.stale.losses)) {
             return;
         }
-        self.shapes_stale = true;
         let place = self.built.heads.scale.place(self.controls.pitch.value());
-        let now = at_pitch(&self.built, self.mixing.as_ref().map(|mixing| &*mixing.modes), &place);
-        self.at_pitch.iter_mut().zip(now).for_each(|(row, now)| *row = now);
+        if std::mem::take(&mut self.stale.pitch) {
+            self.follow_pitch(&place);
+        }
         let amount = self.controls.muffling.value();
-        let hand = self.controls.hand.value() * self.controls.palm;
-        let (modes, at_pitch, muffler, built) = (&self.modes, &self.at_pitch, &self.muffler, &self.built);
-        let lossless = self.lossless;
+        if amount > 0.0 && !self.losses.is_known {
+            self.losses.follow_pitch(&self.modes, &self.at_pitch, &self.built, &place);
+        }
+        let hand = self.controls.hand.follow() * self.losses.palm;
+        let (modes, at_pitch, losses) = (&self.modes, &self.at_pitch, &self.losses);
         self.surface.retune(|k, _| {
-            let mode = &modes[k];
-            let rung = &at_pitch[mode.row];
-            let muffled = if amount > 0.0 { amount * muffler.sigma(mode, rung, built, &place) } else { 0.0 };
-            let sigma = if lossless { 0.0 } else { rung.sigma + muffled + hand * rung.batter };
-            Mode { omega: rung.omega * mode.detuning, sigma, mass: rung.mass }
+            let rung = &at_pitch[modes[k].row];
+            let muffled = if amount > 0.0 { amount * losses.muffled[k] } else { 0.0 };
+            let sigma = if losses.lossless { 0.0 } else { rung.sigma + muffled + hand * rung.batter };
+            Mode { omega: rung.omega * modes[k].detuning, sigma, mass: rung.mass }
         });
         let mut bands = self.surface.high_bands_mut();
         if let Some(near) = bands.next() {
-            near.retune(self.built.heads.batter.tension(&place), &self.muffler.above(amount).and_even(hand));
+            let muffling = losses.muffler.above(amount).and_even(hand);
+            near.retune(self.built.heads.batter.tension(&place), &muffling);
         }
         if let (Some(far), Some(head)) = (bands.next(), &self.built.heads.resonant) {
             far.retune(head.tension(&place), &HighMuffling::NONE);
@@ -381,8 +432,8 @@ impl Instrument for Drum {
     }
 
     fn finish_controls(&mut self) {
-        let moved = self.controls.of_modes().map(Glide::jump);
-        self.stale |= moved.contains(&true);
+        self.controls.move_modes(Glide::jump, &mut self.stale);
+        self.stale.losses |= self.controls.hand.jump();
         if self.controls.preload.jump() {
             self.follow_preload();
         }
@@ -429,3 +480,6 @@ impl Instrument for Drum {
         heads.into_iter().filter_map(|(name, head)| Some((name, head?.tension(&place)))).collect()
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -55,6 +55,7 @@ pub mod modal;
 pub mod radiation;
 pub mod air_load;
 pub mod diffraction;
+pub mod grip;
 pub mod glide;
 
 // Where everything stands and how it is built.

@@ -64,8 +64,9 @@ pub(super) struct Slice {
     /// Where the wave runs, rad, and its phase.
     pub(super) direction: f64,
     pub(super) phase: f64,
-    /// Phases in which it is heard at the point and far away, and how loud for what the drum's body does to it.
-    pub(super) heard: [f64; 2],
+    /// Phases in which it is heard at the point and far away, as cosine and sine, and how loud for what the drum's body does
+    /// to it.
+    pub(super) heard: [[f64; 2]; 2],
     pub(super) gain: f64,
 }
 
@@ -118,7 +119,10 @@ pub(super) fn slices(spec: &HighBandSpec) -> Vec<Slice> {
             count: (modes_below(high) - modes_below(low)).max(1.0),
             direction: TAU * draw(1),
             phase: TAU * draw(2),
-            heard: [TAU * draw(3), TAU * draw(4)],
+            heard: [3, 4].map(|i| {
+                let (sin, cos) = (TAU * draw(i)).sin_cos();
+                [cos, sin]
+            }),
             gain: gain(spec, omega),
         });
         low = high;
@@ -150,7 +154,7 @@ pub(super) fn wave(head: &MembraneSpec, zero: f64, tension: f64) -> (f64, f64, f
         let sound = omega / SPEED_OF_SOUND;
         let (gap, eta) = (k2 - sound * sound, 4.0 * sound / (PI * head.radius));
         // 1 / sqrt(gap - i eta)
-        let size = gap.hypot(eta);
+        let size = (gap * gap + eta * eta).sqrt();
         let (re, im) = ((0.5 * (size + gap)).sqrt() / size, (0.5 * (size - gap)).max(0.0).sqrt() / size);
         mass = film + 2.0 * DENSITY * re;
         sigma = omega * DENSITY * im / (2.0 * mass);
@@ -173,6 +177,33 @@ fn wavenumber(head: &MembraneSpec, omega: f64, tension: f64) -> f64 {
         zero *= (omega / wave(head, zero, tension).0).powf(0.7);
     }
     zero
+}
+
+/// What muffles a high band.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HighMuffling {
+    /// Decay rate added to every slice, 1/s.
+    pub even: f64,
+    /// Decay rate that a pad adds to a mode of unit square under it, 1/s, and its distance from the centre,
+    /// share of the radius.
+    pub pad: (f64, f64),
+}
+
+impl HighMuffling {
+    /// Nothing.
+    pub const NONE: HighMuffling = HighMuffling { even: 0.0, pad: (0.0, 0.0) };
+
+    /// With a decay rate added to every slice, 1/s.
+    pub fn and_even(self, sigma: f64) -> HighMuffling {
+        HighMuffling { even: self.even + sigma, ..self }
+    }
+
+    /// Decay rate that it adds to a slice, 1/s.
+    pub(super) fn sigma(&self, slice: &Slice) -> f64 {
+        let (pad, at) = self.pad;
+        let under = if pad == 0.0 { 0.0 } else { 1.0 - libm::j0(2.0 * slice.zero * (1.0 - at)) };
+        self.even + pad * under
+    }
 }
 
 pub(super) fn mode(spec: &HighBandSpec, slice: &Slice, tension: f64) -> Mode {
