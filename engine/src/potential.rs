@@ -265,8 +265,8 @@ impl NonlinearForce {
 
     /// Follows receiver weights that have moved by a step.
     pub fn sway(&mut self, body: &ModalBody, sway: &Sway) {
-        for (receiver, [direct, slow]) in sway.step_along(body, &self.input).into_iter().enumerate() {
-            self.sound.sway(receiver, direct, slow);
+        for (receiver, [direct, rate]) in sway.step_along(body, &self.input).into_iter().enumerate() {
+            self.sound.sway(receiver, direct, rate);
         }
     }
 

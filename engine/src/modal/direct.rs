@@ -1,4 +1,4 @@
-//! Sound of a force itself, and of one that changes slowly.
+//! Sound of a force itself, and of its rate of change.
 
 use super::{InputVector, ModalBody, Pressure, ReceiverWeights};
 
@@ -13,13 +13,14 @@ impl ReceiverWeights {
 
     /// Pressure per unit rate of change of a force at an input vector, Pa s/N.
     ///
-    /// The imaginary part of a transfer acts on the velocity, a quarter of a period off. Where a slow force bends a body, this
-    /// sounds by one power of the frequency too much. The returned pressure times the rate of the force cancels it, so that
-    /// only the acceleration sounds.
+    /// The imaginary part of a transfer acts on the velocity, which at the mode's own frequency goes as the rate of change of the
+    /// acceleration does. Of a mode that is forced at another frequency the rate is what sounds: a plate in free air is a
+    /// dipole. Below its own frequency the velocity sounds by two powers of the frequency too much, above it by two too little. The
+    /// returned pressure times the rate of the force makes one of the other.
     ///
     /// # Real-time
     /// Linear in the number of modes.
-    pub fn slow_at(&self, body: &ModalBody, input: &InputVector) -> Pressure {
-        self.receivers.each_ref().map(|receiver| body.kernels.dot(&receiver.slow, &input.shape))
+    pub fn rate_at(&self, body: &ModalBody, input: &InputVector) -> Pressure {
+        self.receivers.each_ref().map(|receiver| body.kernels.dot(&receiver.rate, &input.shape))
     }
 }

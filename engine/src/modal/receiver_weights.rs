@@ -20,7 +20,7 @@ pub(super) struct Receiver {
     pub(super) weight_re: Row,
     pub(super) weight_im: Row,
     pub(super) direct: Row,
-    pub(super) slow: Row,
+    pub(super) rate: Row,
 }
 
 impl ReceiverWeights {
@@ -49,22 +49,22 @@ impl ReceiverWeights {
 impl Receiver {
     fn new(transfer: Vec<[f64; 2]>) -> Receiver {
         let row = || zero_row(transfer.len() + simd::REST);
-        Receiver { weight_re: row(), weight_im: row(), direct: row(), slow: row(), transfer }
+        Receiver { weight_re: row(), weight_im: row(), direct: row(), rate: row(), transfer }
     }
 
     /// Updates the weights of the modes from `first` on, `modes` at a time step of `dt` (s).
     #[inline(always)]
     pub(super) fn tune(&mut self, first: usize, modes: &Constants<TOGETHER>, dt: f64) {
-        let Receiver { transfer, weight_re, weight_im, direct, slow } = self;
+        let Receiver { transfer, weight_re, weight_im, direct, rate } = self;
         let new = weights_of(&transfer[first..], modes, dt);
-        for (row, new) in [weight_re, weight_im, direct, slow].into_iter().zip(&new) {
+        for (row, new) in [weight_re, weight_im, direct, rate].into_iter().zip(&new) {
             row[first..first + TOGETHER].copy_from_slice(new);
         }
     }
 
-    /// All weights: of the real and the imaginary part of the state, of the force, and of its slow part.
+    /// All weights: of the real and the imaginary part of the state, of the force, and of its rate of change.
     pub(super) fn rows_mut(&mut self) -> [&mut Row; 4] {
-        [&mut self.weight_re, &mut self.weight_im, &mut self.direct, &mut self.slow]
+        [&mut self.weight_re, &mut self.weight_im, &mut self.direct, &mut self.rate]
     }
 
     /// The weights from mode `first` on, for [`ModalBody::ring`](super::ModalBody::ring).
@@ -75,7 +75,7 @@ impl Receiver {
 }
 
 /// Weights of the modes' transfers at a time step of `dt` (s): of the real and the imaginary part of the state, of the force, and
-/// of its slow part.
+/// of its rate of change.
 #[inline(always)]
 pub(super) fn weights_of(
     transfer: &[[f64; 2]],

@@ -15,7 +15,7 @@ use super::{InputVector, ModalBody, ReceiverWeights};
 /// Receivers whose weights move: near and far.
 pub const MOVED: usize = 2;
 
-/// Weights of a mode at a receiver: of the real and the imaginary part of its state, of the force, and of its slow part.
+/// Weights of a mode at a receiver: of the real and the imaginary part of its state, of the force, and of its rate of change.
 const WEIGHTS: usize = 4;
 
 /// Where the weights go, and their steps on the way.
@@ -46,8 +46,8 @@ impl Sway {
     /// How the pressures per unit force along an input vector of coupled modes change in a step, at once (Pa/N) and by its rate
     /// (Pa s/N), `[receiver]`.
     pub fn step_along(&self, body: &ModalBody, input: &InputVector) -> [[f32; 2]; MOVED] {
-        self.step.each_ref().map(|[.., direct, slow]| {
-            [direct, slow].map(|row| {
+        self.step.each_ref().map(|[.., direct, rate]| {
+            [direct, rate].map(|row| {
                 let n = row.len().min(input.shape().len());
                 body.kernels.dot(&row[..n], &input.shape()[..n])
             })

@@ -362,4 +362,36 @@ mod tests {
         let (size, _) = ratio(0.1);
         assert!(size < 0.3, "{size}");
     }
+
+    #[test]
+    fn a_mode_that_is_forced_below_its_frequency_sounds_by_the_rate_of_its_acceleration() {
+        use crate::plate::{PlateModes, PlateTables};
+        for (name, n, bound) in [("crash", 1, 4.0), ("crash", 2, 6.0), ("splash", 1, 4.0), ("splash", 2, 6.0)]
+        {
+            let plate = PlateModes::new(&crate::reference::cymbal(name).plate(), 3_000.0).unwrap();
+            let (orders, extent) = plate.table_extent(3_000.0);
+            let tables = PlateTables::new(orders, extent);
+            let nodes = 60;
+            let point = |distance, inclination| ReceiverPosition { distance, inclination, azimuth: 0.0 };
+            let disc = FreeDisc::new(plate.spec.radius(), [point(0.5, 1.1), point(1.4, 0.5)], nodes);
+            let shapes = plate.radial_shapes(&tables, disc.radii());
+            let at = plate.shells.iter().position(|shell| (shell.m, shell.n) == (0, n)).unwrap();
+            let shell = &plate.shells[at];
+            let radial = &shapes[at * nodes..][..nodes];
+            let heard =
+                |omega| disc.radiate(&Radiator { m: 0, radial, omega }, plate.wave_number(shell)).transfers;
+            let own = heard(shell.omega);
+            for share in [0.2, 0.3, 0.5, 0.7, 1.4] {
+                for (own, forced) in own.into_iter().zip(heard(share * shell.omega)) {
+                    let level = |[re, im]: [f64; 2]| 20.0 * re.hypot(im).log10();
+                    // The imaginary part acts on the velocity alone, or on the acceleration's rate.
+                    let [by_velocity, by_rate] =
+                        [1.0 / share, share].map(|factor| level([own[0], own[1] * factor]) - level(forced));
+                    println!("{name} (0, {n}) at {share}: {by_velocity:.1} dB, {by_rate:.1} dB");
+                    assert!(by_rate.abs() < bound && by_rate.abs() < by_velocity.abs(), "{by_rate}");
+                    assert!(share > 0.3 || by_velocity > 15.0, "{by_velocity}");
+                }
+            }
+        }
+    }
 }

@@ -2,9 +2,10 @@
 
 use crate::modal::{InputVector, ModalBody, Pressure, ReceiverWeights};
 
-/// Time constant below which a force is slow, s: 100 Hz, under all that is heard of a cymbal's
-/// stretching and far over the sway of its mean. *Derived*.
-const SLOW_TIME: f64 = 1.6e-3;
+/// Time over which the rate of change of a force is taken, s: up to 1.6 kHz. *Judgement*: the modes that a stretching plate is heard
+/// by at other frequencies than their own are its lowest ones, from 250 Hz to 1 kHz; far above, the held force's steps would be
+/// heard.
+const RATE_TIME: f64 = 1e-4;
 
 /// Pressures at the receivers.
 #[derive(Default)]
@@ -12,7 +13,7 @@ pub(super) struct Sound {
     /// Pressure proportional to `psibar`, per unit of it, Pa.
     direct: Pressure,
     /// Pressure per unit rate of change of `psibar`, Pa s, and the low-passed force times it, Pa s.
-    slow: Pressure,
+    rate: Pressure,
     lag: Pressure,
     /// The latest `psibar`.
     force: f32,
@@ -24,15 +25,15 @@ impl Sound {
     /// Follows a new gradient.
     pub(super) fn follow(&mut self, body: &ModalBody, weights: &ReceiverWeights, input: &InputVector) {
         self.direct = weights.direct_at(body, input);
-        self.slow = weights.slow_at(body, input);
+        self.rate = weights.rate_at(body, input);
     }
 
     /// Follows receiver weights that have moved, so that the pressures per unit of `psibar` (Pa) and of its rate (Pa s) have changed
     /// at a receiver. What the force has done is not heard again: only its own changes are.
-    pub(super) fn sway(&mut self, receiver: usize, direct: f32, slow: f32) {
+    pub(super) fn sway(&mut self, receiver: usize, direct: f32, rate: f32) {
         self.direct[receiver] += direct;
-        self.slow[receiver] += slow;
-        self.lag[receiver] += self.force * slow;
+        self.rate[receiver] += rate;
+        self.lag[receiver] += self.force * rate;
     }
 
     /// Adds the pressure of scaled velocities, Pa.
@@ -47,8 +48,7 @@ impl Sound {
     pub(super) fn heard(&mut self, force: f32, dt: f64) -> Pressure {
         self.force = force;
         std::array::from_fn(|receiver| {
-            // The rate of the slow part; for faster changes the velocity term is right.
-            let rate = (force * self.slow[receiver] - self.lag[receiver]) * (1.0 / SLOW_TIME) as f32;
+            let rate = (force * self.rate[receiver] - self.lag[receiver]) * (1.0 / RATE_TIME) as f32;
             self.lag[receiver] += rate * dt as f32;
             force * self.direct[receiver] + rate + std::mem::take(&mut self.rescale_velocity[receiver])
         })
