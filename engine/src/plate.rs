@@ -32,7 +32,7 @@ use dome::Shell;
 use radial::RadialMode;
 use thickness_taper::Section;
 
-pub use spec::{Bell, PlateSpec};
+pub use spec::{Bell, Flange, PlateSpec};
 
 /// Wave numbers by which the flat modes of an eigenproblem reach past the frequency asked for: four
 /// more modes an order. *Converged*: any more move no frequency by 0.01 %.

@@ -11,7 +11,17 @@ use crate::plate::PlateSpec;
 /// A bronze cap as thick everywhere, without a bell: diameter (m), mass (kg), rise (m).
 fn cap(diameter: f64, mass: f64, rise: f64) -> PlateSpec {
     let Material { youngs_modulus, poisson_ratio, density, .. } = Material::BRONZE;
-    PlateSpec { diameter, mass, rise, bell: None, taper: 1.0, youngs_modulus, poisson_ratio, density }
+    PlateSpec {
+        diameter,
+        mass,
+        rise,
+        bell: None,
+        flange: None,
+        taper: 1.0,
+        youngs_modulus,
+        poisson_ratio,
+        density,
+    }
 }
 
 /// A 16 in crash as a cap.

@@ -8,7 +8,7 @@ use crate::contact::Material;
 use crate::damping::{LossLaw, Muffler};
 use crate::error::SpecError;
 use crate::numbers::{self, Numbers, Visitor};
-use crate::plate::{Bell, PlateSpec};
+use crate::plate::{Bell, Flange, PlateSpec};
 use crate::split::Splitting;
 
 use super::hammering::HammeringSpec;
@@ -29,6 +29,9 @@ pub struct CymbalSpec {
     /// What rises over the bow in the middle, if anything does.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bell: Option<Bell>,
+    /// What turns up toward the rim, as a china's does, if anything does.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub flange: Option<Flange>,
     /// Thickness at the rim over that in the middle, 0.3 to 1 (as thick everywhere).
     pub taper: f64,
     /// What it is made of.
@@ -90,6 +93,13 @@ impl Numbers for CymbalSpec {
             visitor.number("rise_m", &mut bell.rise, 0.0..=bell.radius);
             visitor.leave();
         }
+        if let Some(flange) = &mut self.flange {
+            let radius = 0.5 * self.diameter;
+            visitor.enter("flange");
+            visitor.number("radius_m", &mut flange.radius, 0.5 * radius..=0.95 * radius);
+            visitor.number("rise_m", &mut flange.rise, 0.0..=0.25 * radius);
+            visitor.leave();
+        }
         visitor.number("taper", &mut self.taper, 0.3..=1.0);
         self.loss.visit_part("loss", visitor);
         if let Some(stand) = &mut self.stand {
@@ -114,6 +124,7 @@ impl CymbalSpec {
             mass: self.mass,
             rise: self.bow,
             bell: self.bell,
+            flange: self.flange,
             taper: self.taper,
             youngs_modulus: self.alloy.youngs_modulus,
             poisson_ratio: self.alloy.poisson_ratio,

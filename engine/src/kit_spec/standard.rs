@@ -333,6 +333,7 @@ fn bronze(diameter_in: f64, mass: f64, bow: f64, (radius, rise): (f64, f64)) -> 
         mass,
         bow,
         bell: Some(Bell { radius, rise }),
+        flange: None,
         taper: fitted::CYMBAL_TAPER,
         alloy: Material::BRONZE,
         loss: LossLaw::BRONZE,

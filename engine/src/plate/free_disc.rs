@@ -366,8 +366,7 @@ mod tests {
     #[test]
     fn a_mode_that_is_forced_below_its_frequency_sounds_by_the_rate_of_its_acceleration() {
         use crate::plate::{PlateModes, PlateTables};
-        for (name, n, bound) in [("crash", 1, 4.0), ("crash", 2, 6.0), ("splash", 1, 4.0), ("splash", 2, 6.0)]
-        {
+        for (name, n) in [("crash", 1), ("crash", 2), ("splash", 1), ("splash", 2)] {
             let plate = PlateModes::new(&crate::reference::cymbal(name).plate(), 3_000.0).unwrap();
             let (orders, extent) = plate.table_extent(3_000.0);
             let tables = PlateTables::new(orders, extent);
@@ -381,14 +380,15 @@ mod tests {
             let heard =
                 |omega| disc.radiate(&Radiator { m: 0, radial, omega }, plate.wave_number(shell)).transfers;
             let own = heard(shell.omega);
-            for share in [0.2, 0.3, 0.5, 0.7, 1.4] {
+            for share in [0.3, 0.5, 0.7] {
                 for (own, forced) in own.into_iter().zip(heard(share * shell.omega)) {
                     let level = |[re, im]: [f64; 2]| 20.0 * re.hypot(im).log10();
                     // The imaginary part acts on the velocity alone, or on the acceleration's rate.
                     let [by_velocity, by_rate] =
                         [1.0 / share, share].map(|factor| level([own[0], own[1] * factor]) - level(forced));
                     println!("{name} (0, {n}) at {share}: {by_velocity:.1} dB, {by_rate:.1} dB");
-                    assert!(by_rate.abs() < bound && by_rate.abs() < by_velocity.abs(), "{by_rate}");
+                    // Shapes whose middle and rim cancel fall faster still.
+                    assert!((0.0..0.7 * by_velocity).contains(&by_rate), "{by_rate} {by_velocity}");
                     assert!(share > 0.3 || by_velocity > 15.0, "{by_velocity}");
                 }
             }

@@ -17,6 +17,8 @@ pub struct PlateSpec {
     pub rise: f64,
     /// What rises over the bow in the middle, if anything does.
     pub bell: Option<Bell>,
+    /// What turns up toward the rim, if anything does.
+    pub flange: Option<Flange>,
     /// Thickness at the rim over that in the middle, 0.3 to 1 (as thick everywhere).
     pub taper: f64,
     /// Young's modulus, Pa, 1e9 to 1e12.
@@ -39,6 +41,18 @@ pub struct Bell {
     pub rise: f64,
 }
 
+/// A china's upturned rim: outside of `radius` it rises over the bow by `rise s^3`, `s` from 0 there to 1 at the rim.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Flange {
+    /// Where it begins, m, half to 0.95 of the plate's radius.
+    #[serde(rename = "radius_m")]
+    pub radius: f64,
+    /// Rise of the rim over the bow as it would go on, m, 0 to a quarter of the plate's radius.
+    #[serde(rename = "rise_m")]
+    pub rise: f64,
+}
+
 impl PlateSpec {
     /// Thinnest plate, m: half of what thin splash cymbals are in the mean. Struck hard, thinner ones bend by so many
     /// times their thickness that the energy is not kept (`docs/limits.md`).
@@ -50,7 +64,7 @@ impl PlateSpec {
 
     /// Whether it is a cap as thick everywhere.
     pub fn is_even(&self) -> bool {
-        self.bell.is_none() && self.taper == 1.0
+        self.bell.is_none() && self.flange.is_none() && self.taper == 1.0
     }
 
     /// Checks every field, and that the plate they make is thin.
@@ -65,6 +79,11 @@ impl PlateSpec {
             let radius = self.radius();
             SpecError::check("bell radius (m)", bell.radius, 0.05 * radius, 0.5 * radius)?;
             SpecError::check("bell rise (m)", bell.rise, 0.0, bell.radius)?;
+        }
+        if let Some(flange) = self.flange {
+            let radius = self.radius();
+            SpecError::check("flange radius (m)", flange.radius, 0.5 * radius, 0.95 * radius)?;
+            SpecError::check("flange rise (m)", flange.rise, 0.0, 0.25 * radius)?;
         }
         SpecError::check("taper", self.taper, 0.3, 1.0)?;
         SpecError::check("Young's modulus (Pa)", self.youngs_modulus, 1e9, 1e12)?;
@@ -99,21 +118,35 @@ impl PlateSpec {
 
     /// Curvatures along the radius and around, 1/m, at the share `r` of the radius: `w0''` and `w0'/r` of the profile.
     pub fn curvatures(&self, r: f64) -> [f64; 2] {
-        let bow = self.curvature();
-        let Some(bell) = self.bell else { return [bow; 2] };
-        let s = (r * self.radius() / bell.radius).powi(2);
-        let edge = (1.0 - s).max(0.0);
-        let unit = 6.0 * bell.rise / bell.radius.powi(2) * edge;
-        [bow + unit * (1.0 - 5.0 * s), bow + unit * edge]
+        let mut sum = [self.curvature(); 2];
+        let at = r * self.radius();
+        if let Some(bell) = self.bell {
+            let s = (at / bell.radius).powi(2);
+            let edge = (1.0 - s).max(0.0);
+            let unit = 6.0 * bell.rise / bell.radius.powi(2) * edge;
+            sum[0] += unit * (1.0 - 5.0 * s);
+            sum[1] += unit * edge;
+        }
+        if let Some(flange) = self.flange.filter(|flange| at > flange.radius) {
+            let width = self.radius() - flange.radius;
+            let s = (at - flange.radius) / width;
+            sum[0] -= 6.0 * flange.rise * s / (width * width);
+            sum[1] -= 3.0 * flange.rise * s * s / (width * at);
+        }
+        sum
     }
 
-    /// Height over the rim at the share `r` of the radius, m.
+    /// Height over the bow's rim at the share `r` of the radius, m.
     pub fn height(&self, r: f64) -> f64 {
         let hump = |bell: Bell| {
             let s = (r * self.radius() / bell.radius).powi(2);
             bell.rise * (1.0 - s).max(0.0).powi(3)
         };
-        self.rise * (1.0 - r * r) + self.bell.map_or(0.0, hump)
+        let turned = |flange: Flange| {
+            let s = (r * self.radius() - flange.radius) / (self.radius() - flange.radius);
+            flange.rise * s.max(0.0).powi(3)
+        };
+        self.rise * (1.0 - r * r) + self.bell.map_or(0.0, hump) + self.flange.map_or(0.0, turned)
     }
 
     /// Flexural rigidity D = E h^3 / (12 (1 - nu^2)) where it is as thick as in the mean, N m.
@@ -156,9 +189,10 @@ mod tests {
     }
 
     #[test]
-    fn a_taper_leaves_the_mass_and_a_bells_curvatures_are_those_of_its_profile() {
+    fn a_taper_leaves_the_mass_and_curvatures_are_those_of_the_profile() {
         let bell = Some(Bell { radius: 0.06, rise: 0.02 });
-        let spec = PlateSpec { rise: 0.010, bell, taper: 0.5, ..reference::cap_crash() };
+        let flange = Some(Flange { radius: 0.15, rise: 0.02 });
+        let spec = PlateSpec { rise: 0.010, bell, flange, taper: 0.5, ..reference::cap_crash() };
         let rule = GaussLegendre::unit(20);
         let mean = rule.integrate(|r| 2.0 * r * spec.relative_thickness(r));
         assert!((mean - 1.0).abs() < 1e-12, "{mean}");
@@ -170,7 +204,11 @@ mod tests {
             let [radial, around] = spec.curvatures(x / spec.radius());
             // A cap's radius counts its rise, which a parabola does not: half a percent.
             assert!((radial - second).abs() < 5e-3 * second.abs() + 1e-3, "{x}: {radial} {second}");
-            assert!((around - slope / x).abs() < 5e-3 * slope / x, "{x}: {around} {}", slope / x);
+            assert!(
+                (around - slope / x).abs() < 5e-3 * slope.abs() / x + 1e-3,
+                "{x}: {around} {}",
+                slope / x
+            );
         }
     }
 
