@@ -189,6 +189,9 @@ pub fn loss_of_restitution(restitution: f64) -> f64 {
     let (mut low, mut high) = (1e-12, 1.0 / e);
     for _ in 0..200 {
         let middle = 0.5 * (low + high);
+        if middle == low || middle == high {
+            break;
+        }
         if g(middle) < 0.0 {
             low = middle;
         } else {

@@ -1,6 +1,6 @@
 //! The mathematics the bodies are built from: cylinder functions, polynomials, quadrature, roots, eigenproblems, interpolation.
 //!
-//! Everything here runs while a piece is built or, the interpolation, once a block; in `f64`; nothing runs per sample.
+//! Everything here runs while a piece is built or, the interpolation and the sines, once a block or a stroke; in `f64`; nothing runs per sample.
 
 pub mod bessel;
 pub mod cubic;
@@ -8,3 +8,4 @@ pub mod eigen;
 pub mod jacobi;
 pub mod quadrature;
 pub mod roots;
+pub mod trigonometry;

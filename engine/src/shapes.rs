@@ -4,6 +4,7 @@
 //! axes `theta_0` of a pair are where the body's small unevenness puts them.
 
 use crate::math::cubic::Stencil;
+use crate::modal::simd::Kernels;
 use crate::mode::Member;
 use crate::mode_mixture::{MAX_MIXED, ModeMixture};
 use crate::patch_factors::{PatchFactors, pressed_share};
@@ -50,6 +51,7 @@ pub struct ShapeTable {
     felt: PatchFactors,
     /// What becomes of the shapes: each mode of the body is such a mixture of those of the index.
     mixture: Option<ModeMixture>,
+    kernels: Kernels,
 }
 
 /// Modes that mix the same rows.
@@ -125,6 +127,7 @@ impl ShapeTable {
             waves,
             felt,
             mixture: None,
+            kernels: Kernels::detect(),
         }
     }
 
@@ -171,7 +174,10 @@ impl ShapeTable {
         let Some(mixture) = &self.mixture else { return self.fill_simple(radius, angle, disc, out) };
         let mut simple = [0.0; MAX_MIXED];
         self.fill_simple(radius, angle, disc, &mut simple);
-        mixture.apply(&simple, out);
+        self.kernels.vectorized(
+            #[inline(always)]
+            || mixture.apply(&simple, out),
+        );
     }
 
     fn fill_simple(&self, radius: f64, angle: f64, disc: f64, out: &mut [f32]) {

@@ -7,8 +7,10 @@ use std::f64::consts::{PI, TAU};
 use crate::air_load::{DENSITY, SPEED_OF_SOUND};
 use crate::diffraction;
 use crate::diffraction::Outside;
+use crate::math::trigonometry::sin_cos;
 use crate::membrane::MembraneSpec;
 use crate::modal::Mode;
+use crate::patch_factors::PatchFactors;
 use crate::receiver::ReceiverPosition;
 use crate::split::hash;
 
@@ -61,8 +63,8 @@ pub(super) struct Slice {
     pub(super) zero: f64,
     /// Modes it stands for.
     pub(super) count: f64,
-    /// Where the wave runs, rad, and its phase.
-    pub(super) direction: f64,
+    /// Where the wave runs, as cosine and sine, and its phase, rad.
+    pub(super) direction: [f64; 2],
     pub(super) phase: f64,
     /// Phases in which it is heard at the point and far away, as cosine and sine, and how loud for what the drum's body does
     /// to it.
@@ -70,12 +72,45 @@ pub(super) struct Slice {
     pub(super) gain: f64,
 }
 
-impl Slice {
-    /// The wave and its image in the rim, at a place.
-    pub(super) fn at(&self, radius: f64, angle: f64) -> f64 {
-        let along = (angle - self.direction).cos();
-        let wave = |r: f64| (self.zero * r * along + self.phase).cos();
-        wave(radius) - wave(2.0 - radius)
+/// The slices' waves side by side, `[slice]`.
+pub(super) struct Waves {
+    /// `k a`.
+    zero: Vec<f64>,
+    /// Cosine and sine of the direction.
+    along: [Vec<f64>; 2],
+    /// rad.
+    phase: Vec<f64>,
+    /// What every wave takes from patches (m).
+    pub(super) pressed: PatchFactors,
+}
+
+impl Waves {
+    pub(super) fn new(spec: &HighBandSpec, slices: &[Slice]) -> Waves {
+        let takes = |patch: f64| slices.iter().map(|slice| taken(spec, slice, patch)).collect();
+        let each = |of: fn(&Slice) -> f64| slices.iter().map(of).collect();
+        Waves {
+            zero: each(|slice| slice.zero),
+            along: [each(|slice| slice.direction[0]), each(|slice| slice.direction[1])],
+            phase: each(|slice| slice.phase),
+            pressed: PatchFactors::new(1.0, takes),
+        }
+    }
+
+    /// Every wave and its image in the rim at a place, `cos(j r c + phase) - cos(j (2 - r) c + phase)` with `c` the cosine of the
+    /// angle between, dimensionless, into as many of `out`.
+    #[inline(always)]
+    pub(super) fn fill(&self, radius: f64, angle: f64, out: &mut [f32]) {
+        let (sin, cos) = angle.sin_cos();
+        let [along_cos, along_sin] = &self.along;
+        let count = self.zero.len();
+        let (zero, phase, out) = (&self.zero[..count], &self.phase[..count], &mut out[..count]);
+        let (along_cos, along_sin) = (&along_cos[..count], &along_sin[..count]);
+        // A plain loop: what an iterator calls would be compiled for the baseline.
+        for k in 0..count {
+            let around = zero[k] * (cos * along_cos[k] + sin * along_sin[k]);
+            // The difference of two cosines is twice the product of two sines.
+            out[k] = (2.0 * sin_cos(around + phase[k]).0 * sin_cos((1.0 - radius) * around).0) as f32;
+        }
     }
 }
 
@@ -100,6 +135,11 @@ fn modes_below(zero: f64) -> f64 {
     0.25 * zero * zero - 0.5 * zero
 }
 
+/// Cosine and sine of an angle (rad).
+fn cos_sin(angle: f64) -> [f64; 2] {
+    [angle.cos(), angle.sin()]
+}
+
 /// Cuts the band.
 pub(super) fn slices(spec: &HighBandSpec) -> Vec<Slice> {
     let [slackest, tension] = spec.tensions;
@@ -117,12 +157,9 @@ pub(super) fn slices(spec: &HighBandSpec) -> Vec<Slice> {
         slices.push(Slice {
             zero,
             count: (modes_below(high) - modes_below(low)).max(1.0),
-            direction: TAU * draw(1),
+            direction: cos_sin(TAU * draw(1)),
             phase: TAU * draw(2),
-            heard: [3, 4].map(|i| {
-                let (sin, cos) = (TAU * draw(i)).sin_cos();
-                [cos, sin]
-            }),
+            heard: [3, 4].map(|i| cos_sin(TAU * draw(i))),
             gain: gain(spec, omega),
         });
         low = high;

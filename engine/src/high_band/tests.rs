@@ -70,13 +70,25 @@ fn it_reaches_16_khz_and_no_farther() {
 fn a_waves_shape_is_zero_at_the_rim_and_one_in_the_mean() {
     let (built, build) = rack_tom();
     let band = band(&built, &build);
+    let count = band.slices.len();
+    let at = |radius: f64, angle: f64| {
+        let mut out = vec![0.0; count];
+        band.waves.fill(radius, angle, &mut out);
+        out
+    };
+    assert!(at(1.0, 0.7).iter().all(|shape| shape.abs() < 1e-6));
     let mut sum = 0.0;
-    for (k, slice) in band.slices.iter().enumerate() {
-        assert!(slice.at(1.0, k as f64).abs() < 1e-9);
-        let places = (0..400).map(|i| ((f64::from(i) + 0.5) / 400.0, 2.4 * f64::from(i)));
-        sum += places.map(|(area, angle)| slice.at(area.sqrt(), angle).powi(2)).sum::<f64>() / 400.0;
+    for i in 0..400 {
+        let (radius, angle) = (((f64::from(i) + 0.5) / 400.0).sqrt(), 2.4 * f64::from(i));
+        for (got, slice) in at(radius, angle).into_iter().zip(&band.slices) {
+            let along = angle.cos() * slice.direction[0] + angle.sin() * slice.direction[1];
+            let wave = |r: f64| (slice.zero * r * along + slice.phase).cos();
+            let want = wave(radius) - wave(2.0 - radius);
+            assert!((f64::from(got) - want).abs() < 1e-6, "{got} {want}");
+            sum += want * want / 400.0;
+        }
     }
-    let mean = sum / band.slices.len() as f64;
+    let mean = sum / count as f64;
     assert!((mean - 1.0).abs() < 0.05, "{mean}");
 }
 

@@ -4,15 +4,6 @@ use super::*;
 use crate::math::bessel;
 
 #[test]
-fn the_quick_sine_and_cosine_are_right_to_1e_8() {
-    for i in -4000..4000 {
-        let x = 0.0123 * f64::from(i);
-        let (sin, cos) = rings::sin_cos(x);
-        assert!((sin - x.sin()).abs() < 1e-8 && (cos - x.cos()).abs() < 1e-8, "{x}: {sin} {cos}");
-    }
-}
-
-#[test]
 fn on_the_axis_a_piston_has_its_closed_form() {
     // p = rho c v (1 - e^(-i k (s - z))) e^(-i k z), s the distance to the rim.
     let (a, z) = (0.2, 0.35);
