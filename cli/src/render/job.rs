@@ -129,8 +129,7 @@ impl fmt::Display for Report {
         if *silent > 0 {
             write!(f, " ({silent} of them play no piece of the kit)")?;
         }
-        let share = 100.0 * busy_share(played.busy, *seconds);
-        write!(f, ", peak {}, {share:.1} % of real time", decibels(played.peak))?;
+        write!(f, ", peak {}, rendered in {:.1} s", decibels(played.peak), played.busy.as_secs_f64())?;
         if *clipped > 0 {
             write!(f, ", {clipped} samples clipped")?;
         }
@@ -139,11 +138,6 @@ impl fmt::Display for Report {
         }
         Ok(())
     }
-}
-
-/// Time spent rendering as a share of the sound's length.
-fn busy_share(busy: Duration, seconds: f64) -> f64 {
-    if seconds > 0.0 { busy.as_secs_f64() / seconds } else { 0.0 }
 }
 
 /// A peak, full scale 1, as text in dBFS.
