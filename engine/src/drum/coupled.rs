@@ -34,7 +34,7 @@ use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
 use crate::air_load::{self, DENSITY, HankelShape, SPEED_OF_SOUND};
-use crate::cavity::CavityOrder;
+use crate::cavity::{CavityOrder, PORT_Q};
 use crate::diffraction::{self, Outside};
 use crate::math::bessel::JTable;
 use crate::math::{eigen, quadrature};
@@ -235,7 +235,7 @@ impl<'a> OrderProblem<'a> {
             if let (Some(mass), Some(x)) = (cavity.port, vector.last()) {
                 let kinetic = mass * x * x;
                 shares.insert(heads, kinetic);
-                sigma += kinetic * omega / (2.0 * self.cavity_q);
+                sigma += kinetic * omega / (2.0 * PORT_Q);
             }
         }
         let outlet = self.outlet(&vector, heads);

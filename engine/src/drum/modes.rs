@@ -192,9 +192,9 @@ mod tests {
         let place = drum.heads.scale.place(200.0);
         let lowest = &drum.modes[0];
         let (_, near) = drum.heads.batter.order(0);
-        let [batter, front] = [0, near].map(|head| lowest.share(head, &place));
+        let [batter, far] = [0, near].map(|head| lowest.share(head, &place));
         let port = lowest.outlet(&place);
-        assert!(port * front < 0.0 && port * batter > 0.0, "{port} {front} {batter}");
-        assert!(port.abs() > batter.abs() && port.abs() > front.abs());
+        assert!(port * far < 0.0 && port * batter > 0.0, "{port} {far} {batter}");
+        assert!(port.abs() > batter.abs() && port.abs() > far.abs());
     }
 }
