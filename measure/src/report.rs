@@ -12,6 +12,7 @@ pub mod glide;
 pub mod heads;
 pub mod hi_hat;
 pub mod kit;
+mod mechanisms;
 pub mod modal;
 pub mod page;
 mod plate;
@@ -28,13 +29,14 @@ pub use page::{Claim, Page, Sheet};
 pub type Measure = fn() -> Result<Page>;
 
 /// Every page that depends on the sources alone, in reading order: its name and what measures it.
-pub const PAGES: [(&str, Measure); 13] = [
+pub const PAGES: [(&str, Measure); 14] = [
     ("modal", modal::page),
     ("contact", contact::page),
     ("heads", heads::page),
     ("glide", glide::page),
     ("drums", drums::page),
     ("snare", snare::page),
+    ("mechanisms", mechanisms::page),
     ("plate", plate::page),
     ("cymbal", cymbal::page),
     ("cascade", cascade::page),

@@ -23,7 +23,9 @@
 //! the rim, and there the body fills a quarter of space, not half of it as a baffle would. Between, `B` rises as
 //! [`diffraction`] has it for a source that faces all of the body.
 //!
-//! A shell without its other head sends out at its open end what the enclosed air pushes there, as a piston.
+//! A shell without its other head sends out at its open end what the enclosed air pushes there, as a piston. A port in the other head
+//! is one more degree of freedom of the modes without nodal diameters, and is heard as such a piston of the same volume: it moves much only
+//! where the wave is longer than the drum is wide.
 //!
 //! Limits: the heads' outer air does not couple their modes; losses do not couple modes.
 
@@ -32,7 +34,7 @@ use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
 use crate::air_load::{self, DENSITY, HankelShape, SPEED_OF_SOUND};
-use crate::cavity::CavityOrder;
+use crate::cavity::{CavityOrder, PORT_Q};
 use crate::diffraction::{self, Outside};
 use crate::math::bessel::JTable;
 use crate::math::{eigen, quadrature};
@@ -78,11 +80,12 @@ pub struct CoupledMode {
     pub direction: Vec<f64>,
     /// Share of the kinetic energy that is the batter's, and the resonant head's; the rest is the air's.
     pub share: [f64; 2],
-    /// Such shares of every head mode and then every cavity mode.
+    /// Such shares of every head mode, of the port's air if there is a port, and of every cavity mode.
     pub shares: Vec<f64>,
     /// Share of the kinetic energy that is in air going along the drum as one, from head to head.
     pub flow: f64,
-    /// Displacement of the air at an open end, along the stroke, as a piston: its ratio to the modal displacement.
+    /// Displacement of the air at an open end or in a port, along the stroke, as a piston as wide as the head: its ratio to the modal
+    /// displacement.
     pub outlet: f64,
     /// Area of the monopole in a baffle that would radiate its power at unit modal acceleration, m2.
     pub monopole_area: f64,
@@ -147,10 +150,13 @@ impl<'a> OrderProblem<'a> {
     /// Frequencies and vectors.
     fn eigenmodes(&self, parts: &[Part], omegas: &[f64]) -> Vec<Solution> {
         let heads = parts.len();
-        let none = CavityOrder { modes: Vec::new(), mass: vec![0.0; heads * heads], outlet: Vec::new() };
+        let (modes, mass) = (Vec::new(), vec![0.0; heads * heads]);
+        let none = CavityOrder { modes, mass, outlet: Vec::new(), port: None };
         let cavity = self.cavity.unwrap_or(&none);
         let springs: Vec<_> = cavity.modes.iter().filter(|mode| mode.omega > 0.0).collect();
-        let size = heads + springs.len();
+        // Heads, air, port.
+        let port = heads + springs.len();
+        let size = port + usize::from(cavity.port.is_some());
         let mut stiffness = DMatrix::zeros(size, size);
         let mut mass = DMatrix::zeros(size, size);
         for (i, (part, own)) in parts.iter().zip(self.head_masses(parts, omegas)).enumerate() {
@@ -176,6 +182,20 @@ impl<'a> OrderProblem<'a> {
             for i in 0..heads {
                 stiffness[(i, y)] = -mode.spring * mode.volume[i];
                 stiffness[(y, i)] = stiffness[(i, y)];
+            }
+        }
+        if let Some(own) = cavity.port {
+            mass[(port, port)] = own;
+            for mode in &cavity.modes {
+                stiffness[(port, port)] += mode.spring * mode.port * mode.port;
+                for i in 0..heads {
+                    stiffness[(i, port)] += mode.spring * mode.volume[i] * mode.port;
+                    stiffness[(port, i)] = stiffness[(i, port)];
+                }
+            }
+            for (j, mode) in springs.iter().enumerate() {
+                stiffness[(heads + j, port)] = -mode.spring * mode.port;
+                stiffness[(port, heads + j)] = stiffness[(heads + j, port)];
             }
         }
         generalized(stiffness, mass)
@@ -212,6 +232,11 @@ impl<'a> OrderProblem<'a> {
                 // A loss factor, not a dashpot: air that only rides along loses as slowly as it moves.
                 sigma += kinetic * omega / (2.0 * self.cavity_q);
             }
+            if let (Some(mass), Some(x)) = (cavity.port, vector.last()) {
+                let kinetic = mass * x * x;
+                shares.insert(heads, kinetic);
+                sigma += kinetic * omega / (2.0 * PORT_Q);
+            }
         }
         let outlet = self.outlet(&vector, heads);
         let resistance = self.resistance((parts, shapes), omega, &vector, outlet);
@@ -235,13 +260,14 @@ impl<'a> OrderProblem<'a> {
         0.5 * around * square * edge.mobility(omega) / (omega * omega)
     }
 
-    /// Displacement of the air at an open end.
+    /// Displacement of the air at an open end or in a port.
     fn outlet(&self, vector: &[f64], heads: usize) -> f64 {
         let Some(cavity) = self.cavity else { return 0.0 };
         let springs = cavity.modes.iter().filter(|mode| mode.omega > 0.0).map(|mode| mode.outlet);
         let volume: f64 = springs.zip(&vector[heads..]).map(|(outlet, y)| outlet * y).sum();
         let plug: f64 = cavity.outlet.iter().zip(vector).map(|(outlet, q)| outlet * q).sum();
-        (volume + plug) / self.batter.membrane.spec().area()
+        let port = cavity.port.and(vector.last()).copied().unwrap_or(0.0);
+        (volume + plug) / self.batter.membrane.spec().area() + port
     }
 
     /// Radiation resistance over `rho omega a^3` at unit modal displacement.

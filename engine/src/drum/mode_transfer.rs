@@ -203,7 +203,12 @@ impl<'a> HeadTransfers<'a> {
             let radial = match (&self.drum.heads.resonant, &self.far_shapes) {
                 (Some(head), Some(shapes)) => {
                     let (far_first, far_count) = head.order(mode.m);
-                    Some(self.radial(mode, place, shapes, [far_first, far_count, count]))
+                    let mut radial = self.radial(mode, place, shapes, [far_first, far_count, count]);
+                    if mode.m == 0 {
+                        let port = mode.outlet(place);
+                        radial.iter_mut().for_each(|moved| *moved += port);
+                    }
+                    Some(radial)
                 }
                 // An open end moves as a piston.
                 _ if mode.m == 0 => Some(vec![mode.outlet(place); self.far.radii().len()]),

@@ -90,7 +90,8 @@ impl DrumModes {
         };
         let far = self.heads.resonant.as_ref().map_or(0.0, |head| volume(head, head.order(0).0, near));
         // Along the stroke is into the drum at the one and out of it at the other.
-        let moved = volume(&self.heads.batter, first, 0) - far;
+        let outlet = mode.outlet(place) * self.heads.batter.membrane.spec().area();
+        let moved = volume(&self.heads.batter, first, 0) - far - outlet;
         // A point in free air loses half of what it would in a baffle.
         (SQRT_2 * mode.reference.monopole_area * mode.at(place).mass.sqrt()).copysign(moved)
     }
@@ -132,5 +133,68 @@ impl DrumModes {
         let ear = Receiver { point: near.from_behind(behind), away: far, outside: spec.outside(), far: true };
         let head = self.heads.resonant.as_ref()?;
         Some(head.high_band(ear, context, wires::SECTIONS))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use super::*;
+    use crate::air_load::{DENSITY, SPEED_OF_SOUND};
+    use crate::drum::ResonantSpec;
+    use crate::kit_spec::KitSpec;
+
+    /// A small, tight bass drum whose front head has a port of that diameter, m.
+    fn ported(port_diameter: Option<f64>) -> DrumModes {
+        let kit = KitSpec::standard();
+        let kick = kit.pieces.iter().find_map(|piece| piece.drum()).copied().unwrap();
+        let batter = crate::drum::HeadSpec { modes_to_hz: 1500.0, ..kick.batter };
+        let resonant = kick.resonant.map(|head| ResonantSpec { port_diameter, ..head });
+        let [lowest_pitch_hz, pitch_hz, highest_pitch_hz] = [200.0, 200.0, 210.0];
+        let spec = DrumSpec {
+            diameter: 0.3,
+            pitch_hz,
+            lowest_pitch_hz,
+            highest_pitch_hz,
+            batter,
+            resonant,
+            tension_field: None,
+            ..kick
+        };
+        DrumModes::new(&spec).unwrap()
+    }
+
+    #[test]
+    fn a_port_is_helmholtzs_resonator_with_walls_that_give() {
+        let (a, b, depth) = (0.15_f64, 0.0127, 18.0 * 0.0254);
+        let drum = ported(Some(2.0 * b));
+        let given: f64 = [Some(&drum.heads.batter), drum.heads.resonant.as_ref()]
+            .into_iter()
+            .flatten()
+            .map(|head| PI * a.powi(4) / (8.0 * head.tensions[0]))
+            .sum();
+        let air = PI * a * a * depth / (DENSITY * SPEED_OF_SOUND * SPEED_OF_SOUND);
+        let exact = (2.0 * b / (DENSITY * (air + given))).sqrt() / TAU;
+        let lowest = drum.modes[0].at(&drum.heads.scale.place(200.0));
+        let hz = lowest.omega / TAU;
+        assert_eq!(drum.modes[0].m, 0);
+        assert!((hz / exact - 1.0).abs() < 0.03, "{hz} {exact}");
+        // Without it nothing is as low.
+        let closed = ported(None);
+        assert!(closed.modes[0].at(&closed.heads.scale.place(200.0)).omega > 2.0 * lowest.omega);
+    }
+
+    #[test]
+    fn heads_give_way_to_the_air_that_a_port_lets_in() {
+        // Far below the heads' own modes they follow the pressure, which is highest when the port's air has come in.
+        let drum = ported(Some(0.0254));
+        let place = drum.heads.scale.place(200.0);
+        let lowest = &drum.modes[0];
+        let (_, near) = drum.heads.batter.order(0);
+        let [batter, far] = [0, near].map(|head| lowest.share(head, &place));
+        let port = lowest.outlet(&place);
+        assert!(port * far < 0.0 && port * batter > 0.0, "{port} {far} {batter}");
+        assert!(port.abs() > batter.abs() && port.abs() > far.abs());
     }
 }

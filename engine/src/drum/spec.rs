@@ -115,6 +115,9 @@ pub struct ResonantSpec {
     pub loss: LossLaw,
     /// Its own modes up to this enter the drum's, Hz, 100 to 4000.
     pub modes_to_hz: f64,
+    /// Diameter of a hole in it, m, 0.01 to half of the head's; none of a whole head.
+    #[serde(default, rename = "port_diameter_m", skip_serializing_if = "Option::is_none")]
+    pub port_diameter: Option<f64>,
 }
 
 /// What the heads are stretched over.
@@ -190,6 +193,9 @@ impl Numbers for DrumSpec {
             head.visit_numbers(visitor);
             let HeadSpec { thickness, plies, material, loss, modes_to_hz } = head;
             *resonant = ResonantSpec { thickness, plies, material, loss, modes_to_hz, ..*resonant };
+            if let Some(port) = &mut resonant.port_diameter {
+                visitor.number("port_diameter_m", port, 0.01..=0.5 * self.diameter);
+            }
             visitor.leave();
         }
         if let Some(shell) = &mut self.shell {
@@ -259,7 +265,9 @@ impl DrumSpec {
         Some(match self.shell? {
             ShellSpec::Cylinder { depth, air_q, .. } => {
                 let open = self.resonant.is_none();
-                CavitySpec { q: air_q, open, ..CavitySpec::cylinder(radius, depth) }
+                let port = self.resonant.and_then(|resonant| resonant.port_diameter);
+                let port = port.map(|diameter| 0.5 * diameter);
+                CavitySpec { q: air_q, open, port, ..CavitySpec::cylinder(radius, depth) }
             }
             ShellSpec::Kettle { volume, air_q } => {
                 let depth = volume / (std::f64::consts::PI * radius * radius);

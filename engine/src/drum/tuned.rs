@@ -64,7 +64,7 @@ pub struct TunedMode {
     grid: Grid,
     /// `[pitch of the grid]`.
     entries: Vec<Entry>,
-    /// `[pitch of the grid]`: the air at an open end, over the head modes as the shares are.
+    /// `[pitch of the grid]`: the air at an open end or in a port, over the head modes as the shares are.
     outlet: Vec<f32>,
     /// `[head mode][pitch of the grid]`: shares of the heads' modes of this order, batter first.
     shares: Vec<f32>,
@@ -155,7 +155,7 @@ impl TunedMode {
         place.of(self.grid).blend(|pitch| f64::from(row[pitch]))
     }
 
-    /// Displacement of the air at an open end, per share.
+    /// Displacement of the air at an open end or in a port, per share.
     pub fn outlet(&self, place: &PitchPosition) -> f64 {
         place.of(self.grid).blend(|pitch| f64::from(self.outlet[pitch]))
     }

@@ -173,7 +173,7 @@ fn film(thickness: f64, plies: u32, loss: LossLaw) -> HeadSpec {
 /// A clear single-ply head.
 fn single_ply(pitch_ratio: f64, modes_to_hz: f64) -> ResonantSpec {
     let HeadSpec { thickness, plies, material, loss, .. } = film(0.19e-3, 1, LossLaw::SINGLE_PLY);
-    ResonantSpec { pitch_ratio, thickness, plies, material, loss, modes_to_hz }
+    ResonantSpec { pitch_ratio, thickness, plies, material, loss, modes_to_hz, port_diameter: None }
 }
 
 /// Losses of films. *Fitted* within the literature's 2 to 12 1/s per kHz; what the [edge](EDGE) takes is not among them.
@@ -248,7 +248,10 @@ const UNEVEN: TensionFieldSpec =
 /// The corner of the filling of a pillow: a quarter wave in 0.1 m of filling in which waves go at some 50 m/s. *Judgement*.
 const PILLOW_CORNER: f64 = 125.0;
 
-/// 22 x 18 in bass drum with a pillow, heard at 50 Hz, as recorded ones are. Its pitch is *fitted*.
+/// A port in the front head, m (*trade sizes*: 4 to 6 in).
+const PORT: f64 = inches(5.0);
+
+/// 22 x 18 in bass drum with a pillow and a port, heard at 50 Hz, as recorded ones are. Its pitch is *fitted*.
 fn kick() -> InstrumentSpec {
     let drum = two_headed(
         [22.0, 18.0],
@@ -258,7 +261,8 @@ fn kick() -> InstrumentSpec {
     );
     let muffler =
         Muffler::Pillow { sigma: fitted::PILLOW_SIGMA, corner_hz: PILLOW_CORNER, flow: PILLOW_FLOW };
-    InstrumentSpec::Drum(DrumSpec { muffler, ..drum })
+    let resonant = drum.resonant.map(|head| ResonantSpec { port_diameter: Some(PORT), ..head });
+    InstrumentSpec::Drum(DrumSpec { muffler, resonant, ..drum })
 }
 
 /// 14 x 5.5 in snare drum. Its pitch is *fitted*: close by, a snare of 220 Hz is taken for one of 370 Hz, its (1,1); so tuned
@@ -268,7 +272,15 @@ fn kick() -> InstrumentSpec {
 /// of a thousand; cords and coils take more (*by judgement*).
 fn snare() -> InstrumentSpec {
     let HeadSpec { thickness, plies, material, loss, modes_to_hz } = film(0.076e-3, 1, SNARE_SIDE_LOSS);
-    let side = ResonantSpec { pitch_ratio: 1.50, thickness, plies, material, loss, modes_to_hz };
+    let side = ResonantSpec {
+        pitch_ratio: 1.50,
+        thickness,
+        plies,
+        material,
+        loss,
+        modes_to_hz,
+        port_diameter: None,
+    };
     let drum =
         two_headed([14.0, 5.5], film(0.25e-3, 1, SNARE_LOSS), side, [140.0, fitted::SNARE_PITCH_HZ, 360.0]);
     let wires = WiresSpec {
