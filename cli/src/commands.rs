@@ -159,7 +159,8 @@ fn modes(arguments: &ModesArguments) -> Result<()> {
 fn kit(task: KitTask) -> Result<()> {
     match task {
         KitTask::Show { what } => say(&kit::show(&Library::default(), what.as_deref())?),
-        KitTask::New { file } => kit::new(&file),
+        KitTask::New { file, from } => kit::new(&file, from.as_deref()),
+        KitTask::Library { words } => say(&kit::library(&words)?),
         KitTask::Check { files } => {
             let (sound, outcome) = kit::check(&files);
             say(&sound)?;

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 use overhear::kit_document::KitDocument;
-use overhear::kit_file;
 use overhear::presets::Library;
+use overhear::{kit_file, library};
 use overhear_engine::fitted;
 use serde::Serialize;
 
@@ -33,16 +33,60 @@ fn is_file(library: &Library, name: &str) -> bool {
     is_toml || (path.is_file() && library.list().iter().all(|entry| entry.name != name))
 }
 
-/// Begins a kit file that changes nothing yet and says how to.
+/// Begins a kit file: that of a kit of the library, or one that changes nothing yet and says how to.
 ///
 /// # Errors
-/// [`BadInput`](crate::error::BadInput) if there is such a file, or none can be made.
-pub fn new(file: &Path) -> Result<()> {
+/// [`BadInput`](crate::error::BadInput) if there is such a file, or none can be made, or the library has no kit of that name.
+pub fn new(file: &Path, from: Option<&str>) -> Result<()> {
+    let kit = from.map(|name| {
+        let names = || library::kits().map(|kit| kit.name).collect::<Vec<_>>().join(", ");
+        library::whole_kit(name).ok_or_else(|| bad_input!("no kit is called `{name}`, accepted: {}", names()))
+    });
+    let kit = kit.transpose()?;
     if file.symlink_metadata().is_ok() {
         return Err(bad_input!("`{}` exists, accepted: the name of a new file", file.display()));
     }
     let name = file.file_stem().unwrap_or_default().to_string_lossy();
-    output::write(file, kit_file::fresh(&name).as_bytes())
+    let text = kit.map_or_else(|| kit_file::fresh(&name), |kit| kit.text.to_owned());
+    output::write(file, text.as_bytes())
+}
+
+/// The instruments and kits of the library whose names, families or descriptions have all of some words in them.
+///
+/// # Errors
+/// [`BadInput`](crate::error::BadInput) if there are none.
+pub fn library(words: &[String]) -> Result<String> {
+    let words: Vec<String> = words.iter().map(|word| word.to_lowercase()).collect();
+    let is_meant = |texts: [&str; 3]| {
+        let text = texts.join(" ").to_lowercase();
+        words.iter().all(|word| text.contains(word))
+    };
+    let mut text = String::new();
+    let mut family = String::new();
+    for instrument in library::instruments() {
+        if !is_meant([instrument.name, &instrument.family, &instrument.about]) {
+            continue;
+        }
+        if instrument.family != family {
+            let _ = writeln!(text, "{}{}", if text.is_empty() { "" } else { "\n" }, instrument.family);
+            family.clone_from(&instrument.family);
+        }
+        let _ = writeln!(text, "    {:<24} {}", instrument.name, instrument.about);
+    }
+    let kits: Vec<_> = library::kits().filter(|kit| is_meant([kit.name, "kit", &kit.about])).collect();
+    if !kits.is_empty() {
+        let _ = writeln!(text, "{}whole kits", if text.is_empty() { "" } else { "\n" });
+    }
+    for kit in kits {
+        let _ = writeln!(text, "    {:<24} {}", kit.name, kit.about);
+    }
+    if text.is_empty() {
+        return Err(bad_input!(
+            "the library has nothing about `{}`, accepted: words of names, families and descriptions",
+            words.join(" ")
+        ));
+    }
+    Ok(text)
 }
 
 /// A line for every file that is a kit, and what is wrong with the others.
@@ -139,13 +183,32 @@ mod tests {
     fn a_new_file_is_the_standard_kit_and_replaces_none() {
         let folder = folder("new");
         let file = folder.join("mine.toml");
-        new(&file).unwrap();
+        new(&file, None).unwrap();
         assert_eq!(kit_file::load(&file).unwrap(), KitDocument::standard());
         fs::write(&file, "mine").unwrap();
-        let error = new(&file).unwrap_err();
+        let error = new(&file, None).unwrap_err();
         assert!(exit_code(&error) == 2 && error.to_string().contains("mine.toml"), "{error}");
         assert_eq!(fs::read_to_string(&file).unwrap(), "mine");
-        assert_eq!(exit_code(&new(&folder.join("no/such/kit.toml")).unwrap_err()), 2);
+        assert_eq!(exit_code(&new(&folder.join("no/such/kit.toml"), None).unwrap_err()), 2);
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn the_library_is_listed_by_words_and_a_kit_of_it_begins_a_file() {
+        let folder = folder("library");
+        let words = |text: &str| text.split(' ').map(str::to_owned).collect::<Vec<_>>();
+        let all = library(&[]).unwrap();
+        assert!(all.lines().count() > 75, "{all}");
+        let some = library(&words("snare brass")).unwrap();
+        assert!(some.contains("snare-14x5-brass") && !some.contains("kick-"), "{some}");
+        assert!(library(&words("kit jazz")).unwrap().contains("jazz-18"));
+        assert_eq!(exit_code(&library(&words("accordion")).unwrap_err()), 2);
+        let file = folder.join("mine.toml");
+        let error = new(&file, Some("polka")).unwrap_err();
+        assert!(exit_code(&error) == 2 && error.to_string().contains("jazz-18"), "{error}");
+        new(&file, Some("jazz-18")).unwrap();
+        let jazz = library::whole_kit("jazz-18").unwrap().document().unwrap();
+        assert_eq!(kit_file::load(&file).unwrap(), jazz);
         fs::remove_dir_all(folder).unwrap();
     }
 

@@ -5,6 +5,7 @@ use std::path::Path;
 use anyhow::Result;
 use overhear::kit_document::KitDocument;
 use overhear::kit_file;
+use overhear::library;
 use overhear::midi::maps::NoteMap;
 use overhear::midi_map::{Meaning, NoteTable};
 use overhear::parameters::{self, Drives, Manner, SlotParameter, parameters};
@@ -35,15 +36,16 @@ pub struct Chosen {
     pub settings: Vec<Setting>,
 }
 
-/// The kit of `--kit`, the standard one if no file is named.
+/// The kit of `--kit`: that of a file or, where there is no such file, the one of that name in the library; the standard one if
+/// nothing is named.
 ///
 /// # Errors
 /// [`BadInput`](crate::error::BadInput) with the file, the line, the field and what is accepted.
-pub fn kit(file: Option<&Path>) -> Result<KitDocument> {
-    file.map_or_else(
-        || Ok(KitDocument::standard()),
-        |file| kit_file::load(file).map_err(|error| bad_input!("{error}")),
-    )
+pub fn kit(what: Option<&Path>) -> Result<KitDocument> {
+    let Some(file) = what else { return Ok(KitDocument::standard()) };
+    let of_library = file.to_str().filter(|_| !file.exists()).and_then(library::whole_kit);
+    let loaded = of_library.map_or_else(|| kit_file::load(file), |kit| kit.document());
+    loaded.map_err(|error| bad_input!("{error}"))
 }
 
 /// Reads the values of `--set` for a kit.
@@ -197,6 +199,13 @@ mod tests {
         assert_eq!(jazz.settings.last(), Some(&(kick, 0.5)));
         assert!(load_preset("polka").unwrap_err().to_string().contains("accepted: default, studio, jazz"));
         assert!(load_preset("no/such.toml").unwrap_err().to_string().contains("no/such.toml"));
+    }
+
+    #[test]
+    fn a_kit_of_the_library_is_called_by_its_name() {
+        let jazz = kit(Some(Path::new("jazz-18"))).unwrap();
+        assert_eq!(jazz, library::whole_kit("jazz-18").unwrap().document().unwrap());
+        assert_ne!(jazz, KitDocument::standard());
     }
 
     #[test]

@@ -25,9 +25,11 @@
 //! Slots: pieces of the start keep their order, removed ones leave no hole, new ones follow in the file's order. A `slot` from
 //! 1 to the number of pieces puts a piece there, and those without one fill the rest in order.
 
+mod catalogue;
 mod drafts;
 mod error;
 mod format;
+mod laying;
 mod located;
 mod notes;
 mod pieces;
@@ -42,6 +44,7 @@ use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
 
+use overhear_engine::error::SpecError;
 use overhear_engine::kit_spec::KitSpec;
 use toml::de::DeTable;
 use toml::{Table, Value};
@@ -60,7 +63,14 @@ const STANDARD: &str = "standard";
 const NOTHING: &str = "nothing";
 
 /// What a file can say.
-const KEYS: [&str; 7] = ["format", "starts_from", "remove", "pieces", "microphones", "room", "silent"];
+const KEYS: [&str; 9] =
+    ["format", "about", "starts_from", "remove", "level_db", "pieces", "microphones", "room", "silent"];
+
+/// Longest line on what a file holds, characters.
+const LONGEST_ABOUT: usize = 400;
+
+/// How far a file can move the level of its whole kit, dB.
+const LEVEL_DB: std::ops::RangeInclusive<f64> = -40.0..=20.0;
 
 /// Reads the text of a kit file, complete or partial, called `file_name` in errors.
 ///
@@ -117,14 +127,28 @@ pub fn fresh(name: &str) -> String {
     include_str!("kit_file/fresh.toml").replace("{name}", &name)
 }
 
+/// The files of the library by name, in the order in which they are shown: instruments, and whole kits.
+pub(crate) fn library() -> [&'static [(&'static str, &'static str)]; 2] {
+    [catalogue::INSTRUMENTS, catalogue::KITS]
+}
+
+/// The parts of a kind (`heads`, `walls`, `hoops`, `alloys`, `wires`) that the library has, by name.
+pub(crate) fn library_parts(kind: &str) -> &'static Table {
+    catalogue::parts(kind)
+}
+
 fn document(Source { table, origins }: Source) -> Result<KitDocument, Fault> {
     let start = head(&table, &origins)?;
+    about(&table, &origins)?;
     let empty = Table::new();
     let pieces = part(&table, "pieces", &origins)?.unwrap_or(&empty);
     let kit = start.as_ref().map(|start| &start.kit);
     let drafts = Layers { start: kit, removed: removed(&table, kit, &origins)?, pieces, origins: &origins }
         .drafts()?;
-    let pieces = drafts.iter().map(|draft| pieces::read(draft, &origins)).collect::<Result<_, _>>()?;
+    let mut pieces =
+        drafts.iter().map(|draft| pieces::read(draft, &origins)).collect::<Result<Vec<_>, _>>()?;
+    let level_db = level(&table, &origins)?;
+    pieces.iter_mut().for_each(|piece| piece.defaults.level_db += level_db);
     let kit = KitSpec {
         pieces,
         microphones: whole(&table, "microphones", kit.map(|kit| text::table(&kit.microphones)), &origins)?,
@@ -157,6 +181,27 @@ fn head(table: &Table, origins: &Origins) -> Result<Option<KitDocument>, Fault> 
             let given = origins.locate("starts_from").literal.map_or_else(|| "no text".to_owned(), quoted);
             let reason = format!("is {given}, accepted: \"{STANDARD}\", \"{NOTHING}\"");
             Err(Fault::of("starts_from", origins, &reason))
+        }
+    }
+}
+
+/// What the file adds to the level of every piece, dB.
+fn level(table: &Table, origins: &Origins) -> Result<f64, Fault> {
+    let Some(value) = table.get("level_db") else { return Ok(0.0) };
+    let level_db: f64 = typed::read(value, "level_db", &[], origins)?;
+    SpecError::check("level_db", level_db, *LEVEL_DB.start(), *LEVEL_DB.end())
+        .map_err(|error| Fault::of_spec(&error, origins))?;
+    Ok(level_db)
+}
+
+/// A line on what the file holds, if it says so.
+fn about<'a>(table: &'a Table, origins: &Origins) -> Result<Option<&'a str>, Fault> {
+    match table.get("about") {
+        None => Ok(None),
+        Some(Value::String(about)) if (1..=LONGEST_ABOUT).contains(&about.chars().count()) => Ok(Some(about)),
+        Some(_) => {
+            let reason = format!("is not accepted, accepted: a text of 1 to {LONGEST_ABOUT} characters");
+            Err(Fault::of("about", origins, &reason))
         }
     }
 }
@@ -206,7 +251,7 @@ fn whole<T: serde::de::DeserializeOwned>(
 ) -> Result<T, Fault> {
     let mut fields = start.unwrap_or_default();
     if let Some(changes) = part(table, key, origins)? {
-        drafts::lay_over(&mut fields, changes.clone());
+        laying::lay_over(&mut fields, changes.clone());
     }
     typed::read(&Value::Table(fields), key, &[], origins)
 }

@@ -16,6 +16,7 @@ pub mod decimation;
 mod denormals;
 pub mod kit_document;
 pub mod kit_file;
+pub mod library;
 pub mod midi;
 pub mod midi_map;
 pub mod parameters;

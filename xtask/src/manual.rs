@@ -9,8 +9,9 @@ use overhear_cli::output;
 use crate::workspace;
 
 /// The pages: where they lie in the workspace, and what they say.
-pub fn pages() -> [(&'static str, String); 2] {
+pub fn pages() -> [(&'static str, String); 3] {
     [
+        ("docs/library.md", overhear::library::document()),
         ("docs/midi.md", overhear::midi::document::document()),
         ("docs/parameters.md", overhear::parameters::document()),
     ]

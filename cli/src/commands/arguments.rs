@@ -80,6 +80,15 @@ pub enum KitTask {
     New {
         /// The file to write
         file: PathBuf,
+        /// A kit of the library to start from
+        #[arg(long, value_name = "KIT")]
+        from: Option<String>,
+    },
+    /// List the instruments and kits of the library
+    Library {
+        /// Words that their names or descriptions contain
+        #[arg(value_name = "WORD")]
+        words: Vec<String>,
     },
     /// Check kit files
     Check {
@@ -148,8 +157,8 @@ pub struct RenderArguments {
     /// Start from a preset: a name listed by `presets`, or a file
     #[arg(long, value_name = "NAME|FILE.toml", default_value = "default")]
     preset: String,
-    /// Play the kit in this file instead of the preset's
-    #[arg(long, value_name = "FILE")]
+    /// Play the kit in this file, or of this name in the library, instead of the preset's
+    #[arg(long, value_name = "FILE|KIT")]
     kit: Option<PathBuf>,
     /// Set a parameter before the start, such as kick_tune=60 or ride_level=-6; can be repeated
     #[arg(long, value_name = "NAME=VALUE")]
@@ -255,8 +264,8 @@ impl From<Quality> for piece::Quality {
 pub struct HearArguments {
     #[arg(help = piece_help())]
     piece: String,
-    /// Take the piece from the kit in this file
-    #[arg(long, value_name = "FILE")]
+    /// Take the piece from the kit in this file, or of this name in the library
+    #[arg(long, value_name = "FILE|KIT")]
     kit: Option<PathBuf>,
     /// Speed of the stroke, m/s, up to 25
     #[arg(long, value_name = "M/S", default_value_t = hear::DEFAULT_SPEED, value_parser = speed)]
@@ -346,8 +355,8 @@ fn one_piece(
 pub struct ModesArguments {
     #[arg(help = piece_help())]
     piece: String,
-    /// Take the piece from the kit in this file
-    #[arg(long, value_name = "FILE")]
+    /// Take the piece from the kit in this file, or of this name in the library
+    #[arg(long, value_name = "FILE|KIT")]
     kit: Option<PathBuf>,
     /// Print one JSON object
     #[arg(long)]
@@ -385,8 +394,8 @@ pub struct BenchArguments {
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,
-    /// Measure the kit in this file
-    #[arg(long, value_name = "FILE")]
+    /// Measure the kit in this file, or of this name in the library
+    #[arg(long, value_name = "FILE|KIT")]
     kit: Option<PathBuf>,
     /// Number of measurements of everything
     #[arg(long, value_name = "N", default_value_t = bench::RUNS as u16, value_parser = clap::value_parser!(u16).range(1..))]

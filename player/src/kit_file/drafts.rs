@@ -6,7 +6,9 @@ use overhear_engine::kit_spec::{KitSpec, PieceSpec};
 use overhear_engine::slot::SLOTS;
 use toml::{Table, Value};
 
+use super::catalogue;
 use super::error::{Fault, quoted};
+use super::laying::lay_over;
 use super::source::Origins;
 use super::text;
 use super::typed;
@@ -86,17 +88,37 @@ impl Layers<'_> {
             Some(_) => return Err(Fault::of(&path, self.origins, "is not a table, accepted: a table")),
         };
         let mut fields = match (self.kept(name), changes.and_then(|changes| changes.get("like"))) {
-            (Some(_), Some(_)) => {
-                let reason = "is given, accepted: only for a new piece";
-                return Err(Fault::of(&format!("{path}.like"), self.origins, reason));
-            }
+            (Some(piece), Some(like)) => self.exchanged(piece, like)?,
             (Some(piece), None) => text::fields(piece),
             (None, Some(like)) => self.likeness(name, like, way)?,
             (None, None) => Table::new(),
         };
         let mut changes = changes.cloned().unwrap_or_default();
         BESIDE.iter().for_each(|key| drop(changes.remove(*key)));
+        catalogue::fill_in(&mut changes).map_err(|missing| {
+            let path = format!("{path}.{}", missing.path);
+            Fault::of(&path, self.origins, &missing.reason)
+        })?;
         lay_over(&mut fields, changes);
+        Ok(fields)
+    }
+
+    /// The fields of an instrument of the library in the place of a piece of the start: it stands, is heard from the side and
+    /// is called as that piece is.
+    fn exchanged(&self, piece: &PieceSpec, like: &Value) -> Result<Table, Fault> {
+        let Some(mut fields) = like.as_str().and_then(catalogue::fields) else {
+            let given = like.as_str().map_or_else(|| "no text".to_owned(), quoted);
+            let reason =
+                format!("is {given}, accepted for a piece of the start: an instrument of the library");
+            return Err(Fault::of(&format!("pieces.{}.like", piece.name), self.origins, &reason));
+        };
+        let mut own = text::fields(piece);
+        let pan = own.get("defaults").and_then(|defaults| defaults.get("pan")).cloned();
+        own.retain(|key, _| matches!(key, "place" | "title"));
+        fields.extend(own);
+        if let (Some(Value::Table(defaults)), Some(pan)) = (fields.get_mut("defaults"), pan) {
+            defaults.insert("pan".to_owned(), pan);
+        }
         Ok(fields)
     }
 
@@ -109,7 +131,8 @@ impl Layers<'_> {
         };
         // Its own name means what the start has, which the file leaves out.
         let is_here = other != name && (self.pieces.contains_key(other) || self.kept(other).is_some());
-        let mut fields = match self.start_of(other) {
+        let start = self.start_of(other).map(text::fields);
+        let mut fields = match start.or_else(|| catalogue::fields(other).filter(|_| !is_here)) {
             _ if is_here && way.contains(&&**other) => {
                 return refuse(format!("is {}, which is itself a copy of `{name}`", quoted(other)));
             }
@@ -119,7 +142,7 @@ impl Layers<'_> {
                 way.pop();
                 fields
             }
-            Some(piece) => text::fields(piece),
+            Some(fields) => fields,
             None => {
                 let start = self.start.into_iter().flat_map(|kit| &kit.pieces).map(|piece| &piece.name);
                 let known: BTreeSet<&str> = start
@@ -128,7 +151,11 @@ impl Layers<'_> {
                     .filter(|known| *known != name)
                     .collect();
                 let known: Vec<&str> = known.into_iter().collect();
-                return refuse(format!("is {}, accepted: {}", quoted(other), known.join(", ")));
+                return refuse(format!(
+                    "is {}, accepted: {}, or an instrument of the library",
+                    quoted(other),
+                    known.join(", ")
+                ));
             }
         };
         fields.remove("title");
@@ -162,31 +189,3 @@ impl Layers<'_> {
         Ok(slots.into_iter().filter_map(|draft| draft.or_else(|| others.next())).collect())
     }
 }
-
-/// Changes a table field by field. A text `none` takes an entry away; a table of another kind replaces the former.
-pub(super) fn lay_over(table: &mut Table, changes: Table) {
-    let kind = |table: &Table| table.get("kind").cloned();
-    if let (Some(own), Some(other)) = (kind(table), kind(&changes))
-        && own != other
-    {
-        table.clear();
-    }
-    for (key, change) in changes {
-        let is_text = key == "title" || matches!(table.get(&key), Some(Value::String(_)));
-        match change {
-            Value::String(text) if text == NONE && !is_text => drop(table.remove(&key)),
-            Value::Table(changes) => {
-                let mut part = match table.remove(&key) {
-                    Some(Value::Table(part)) => part,
-                    _ => Table::new(),
-                };
-                lay_over(&mut part, changes);
-                table.insert(key, Value::Table(part));
-            }
-            change => drop(table.insert(key, change)),
-        }
-    }
-}
-
-/// What takes away a part that a piece can do without.
-pub(super) const NONE: &str = "none";

@@ -12,8 +12,10 @@ use toml::Value;
 use crate::kit_document::KitDocument;
 use crate::midi_map::{Meaning, NOTES, NoteTable, Row, Stroke};
 
-use super::drafts::{Draft, NONE};
+use super::catalogue;
+use super::drafts::Draft;
 use super::error::{Fault, quoted};
+use super::laying::NONE;
 use super::source::Origins;
 use super::typed;
 
@@ -259,10 +261,10 @@ impl Reader<'_> {
     /// How a piece is struck where nothing is said: as it is in the start, or that which it is like, or one of its kind.
     fn usual(&self, piece: &PieceSpec, draft: &Draft) -> Row {
         let kind = piece.instrument.kind();
-        let mut name = Some(draft.name.as_str());
+        let mut name = Some(draft.name.clone());
         // As far as a chain of likenesses can reach.
-        for _ in 0..=self.drafts.len() {
-            let Some(own) = name else { break };
+        for _ in 0..=self.drafts.len() + catalogue::LONGEST_CHAIN {
+            let Some(own) = &name else { break };
             let ordinary = self.start.and_then(|start| {
                 let (slot, piece) = start.kit.find(own)?;
                 start.notes.row(start.notes.ordinary(slot)?).filter(|_| piece.instrument.kind() == kind)
@@ -270,8 +272,9 @@ impl Reader<'_> {
             if let Some(row) = ordinary {
                 return row.clone();
             }
-            let likes = self.drafts.iter().find(|draft| draft.name == own);
-            name = likes.and_then(|draft| draft.beside.get("like")?.as_str());
+            let draft = self.drafts.iter().find(|draft| draft.name == *own);
+            let like = |draft: &Draft| Some(draft.beside.get("like")?.as_str()?.to_owned());
+            name = draft.map_or_else(|| catalogue::likeness(own), like);
         }
         let (radius, striker) = match kind {
             Kind::Drum => DRUM,

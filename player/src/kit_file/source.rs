@@ -111,7 +111,9 @@ impl Path {
     fn holds_fields(&self) -> bool {
         match self.si.split('.').next() {
             Some("pieces") => self.depth >= 2,
-            Some("microphones" | "room") => true,
+            Some("microphones" | "room" | "piece") => true,
+            // Parts of the library, by name.
+            Some("heads" | "walls" | "hoops" | "alloys" | "wires") => self.depth >= 2,
             _ => false,
         }
     }

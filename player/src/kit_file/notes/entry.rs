@@ -8,8 +8,8 @@ use toml::Value;
 use crate::midi::figures::Figure;
 use crate::midi_map::{Foot, Meaning};
 
-use super::super::drafts::NONE;
 use super::super::error::{Fault, quoted};
+use super::super::laying::NONE;
 use super::super::source::Origins;
 use super::super::typed;
 

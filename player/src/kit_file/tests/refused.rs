@@ -108,7 +108,7 @@ fn every_error_names_the_line_the_field_and_what_is_accepted() {
             "format = 1\npieces.snare.wires.stiffness_n_mm = 1",
             "2: pieces.snare.wires.stiffness_n_mm is not known, ",
         ),
-        ("format = 1\nfoo = 13", "2: foo is not known, accepted: format, starts_from, remove"),
+        ("format = 1\nfoo = 13", "2: foo is not known, accepted: format, about, starts_from, remove"),
         // Missing ones.
         ("format = 1\n\n[pieces.gong]\ndiameter_in = 20", "3: pieces.gong.kind is missing, accepted: a kind"),
         (
@@ -165,7 +165,7 @@ fn every_error_names_the_line_the_field_and_what_is_accepted() {
         ("format = 1\n[pieces.gong]\nlike = 3", "3: pieces.gong.like is not a string"),
         (
             "format = 1\n[pieces.kick]\nlike = \"snare\"",
-            "3: pieces.kick.like is given, accepted: only for a new",
+            "3: pieces.kick.like is `snare`, accepted for a piece of the start: an instrument of the library",
         ),
         (
             "format = 1\n[pieces.a]\nlike = \"b\"\n[pieces.b]\nlike = \"a\"",
