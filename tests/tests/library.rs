@@ -49,7 +49,7 @@ fn whole_kits_sound_on_every_piece_and_do_not_clip() {
         let mut loudest = 0.0_f32;
         for &slot in &struck {
             let strike = default_strike(&document, slot);
-            playing.strike(slot, &overhear_engine::strike::Strike { speed: 5.0, ..strike });
+            playing.strike(slot, &overhear_engine::strike::Strike { speed: 4.0, ..strike });
             let [mut left, mut right] = [vec![0.0_f32; 11_025], vec![0.0_f32; 11_025]];
             playing.render(&mut left, &mut right);
             let own = left.iter().chain(&right).fold(0.0_f32, |most, x| most.max(x.abs()));
