@@ -386,7 +386,6 @@ mod tests {
                     // The imaginary part acts on the velocity alone, or on the acceleration's rate.
                     let [by_velocity, by_rate] =
                         [1.0 / share, share].map(|factor| level([own[0], own[1] * factor]) - level(forced));
-                    println!("{name} (0, {n}) at {share}: {by_velocity:.1} dB, {by_rate:.1} dB");
                     // Shapes whose middle and rim cancel fall faster still.
                     assert!((0.0..0.7 * by_velocity).contains(&by_rate), "{by_rate} {by_velocity}");
                     assert!(share > 0.3 || by_velocity > 15.0, "{by_velocity}");
