@@ -43,9 +43,13 @@ pub struct Chosen {
 /// [`BadInput`](crate::error::BadInput) with the file, the line, the field and what is accepted.
 pub fn kit(what: Option<&Path>) -> Result<KitDocument> {
     let Some(file) = what else { return Ok(KitDocument::standard()) };
-    let of_library = file.to_str().filter(|_| !file.exists()).and_then(library::whole_kit);
-    let loaded = of_library.map_or_else(|| kit_file::load(file), |kit| kit.document());
-    loaded.map_err(|error| bad_input!("{error}"))
+    let name = file.to_str().filter(|name| !name.contains(['.', '/', '\\']) && !file.exists());
+    let Some(name) = name else { return kit_file::load(file).map_err(|error| bad_input!("{error}")) };
+    let Some(kit) = library::whole_kit(name) else {
+        let names: Vec<&str> = library::kits().map(|kit| kit.name).collect();
+        return Err(bad_input!("`{name}` is no kit, accepted: a kit file, {}", names.join(", ")));
+    };
+    kit.document().map_err(|error| bad_input!("{error}"))
 }
 
 /// Reads the values of `--set` for a kit.
@@ -206,6 +210,8 @@ mod tests {
         let jazz = kit(Some(Path::new("jazz-18"))).unwrap();
         assert_eq!(jazz, library::whole_kit("jazz-18").unwrap().document().unwrap());
         assert_ne!(jazz, KitDocument::standard());
+        let error = kit(Some(Path::new("polka"))).unwrap_err().to_string();
+        assert!(error.contains("polka") && error.contains("jazz-18"), "{error}");
     }
 
     #[test]

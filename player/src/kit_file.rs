@@ -139,7 +139,7 @@ pub(crate) fn library_parts(kind: &str) -> &'static Table {
 
 fn document(Source { table, origins }: Source) -> Result<KitDocument, Fault> {
     let start = head(&table, &origins)?;
-    about(&table, &origins)?;
+    check_about(&table, &origins)?;
     let empty = Table::new();
     let pieces = part(&table, "pieces", &origins)?.unwrap_or(&empty);
     let kit = start.as_ref().map(|start| &start.kit);
@@ -194,11 +194,11 @@ fn level(table: &Table, origins: &Origins) -> Result<f64, Fault> {
     Ok(level_db)
 }
 
-/// A line on what the file holds, if it says so.
-fn about<'a>(table: &'a Table, origins: &Origins) -> Result<Option<&'a str>, Fault> {
+/// Checks the line on what the file holds, if there is one.
+fn check_about(table: &Table, origins: &Origins) -> Result<(), Fault> {
     match table.get("about") {
-        None => Ok(None),
-        Some(Value::String(about)) if (1..=LONGEST_ABOUT).contains(&about.chars().count()) => Ok(Some(about)),
+        None => Ok(()),
+        Some(Value::String(about)) if (1..=LONGEST_ABOUT).contains(&about.chars().count()) => Ok(()),
         Some(_) => {
             let reason = format!("is not accepted, accepted: a text of 1 to {LONGEST_ABOUT} characters");
             Err(Fault::of("about", origins, &reason))

@@ -116,8 +116,9 @@ impl Instrument {
         let text =
             format!("format = 1\nremove = [{}]\n[pieces.{name}]\nlike = \"{name}\"\n", others.join(", "));
         let document = kit_file::read(name, &text)?;
-        let mut pieces = document.kit.pieces.into_iter();
-        pieces.next().ok_or_else(|| unreachable!("a kit has a piece"))
+        let mut pieces = document.kit.pieces;
+        // A kit that was read has a piece at least.
+        Ok(pieces.swap_remove(0))
     }
 }
 
