@@ -30,6 +30,7 @@ use crate::high_band::{HighBand, HighMuffling};
 use crate::instrument::Instrument;
 use crate::modal::Mode;
 use crate::mode::ModeInfo;
+use crate::receiver::{DIRECTIONS, POINTS};
 use crate::rim::{Rim, RimPart};
 use crate::schema::SCHEMA;
 use crate::shapes::ShapeTable;
@@ -57,7 +58,10 @@ fn modes_key(spec: &DrumSpec) -> impl Serialize {
 /// What has been worked out of late.
 static MODES: Cache<DrumModes> = Cache::new("drum", SCHEMA, 24);
 static MIXED: Cache<MixedModes> = Cache::new("mixing", SCHEMA, 24);
-static TRANSFERS: Cache<[ModeTransfer; 2]> = Cache::new("hearing", SCHEMA, 24);
+/// How a drum's modes are heard from near and from each direction far away.
+type Hearing = (ModeTransfer, [ModeTransfer; DIRECTIONS]);
+
+static TRANSFERS: Cache<Hearing> = Cache::new("hearing", SCHEMA, 24);
 
 /// What is asked for while it rings.
 struct Controls {
@@ -130,16 +134,21 @@ impl Losses {
 /// What becomes of the modes of even heads.
 struct Mixing {
     modes: Shared<MixedModes>,
-    /// What is heard of the even modes and of the body's: pressure near and far (real, imaginary), volume, and the share of
+    /// What is heard of the even modes and of the body's: pressure at each point (real, imaginary), volume, and the share of
     /// the sound that goes all around.
-    even: Vec<[f32; 6]>,
-    heard: Vec<[f32; 6]>,
+    even: Vec<HeardRow>,
+    heard: Vec<HeardRow>,
 }
+
+/// What is heard of a mode; the places in it of the volume and of the share that goes all around.
+type HeardRow = [f32; 2 * POINTS + 2];
+const VOLUME: usize = 2 * POINTS;
+const SHARE: usize = VOLUME + 1;
 
 impl Mixing {
     fn new(modes: Shared<MixedModes>) -> Mixing {
         let count = modes.mixture.modes();
-        Mixing { modes, even: vec![[0.0; 6]; count], heard: vec![[0.0; 6]; count] }
+        Mixing { modes, even: vec![HeardRow::default(); count], heard: vec![HeardRow::default(); count] }
     }
 }
 
@@ -160,8 +169,9 @@ pub struct Drum {
     built: Shared<DrumModes>,
     mixing: Option<Mixing>,
     /// From near and from far.
-    hearing: Shared<[ModeTransfer; 2]>,
-    far_distance: f64,
+    hearing: Shared<Hearing>,
+    /// What makes of the pressure at each point the one that is passed on.
+    scales: [f64; POINTS],
     modes: Vec<BodyMode>,
     /// Shapes on the resonant head, where wires lie against it.
     far_shapes: Option<ShapeTable>,
@@ -196,12 +206,11 @@ impl Drum {
         let modes = body::assemble(spec, &built, mixed.as_deref(), ideal.round);
         let muffler = MufflerCoefs::new(spec, &built, mixed.as_deref());
         let at_pitch = at_pitch(&built, mixed.as_deref(), &place).collect::<Vec<_>>();
-        let points = [receivers.near, receivers.far];
-        let heard = (modes_key(spec), points, spec.evenness);
+        let heard = (modes_key(spec), receivers, spec.evenness);
         let hearing = TRANSFERS.get(&heard, || {
             let near = ModeTransfer::new(&built, spec, receivers.near);
-            let far = near.from(&built, spec, receivers.far);
-            Ok::<_, SpecError>([near, far])
+            let far = receivers.far.map(|point| near.from(&built, spec, point));
+            Ok::<_, SpecError>((near, far))
         })?;
         let bare = |mode: &BodyMode| Mode {
             omega: at_pitch[mode.row].omega,
@@ -227,7 +236,7 @@ impl Drum {
             built,
             mixing: mixed.map(Mixing::new),
             hearing,
-            far_distance: receivers.far.distance,
+            scales: receivers.scales(),
             losses: Losses {
                 muffler,
                 palm: palm(spec),
@@ -263,7 +272,7 @@ impl Drum {
             ));
         }
         if let Some(hoop) = spec.hoop {
-            let rim = Rim::new(spec.radius(), &hoop, spec.cylinder().as_ref(), points, ideal.lossless);
+            let rim = Rim::new(spec.radius(), &hoop, spec.cylinder().as_ref(), receivers, ideal.lossless);
             drum.surface.attach(AttachedRim::new(rim, options.sample_rate));
         }
         drum.follow_shapes();
@@ -291,35 +300,42 @@ impl Drum {
 
     /// Brings what is heard of the modes to where the pitch is.
     fn follow_pressures(&mut self, place: &PitchPosition) {
-        let Drum { surface, hearing, built, mixing, controls, far_distance, at_pitch, .. } = self;
+        let Drum { surface, hearing, built, mixing, controls, scales, at_pitch, .. } = self;
         let volumes = built.modes.iter().flat_map(|tuned| {
             let share = all_around(built, tuned, place);
             let volume = share * if share > 0.0 { built.volume(tuned, place) } else { 0.0 };
             std::iter::repeat_n((volume, share), if tuned.m == 0 { 1 } else { 2 })
         });
         let pitch = controls.pitch.value();
-        let [near, far] = hearing.each_ref().map(|hearing| hearing.transfers(&built.modes, place, pitch));
-        let far = far.map(|transfer| transfer.map(|h| h * *far_distance));
+        let (near, far) = &**hearing;
+        let mut transfers: [_; POINTS] = std::array::from_fn(|point| {
+            let hearing = if point == 0 { near } else { &far[point - 1] };
+            let scale = scales[point];
+            hearing.transfers(&built.modes, place, pitch).map(move |transfer| transfer.map(|h| h * scale))
+        });
         let Some(Mixing { modes: mixed, even, heard }) = mixing else {
             surface.set_volumes(volumes);
-            surface.set_transfers(near, far);
+            surface.set_transfers(transfers);
             return;
         };
-        let rows = even.iter_mut().zip(near.zip(far)).zip(volumes);
-        for ((even, (near, far)), (volume, share)) in rows {
-            *even = [near[0], near[1], far[0], far[1], volume, share].map(|value| value as f32);
+        for (even, (volume, share)) in even.iter_mut().zip(volumes) {
+            let (heard, rest) = even.split_at_mut(2 * POINTS);
+            for (heard, transfers) in heard.as_chunks_mut::<2>().0.iter_mut().zip(&mut transfers) {
+                *heard = transfers.next().unwrap_or_default().map(|h| h as f32);
+            }
+            rest.copy_from_slice(&[volume, share].map(|value| value as f32));
         }
         mixed.mixture.apply_rows(even, heard);
         let kept = mixed.mixture.kept();
         for ((heard, now), part) in
             heard[kept..].iter_mut().zip(&at_pitch[built.kept..]).zip(&mixed.without_diameters)
         {
-            heard[5] = part * long_wave(built, now.omega) as f32;
+            heard[SHARE] = part * long_wave(built, now.omega) as f32;
         }
         let pick = |i: usize| heard.iter().map(move |row| f64::from(row[i]));
         let pair = |i: usize| pick(i).zip(pick(i + 1)).map(|(a, b)| [a, b]);
-        surface.set_volumes(pick(4).zip(pick(5)));
-        surface.set_transfers(pair(0), pair(2));
+        surface.set_volumes(pick(VOLUME).zip(pick(SHARE)));
+        surface.set_transfers(std::array::from_fn(|point| pair(2 * point)));
     }
 
     /// Brings the strainer's force to where its control is.

@@ -1,6 +1,6 @@
 //! What a head does above its complete set of modes, where they crowd too closely to be told apart.
 //!
-//! Model: from the top of the complete set on, each slice of 1/300 octave is one mode that stands for the
+//! Model: from the top of the complete set on, each slice of 1/300 octave (1/900 of a drum with wires) is one mode that stands for the
 //! `count` real ones in it: a random plane wave and its mirror image at the rim, as a diffuse field at a clamped edge
 //! is made of; their difference has unit mean square and is zero at the rim. It weighs `M / count`, so that
 //! a force sets going as much energy as it would in all of them, and is heard by `sqrt(count)` less than
@@ -54,11 +54,16 @@ mod walk;
 use std::f64::consts::{SQRT_2, TAU};
 
 use crate::air_load::SPEED_OF_SOUND;
+use crate::modal::inaudible_modes::InaudibleModes;
 use crate::modal::simd::MAX_RUN;
 use crate::modal::smoothing::Smoothing;
-use crate::modal::{InputVector, MAX_DRIVES, ModalBody, Mode, RECEIVERS, ReceiverWeights, Row, zero_row};
+use crate::modal::{
+    InputVector, MAX_DRIVES, ModalBody, Mode, Pressure, RECEIVERS, ReceiverWeights, Row, zero_row,
+};
 
-pub use slices::{HighBandSpec, HighMuffling, Receiver};
+use crate::receiver::POINTS;
+
+pub use slices::{HighBandSpec, HighMuffling, Receiver, SLICES, SLICES_UNDER_WIRES};
 use slices::{
     Slice, Waves, away, endless_sheet, loudness, mode, rim_strip, slices, taken, tension_share, top_hz,
     walk_rate,
@@ -87,8 +92,8 @@ pub struct SliceInfo {
 /// A place that is pressed on, and how hard over the present run.
 struct PointBand {
     port: InputVector,
-    /// Pressure at once per unit force, Pa/N: the slices', near and far; an endless sheet's; what of that the complete set lacks.
-    direct: [f32; 2],
+    /// Pressure at once per unit force, Pa/N: the slices' at each point; an endless sheet's; what of that the complete set lacks.
+    direct: [f32; POINTS],
     sheet: f32,
     lacking: f32,
     /// The slow part of the force, N.
@@ -99,15 +104,20 @@ struct PointBand {
 
 impl PointBand {
     /// Adds what follows the forces of the run at once.
-    fn add_direct(&mut self, follow: f32, away: f32, near: &mut [f32], far: &mut [f32]) {
-        let [direct, far_direct] = self.direct;
-        for ((near, far), force) in near.iter_mut().zip(far).zip(&self.forces) {
+    fn add_direct(&mut self, follow: f32, gains: &[f32; POINTS], out: &mut [&mut [f32]]) {
+        for (sample, force) in self.forces.iter().enumerate().take(out[0].len()) {
             self.slow += follow * (force - self.slow);
             let lacking = self.lacking * (force - self.slow);
-            *near += direct * force + lacking;
-            *far += far_direct * force + away * lacking;
+            for ((out, direct), gain) in out.iter_mut().zip(&self.direct).zip(gains) {
+                out[sample] += direct * force + gain * lacking;
+            }
         }
     }
+}
+
+/// Of the pressure at each receiver that at the points.
+fn at_points(pressure: Pressure) -> [f32; POINTS] {
+    std::array::from_fn(|point| pressure[point])
 }
 
 /// What the slices last followed.
@@ -124,14 +134,15 @@ pub struct HighBand {
     spec: HighBandSpec,
     body: ModalBody,
     pickup: ReceiverWeights,
+    inaudible: InaudibleModes,
     slices: Vec<Slice>,
     waves: Waves,
     laid: Laid,
     places: Vec<PointBand>,
     /// How far the slow part of a force follows it in a sample.
     follow: f32,
-    /// Loudness far away, as at a metre, over that at the point.
-    away: f32,
+    /// Loudness at each point over that at the near one: far away, as at a metre.
+    gains: [f32; POINTS],
     /// Steps of the sound by retuning.
     smoothing: Smoothing,
     /// Rise of each slice's frequency per tension that is added to the head's, rad/s over N/m.
@@ -152,7 +163,7 @@ impl HighBand {
         let count = modes.len();
         let place = |_| PointBand {
             port: InputVector::new(count),
-            direct: [0.0; 2],
+            direct: [0.0; POINTS],
             sheet: 0.0,
             lacking: 0.0,
             slow: 0.0,
@@ -160,11 +171,13 @@ impl HighBand {
             pressed: false,
         };
         let corner = SQRT_2 * SPEED_OF_SOUND / spec.head.radius;
+        let away = away(spec, &slices);
         let mut band = HighBand {
-            away: away(spec, &slices),
+            gains: std::array::from_fn(|point| if point == 0 { 1.0 } else { away[point - 1] }),
             spec: *spec,
             body: ModalBody::new(modes.clone(), spec.sample_rate),
             pickup: ReceiverWeights::new(vec![[0.0; 2]; count]),
+            inaudible: InaudibleModes::new(count),
             laid: Laid { tension: 0.0, muffling: HighMuffling::NONE, modes },
             waves: Waves::new(spec, &slices),
             slices,
@@ -194,34 +207,33 @@ impl HighBand {
             self.lay(tension);
         }
         self.laid.muffling = *muffling;
-        let HighBand { spec, body, pickup, slices, smoothing, laid, .. } = self;
+        let HighBand { spec, body, pickup, inaudible, slices, smoothing, laid, .. } = self;
         let held = |k: usize| if spec.lossless { 0.0 } else { muffling.sigma(&slices[k]) };
         body.set_modes(|k, _| Mode { sigma: laid.modes[k].sigma + held(k), ..laid.modes[k] });
         body.tune(pickup);
+        body.update_thresholds(inaudible, pickup, 0, None);
         smoothing.step(before, body.listen(pickup));
         for place in &mut self.places {
             body.connect(&mut place.port);
-            let [near, far, _] = pickup.direct_at(body, &place.port);
-            place.direct = [near, far];
+            place.direct = at_points(pickup.direct_at(body, &place.port));
         }
     }
 
     /// Brings what follows from the head's tension (N/m) to it.
     fn lay(&mut self, tension: f64) {
-        let HighBand { spec, pickup, slices, glide, walk, away, laid, .. } = self;
+        let HighBand { spec, pickup, slices, glide, walk, gains, laid, .. } = self;
         laid.tension = tension;
         let top = top_hz(spec.sample_rate);
         for (k, slice) in slices.iter().enumerate() {
             let mode = mode(spec, slice, tension);
             laid.modes[k] = mode;
             glide[k] = (mode.omega * tension_share(spec, slice, tension) / (2.0 * tension)) as f32;
-            walk.set(k, walk_rate(slice, mode.omega));
+            walk.set(k, walk_rate(spec, slice, mode.omega));
             let fade = 1.0 - ((mode.omega / (TAU * top) - 1.0) / (FADE - 1.0)).clamp(0.0, 1.0);
             let loud = fade * loudness(spec, slice, mode.omega) / slice.count.sqrt();
-            for (receiver, ([cos, sin], gain)) in
-                slice.heard.into_iter().zip([1.0, f64::from(*away)]).enumerate()
-            {
-                pickup.transfer_mut(receiver)[k] = [gain * loud * cos, gain * loud * sin];
+            for (receiver, ([cos, sin], gain)) in slice.heard.into_iter().zip(&*gains).enumerate() {
+                let loud = f64::from(*gain) * loud;
+                pickup.transfer_mut(receiver)[k] = [loud * cos, loud * sin];
             }
         }
     }
@@ -251,8 +263,7 @@ impl HighBand {
             *shape *= known.map_or_else(|| taken(spec, slice, patch), |known| known.get(k)) as f32;
         }
         body.connect(port);
-        let [near, far, _] = pickup.direct_at(body, port);
-        *direct = [near, far];
+        *direct = at_points(pickup.direct_at(body, port));
     }
 
     /// Tells place `i` what the complete set's pressure is at once per unit force there, Pa/N.
@@ -271,30 +282,31 @@ impl HighBand {
         self.loaded |= force != 0.0;
     }
 
-    /// Ends the run: adds its sound to what is heard at the point and far away, Pa, at most [`MAX_RUN`] samples.
+    /// Ends the run: adds its sound to what is heard at each point, Pa, at most [`MAX_RUN`] samples.
     ///
     /// # Real-time
     /// Linear in slices times samples times places pressed; nothing at rest.
-    pub fn render(&mut self, near: &mut [f32], far: &mut [f32]) {
-        let HighBand { body, pickup, places, follow, rings, away, smoothing, .. } = self;
+    pub fn render(&mut self, out: &mut [&mut [f32]; RECEIVERS]) {
+        let HighBand { body, pickup, places, follow, rings, gains, smoothing, .. } = self;
         *rings |= places.iter().any(|place| place.pressed);
         if !*rings {
             return;
         }
         let mut sounds = [[0.0; MAX_RUN]; RECEIVERS];
-        let [here, there, unheard] = sounds.each_mut().map(|row| &mut row[..near.len()]);
+        let mut heard = sounds.each_mut().map(|row| &mut row[..out[0].len()]);
         let pressed = places.iter().filter(|place| place.pressed);
         let drives = pressed.map(|place| (&place.port, &place.forces[..]));
-        body.ring_driven(0, drives, pickup, [&mut *here, &mut *there, &mut *unheard]);
-        smoothing.add_to(&mut [&mut *here, &mut *there, unheard]);
+        body.ring_driven(0, drives, pickup, heard.each_mut().map(|row| &mut **row));
+        smoothing.add_to(&mut heard);
         for place in places.iter_mut().filter(|place| place.pressed || place.slow != 0.0) {
-            place.add_direct(*follow, *away, here, there);
+            place.add_direct(*follow, gains, &mut heard);
             if std::mem::take(&mut place.pressed) {
                 place.forces.fill(0.0);
             }
         }
-        near.iter_mut().zip(&*here).for_each(|(near, here)| *near += here);
-        far.iter_mut().zip(&*there).for_each(|(far, there)| *far += there);
+        for (out, heard) in out.iter_mut().zip(&heard).take(POINTS) {
+            out.iter_mut().zip(&**heard).for_each(|(out, heard)| *out += heard);
+        }
     }
 
     /// Zeroes what has decayed to nothing; reports whether all is finite.
@@ -303,7 +315,7 @@ impl HighBand {
     /// Linear in the number of slices; meant for once a block.
     pub fn settle(&mut self) -> bool {
         if self.rings {
-            self.body.flush_quiet();
+            self.body.flush_inaudible(&self.inaudible);
             for place in self.places.iter_mut().filter(|place| place.slow.abs() < FAINT) {
                 place.slow = 0.0;
             }

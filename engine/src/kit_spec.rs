@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use crate::build_context::{BuildContext, BuildOptions};
 use crate::drum::spec::DrumSpec;
 use crate::error::SpecError;
-use crate::layout::{FARTHEST, Layout, Pair};
+use crate::layout::{FARTHEST, Layout, Pair, Point};
 use crate::receiver::{ReceiverPosition, Receivers};
 use crate::slot::{SLOTS, Slot};
 
@@ -99,12 +99,14 @@ impl KitSpec {
     /// What building the piece of a slot depends on.
     pub fn build(&self, slot: Slot) -> Option<PieceBuild> {
         let spec = self.piece(slot)?.clone();
-        let [left, right] = self.microphones.overheads;
-        let middle = std::array::from_fn(|i| 0.5 * (left[i] + right[i]));
-        let seen = spec.placement().sees(&middle);
+        let placement = spec.placement();
+        let toward = |microphone: Point| {
+            let seen = placement.sees(&microphone);
+            ReceiverPosition::far(seen.inclination, seen.azimuth)
+        };
         let receivers = Receivers {
             near: spec.close.point(spec.instrument.radius()),
-            far: ReceiverPosition::far(seen.inclination, seen.azimuth),
+            far: self.microphones.overheads.map(toward),
         };
         Some(PieceBuild { spec, receivers })
     }

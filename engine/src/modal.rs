@@ -235,7 +235,7 @@ impl ModalBody {
         first: usize,
         drives: impl Iterator<Item = (&'a InputVector, &'a [f32])>,
         weights: &ReceiverWeights,
-        out: [&mut [f32]; RECEIVERS],
+        mut out: [&mut [f32]; RECEIVERS],
     ) {
         let mut held = [Drive { gain_re: &[], gain_im: &[], forces: &[] }; MAX_DRIVES];
         let mut count = 0;
@@ -243,8 +243,6 @@ impl ModalBody {
             *held = Drive { gain_re: &input.gain_re[first..], gain_im: &input.gain_im[first..], forces };
             count += 1;
         }
-        let [near, far, few] = &weights.receivers;
-        let [near_out, far_out, few_out] = out;
         let detuning = self.detuning.as_ref().filter(|detuning| detuning.is_active);
         let (turn_re, turn_im) = match detuning {
             Some(detuning) => (&detuning.turn_re, &detuning.turn_im),
@@ -255,7 +253,7 @@ impl ModalBody {
             im: &mut self.state.im[first..],
             turn_re: &turn_re[first..],
             turn_im: &turn_im[first..],
-            heard: [near.from(first, near_out), far.from(first, far_out), few.from(first, few_out)],
+            heard: std::array::from_fn(|i| weights.receivers[i].from(first, std::mem::take(&mut out[i]))),
         };
         match count {
             0 => self.kernels.ring(&mut ring),

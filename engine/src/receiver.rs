@@ -98,11 +98,29 @@ impl ReceiverPosition {
     }
 }
 
+/// Directions in which a piece is heard from far away: those of the left and the right overhead.
+pub const DIRECTIONS: usize = 2;
+
+/// Points from which all of a piece is heard: the near one, then those far away.
+pub const POINTS: usize = 1 + DIRECTIONS;
+
 /// From where a piece is heard, seen from its struck surface.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Receivers {
     /// The close microphone.
     pub near: ReceiverPosition,
-    /// A point far away, in the direction of the overheads.
-    pub far: ReceiverPosition,
+    /// Points far away, one in each direction.
+    pub far: [ReceiverPosition; DIRECTIONS],
+}
+
+impl Receivers {
+    /// All points, the near one first.
+    pub fn points(&self) -> [ReceiverPosition; POINTS] {
+        std::array::from_fn(|i| if i == 0 { self.near } else { self.far[i - 1] })
+    }
+
+    /// Factor that makes of the pressure at each point the one that is passed on, dimensionless: from far away, that at a metre.
+    pub fn scales(&self) -> [f64; POINTS] {
+        std::array::from_fn(|i| if i == 0 { 1.0 } else { self.far[i - 1].distance })
+    }
 }

@@ -22,7 +22,7 @@ use crate::contact::Material;
 use crate::modal::Mode;
 use crate::mode::{Member, ModeKind};
 use crate::numbers::{Numbers, Visitor};
-use crate::receiver::ReceiverPosition;
+use crate::receiver::{POINTS, ReceiverPosition, Receivers};
 use crate::shell::Cylinder;
 
 /// A hoop's description, and of the stand its drum is on.
@@ -108,22 +108,19 @@ pub struct RimMode {
     pub mode: Mode,
     /// Largest displacement of the hoop per modal displacement, dimensionless.
     pub largest: f64,
-    /// Pressure over modal acceleration at the listening point, Pa s2/m.
-    pub transfer: [f64; 2],
-    /// The same far away, as at a metre, Pa s2/m.
-    pub far_transfer: [f64; 2],
+    /// Pressure over modal acceleration at each point, far away as at a metre, Pa s2/m.
+    pub transfers: [[f64; 2]; POINTS],
 }
 
 impl Rim {
-    /// The rim of a drum of that radius (m), heard from a point near and one far; without losses if asked to.
+    /// The rim of a drum of that radius (m), as receivers hear it; without losses if asked to.
     pub fn new(
         radius: f64,
         hoop: &HoopSpec,
         shell: Option<&Cylinder>,
-        points: [ReceiverPosition; 2],
+        receivers: &Receivers,
         lossless: bool,
     ) -> Rim {
-        let [point, far] = points;
         let HoopSpec { material, wall, height, flange, .. } = *hoop;
         let shear = material.youngs_modulus / (2.0 * (1.0 + material.poisson_ratio));
         let area = wall * (height + flange);
@@ -141,8 +138,7 @@ impl Rim {
             member: Member::Cosine,
             mode: bounce,
             largest: 1.0,
-            transfer: transfer(radius, point, 0, bounce.omega),
-            far_transfer: transfer(radius, far, 0, bounce.omega).map(|h| h * far.distance),
+            transfers: heard(receivers, |point| transfer(radius, point, 0, bounce.omega)),
         }];
         for n in 2.. {
             let n2 = f64::from(n * n);
@@ -151,15 +147,14 @@ impl Rim {
                 break;
             }
             let mode = Mode { omega, sigma: loss(omega, hoop.q), mass: line * TAU * radius };
-            let heard = transfer(radius, point, n, omega);
-            let heard_far = transfer(radius, far, n, omega).map(|h| h * far.distance);
+            let heard = heard(receivers, |point| transfer(radius, point, n, omega));
             for member in [Member::Cosine, Member::Sine] {
-                let [transfer, far_transfer] = shown([heard, heard_far], points, n, member);
+                let transfers = shown(heard, receivers, n, member);
                 let (part, largest) = (RimPart::Hoop, SQRT_2);
-                modes.push(RimMode { part, n, k: 0, member, mode, largest, transfer, far_transfer });
+                modes.push(RimMode { part, n, k: 0, member, mode, largest, transfers });
             }
         }
-        shell.into_iter().for_each(|wall| modes.extend(wall_modes(wall, points, lossless)));
+        shell.into_iter().for_each(|wall| modes.extend(wall_modes(wall, receivers, lossless)));
         Rim { radius, material, modes }
     }
 
@@ -182,32 +177,34 @@ impl Rim {
 }
 
 impl RimMode {
-    /// Area of the monopole in a baffle that would be heard as loud far away, in the direction of the overheads, m2.
+    /// Area of the monopole in a baffle that would be heard as loud far away, in the first direction, m2.
     pub fn monopole_area(&self) -> f64 {
-        let [re, im] = self.far_transfer;
+        let [re, im] = self.transfers[1];
         TAU / DENSITY * re.hypot(im)
     }
 }
 
-/// What a member shows of its pair at the near and at the far point.
-fn shown(heard: [[f64; 2]; 2], points: [ReceiverPosition; 2], n: u32, member: Member) -> [[f64; 2]; 2] {
+/// A transfer to each point, far away as at a metre.
+fn heard(receivers: &Receivers, transfer: impl Fn(ReceiverPosition) -> [f64; 2]) -> [[f64; 2]; POINTS] {
+    let (points, scales) = (receivers.points(), receivers.scales());
+    std::array::from_fn(|i| transfer(points[i]).map(|h| h * scales[i]))
+}
+
+/// What a member shows of its pair toward each point.
+fn shown(heard: [[f64; 2]; POINTS], receivers: &Receivers, n: u32, member: Member) -> [[f64; 2]; POINTS] {
+    let points = receivers.points();
     std::array::from_fn(|i| heard[i].map(|h| h * points[i].toward(n, member, 0.0)))
 }
 
 /// The modes of a shell's wall, members one by one.
-fn wall_modes(
-    wall: &Cylinder,
-    points: [ReceiverPosition; 2],
-    lossless: bool,
-) -> impl Iterator<Item = RimMode> {
+fn wall_modes(wall: &Cylinder, receivers: &Receivers, lossless: bool) -> impl Iterator<Item = RimMode> {
     wall.modes(lossless).into_iter().flat_map(move |own| {
-        let [near, far] = points.map(|point| wall.transfer(&own, point));
-        let heard = [near, far.map(|h| h * points[1].distance)];
+        let heard = heard(receivers, |point| wall.transfer(&own, point));
         let members = [Member::Cosine, Member::Sine].into_iter().take(if own.n == 0 { 1 } else { 2 });
         members.map(move |member| {
-            let [transfer, far_transfer] = shown(heard, points, own.n, member);
+            let transfers = shown(heard, receivers, own.n, member);
             let (part, largest) = (RimPart::Wall, own.hoop);
-            RimMode { part, n: own.n, k: own.k, member, mode: own.mode, largest, transfer, far_transfer }
+            RimMode { part, n: own.n, k: own.k, member, mode: own.mode, largest, transfers }
         })
     })
 }
@@ -236,17 +233,22 @@ fn transfer(radius: f64, point: ReceiverPosition, n: u32, omega: f64) -> [f64; 2
 mod tests {
     use super::*;
     use crate::kit_spec::KitSpec;
+    use crate::receiver::DIRECTIONS;
 
     /// The hoop of the standard kit's drums.
     fn hoop() -> HoopSpec {
         KitSpec::standard().drums().find_map(|(_, drum)| drum.hoop).unwrap()
     }
 
-    const POINT: ReceiverPosition = ReceiverPosition { distance: 0.5, inclination: 0.6, azimuth: 0.4 };
+    /// The same point three times.
+    fn receivers() -> Receivers {
+        let point = ReceiverPosition { distance: 0.5, inclination: 0.6, azimuth: 0.4 };
+        Receivers { near: point, far: [point; DIRECTIONS] }
+    }
 
     #[test]
     fn a_snare_hoop_rings_where_hoops_ring() {
-        let rim = Rim::new(0.178, &hoop(), None, [POINT; 2], false);
+        let rim = Rim::new(0.178, &hoop(), None, &receivers(), false);
         let hz = |n: u32| rim.modes.iter().find(|mode| mode.n == n).unwrap().mode.omega / TAU;
         assert!((80.0..250.0).contains(&hz(2)), "{}", hz(2));
         assert!((300.0..800.0).contains(&hz(3)), "{}", hz(3));
@@ -256,7 +258,7 @@ mod tests {
 
     #[test]
     fn shapes_are_of_unit_mean_square() {
-        let rim = Rim::new(0.15, &hoop(), None, [POINT; 2], false);
+        let rim = Rim::new(0.15, &hoop(), None, &receivers(), false);
         let mut sum = vec![0.0_f64; rim.modes.len()];
         let mut out = vec![0.0_f32; rim.modes.len()];
         for i in 0..720 {

@@ -36,6 +36,7 @@ use crate::high_band::HighBand;
 use crate::modal::smoothing::Smoothing;
 use crate::modal::{ModalBody, Mode, RECEIVERS};
 use crate::potential::{HEADS, NonlinearForce, Potential};
+use crate::receiver::POINTS;
 use crate::rim::Rim;
 use crate::shapes::ShapeTable;
 use crate::snapshot::{StrikeSnapshot, WireSnapshot};
@@ -285,17 +286,13 @@ impl Surface {
         self.body.set_volumes(volumes);
     }
 
-    /// Changes the transfers to the near receiver, as in [`SurfaceParts::transfer`], and to the far one, given at a metre. They
+    /// Changes the transfers to the near receiver, as in [`SurfaceParts::transfer`], and to the far ones, given at a metre. They
     /// act at once.
     ///
     /// # Real-time
     /// No allocation; linear in the number of modes.
-    pub fn set_transfers(
-        &mut self,
-        near: impl Iterator<Item = [f64; 2]>,
-        far: impl Iterator<Item = [f64; 2]>,
-    ) {
-        self.body.set_transfers(near, far);
+    pub fn set_transfers(&mut self, transfers: [impl Iterator<Item = [f64; 2]>; POINTS]) {
+        self.body.set_transfers(transfers);
         self.follow();
     }
 
@@ -333,7 +330,7 @@ impl Surface {
         }
     }
 
-    /// Renders the pressure at each receiver, Pa, into `out`, under the incident pressure: near, far at a metre, and the
+    /// Renders the pressure at each receiver, Pa, into `out`, under the incident pressure: near, far at a metre in each direction, and the
     /// omnidirectional part at a metre, which other pieces receive. At most [`MAX_RUN`](crate::modal::simd::MAX_RUN) samples.
     ///
     /// # Real-time
@@ -369,8 +366,7 @@ impl Surface {
             attachment.ring(out.each_mut().map(|out| &mut **out), done);
         }
         self.smoothing.add_to(&mut out);
-        let [near, far, _] = out;
-        self.observers.bands_mut().for_each(|band| band.render(near, far));
+        self.observers.bands_mut().for_each(|band| band.render(&mut out));
     }
 
     /// Energy of the strikers and their contacts, J.

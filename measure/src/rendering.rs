@@ -17,9 +17,8 @@ pub fn render_into(piece: &mut Piece, out: &mut [f32]) {
     let mut rest = out;
     while !rest.is_empty() {
         let (run, later) = rest.split_at_mut(piece.run_left().min(rest.len()));
-        let mut others = [[0.0; BLOCK]; RECEIVERS - 1];
-        let [far, around] = others.each_mut().map(|row| &mut row[..run.len()]);
-        piece.render_in_air([run, far, around], None);
+        let mut others = [[0.0; BLOCK]; RECEIVERS];
+        piece.render_in_air(near_into(run, &mut others), None);
         rest = later;
     }
 }
@@ -28,9 +27,19 @@ pub fn render_into(piece: &mut Piece, out: &mut [f32]) {
 pub fn render_surface(surface: &mut Surface, samples: usize) -> Vec<f32> {
     let mut out = vec![0.0; samples];
     for run in out.chunks_mut(BLOCK) {
-        let mut others = [[0.0; BLOCK]; RECEIVERS - 1];
-        let [far, around] = others.each_mut().map(|row| &mut row[..run.len()]);
-        surface.render_in_air([run, far, around], None);
+        let mut others = [[0.0; BLOCK]; RECEIVERS];
+        surface.render_in_air(near_into(run, &mut others), None);
     }
     out
+}
+
+/// Runs of all receivers, that of the near one `run`.
+fn near_into<'a>(
+    run: &'a mut [f32],
+    others: &'a mut [[f32; BLOCK]; RECEIVERS],
+) -> [&'a mut [f32]; RECEIVERS] {
+    let samples = run.len();
+    let mut runs = others.each_mut().map(|row| &mut row[..samples]);
+    runs[0] = run;
+    runs
 }

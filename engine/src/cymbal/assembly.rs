@@ -22,7 +22,7 @@ use crate::mode_mixture::ModeMixture;
 use crate::plate::free_disc::Radiated;
 use crate::plate::{PlateModes, PlateTables, ShellMode};
 use crate::potential::Potential;
-use crate::receiver::Receivers;
+use crate::receiver::{POINTS, Receivers};
 use crate::schema::SCHEMA;
 use crate::shapes::{ShapeIndex, ShapeTable};
 use crate::split::Splitting;
@@ -95,9 +95,9 @@ pub struct Ordered {
 /// What a struck cymbal has beside its modes, to become a [`Surface`].
 pub struct PlateShapes {
     shapes: ShapeTable,
-    /// How each mode is heard from near and from far away, as at a metre, `[mode]`: Pa s2/m of its acceleration, real
-    /// and imaginary part.
-    pub transfers: [Vec<[f64; 2]>; 2],
+    /// How each mode is heard at every point, far away as at a metre, `[point][mode]`: Pa s2/m of its acceleration, real and
+    /// imaginary part.
+    pub transfers: [Vec<[f64; 2]>; POINTS],
     coupled: Option<Coupled>,
     swing: Option<Swing>,
 }
@@ -293,8 +293,8 @@ impl<'a> CymbalPlate<'a> {
             });
             rows.shells.push(row);
             rows.index.push(ShapeIndex { radial, rows: 1, m: shell.m, member, axis });
-            let points = [(receivers.near, 1.0), (receivers.far, receivers.far.distance)];
-            for (at, (point, scale)) in points.into_iter().enumerate() {
+            let points = receivers.points().into_iter().zip(receivers.scales());
+            for (at, (point, scale)) in points.enumerate() {
                 let share = scale * point.toward(shell.m, member, axis);
                 rows.transfers[at].push(radiated.transfers[at].map(|x| share * x));
             }
@@ -307,7 +307,7 @@ impl<'a> CymbalPlate<'a> {
 struct Rows {
     modes: Vec<BuiltMode>,
     index: Vec<ShapeIndex>,
-    transfers: [Vec<[f64; 2]>; 2],
+    transfers: [Vec<[f64; 2]>; POINTS],
     /// Which of the plate's shell modes; 0 of a rigid motion.
     shells: Vec<usize>,
 }
@@ -388,8 +388,7 @@ impl PlateShapes {
             lossless: ideal.lossless,
             sample_rate: options.sample_rate,
         });
-        let [near, far] = self.transfers;
-        surface.set_transfers(near.into_iter(), far.into_iter());
+        surface.set_transfers(self.transfers.map(Vec::into_iter));
         if let Some(swing) = self.swing {
             surface.set_swing(swing);
         }

@@ -11,7 +11,7 @@ use crate::cache::Shared;
 use crate::math::cubic::Stencil;
 use crate::mode_mixture::ModeMixture;
 use crate::plate::free_disc::{DIRECTIONS, FarPattern};
-use crate::receiver::{ReceiverPosition, Receivers};
+use crate::receiver::{POINTS, ReceiverPosition, Receivers};
 use crate::shapes::ShapeIndex;
 use crate::surface::swing::Directivity;
 
@@ -88,21 +88,21 @@ pub struct Lobes {
     plate: Shared<SoundingPlate>,
     mixture: Option<ModeMixture>,
     lobes: Vec<Lobe>,
-    receivers: [LobeReceiver; 2],
-    /// `[plain mode]` and `[mode]`: what differs from rest, of the near and of the far receiver, Pa s2/m.
-    plain: Vec<[f32; 4]>,
-    mixed: Vec<[f32; 4]>,
+    receivers: [LobeReceiver; POINTS],
+    /// `[plain mode]` and `[mode]`: what differs from rest, receiver by receiver, Pa s2/m.
+    plain: Vec<[f32; 2 * POINTS]>,
+    mixed: Vec<[f32; 2 * POINTS]>,
 }
 
 impl Lobes {
     /// Those of a plate, of whose plain modes the first are `rigid` motions; `shells` are the others' rows; `rest` is heard at rest
-    /// from near and, as at a metre, from far, Pa s2/m `[mode]`. Allocates.
+    /// at each point, far away as at a metre, Pa s2/m `[mode]`. Allocates.
     pub fn new(
         plate: Shared<SoundingPlate>,
         mixture: Option<ModeMixture>,
         (index, shells, rigid): (&[ShapeIndex], &[usize], usize),
         receivers: &Receivers,
-        rest: [Vec<[f64; 2]>; 2],
+        mut rest: [Vec<[f64; 2]>; POINTS],
     ) -> Lobes {
         let lobe = |(k, (shape, &shell)): (usize, (&ShapeIndex, &usize))| {
             let around = shape.member.around(shape.m, shape.axis).map(|x| x as f32);
@@ -110,17 +110,15 @@ impl Lobes {
         };
         let lobes: Vec<Lobe> = index.iter().zip(shells).enumerate().map(lobe).collect();
         let modes = lobes.len();
-        let [near, far] = rest;
-        let receiver = |point: &ReceiverPosition, spread: f64, rest| LobeReceiver {
-            toward: toward(point),
-            spread: spread as f32,
+        let (points, scales) = (receivers.points(), receivers.scales());
+        let receivers = std::array::from_fn(|at| LobeReceiver {
+            toward: toward(&points[at]),
+            spread: (scales[at] / points[at].distance) as f32,
             now: Direction::new(),
-            rest,
+            rest: std::mem::take(&mut rest[at]),
             plain_at_rest: vec![[0.0; 2]; modes],
-        };
-        let spread = 1.0 / receivers.near.distance;
-        let receivers = [receiver(&receivers.near, spread, near), receiver(&receivers.far, 1.0, far)];
-        let (plain, mixed) = (vec![[0.0; 4]; modes], vec![[0.0; 4]; modes]);
+        });
+        let (plain, mixed) = (vec![[0.0; 2 * POINTS]; modes], vec![[0.0; 2 * POINTS]; modes]);
         let mut all = Lobes { plate, mixture, lobes, receivers, plain, mixed };
         all.turn([0.0; 2]);
         for receiver in &mut all.receivers {
@@ -185,14 +183,14 @@ impl Directivity for Lobes {
         }
     }
 
-    fn write_rest(&self, near: &mut [[f64; 2]], far: &mut [[f64; 2]]) {
-        for (out, receiver) in [near, far].into_iter().zip(&self.receivers) {
+    fn write_rest(&self, transfers: [&mut [[f64; 2]]; POINTS]) {
+        for (out, receiver) in transfers.into_iter().zip(&self.receivers) {
             out.copy_from_slice(&receiver.rest);
         }
     }
 
-    fn write(&self, near: &mut [[f64; 2]], far: &mut [[f64; 2]]) {
-        for (at, (out, receiver)) in [near, far].into_iter().zip(&self.receivers).enumerate() {
+    fn write(&self, transfers: [&mut [[f64; 2]]; POINTS]) {
+        for (at, (out, receiver)) in transfers.into_iter().zip(&self.receivers).enumerate() {
             for ((out, rest), change) in out.iter_mut().zip(&receiver.rest).zip(&self.mixed) {
                 *out = [0, 1].map(|i| rest[i] + f64::from(change[2 * at + i]));
             }
@@ -242,25 +240,34 @@ mod tests {
         }
         let count = index.len();
         let zero = || vec![[0.0; 2]; count];
-        let mut lobes =
-            Lobes::new(known.clone(), None, (&index, &rows, 0), &context.receivers, [zero(), zero()]);
-        let (mut near, mut far) = (zero(), zero());
+        let mut lobes = Lobes::new(
+            known.clone(),
+            None,
+            (&index, &rows, 0),
+            &context.receivers,
+            std::array::from_fn(|_| zero()),
+        );
+        let mut transfers: [_; POINTS] = std::array::from_fn(|_| zero());
+        fn slices(transfers: &mut [Vec<[f64; 2]>; POINTS]) -> [&mut [[f64; 2]]; POINTS] {
+            transfers.each_mut().map(|row| &mut row[..])
+        }
         (0..4).for_each(|part| lobes.work(part, 4));
-        lobes.write(&mut near, &mut far);
-        assert!(near.iter().chain(&far).all(|transfer| *transfer == [0.0; 2]), "at rest nothing differs");
+        lobes.write(slices(&mut transfers));
+        assert!(transfers.iter().flatten().all(|transfer| *transfer == [0.0; 2]), "at rest nothing differs");
 
         let tilt = [0.21, -0.13];
         lobes.turn(tilt);
         (0..4).for_each(|part| lobes.work(part, 4));
-        lobes.write(&mut near, &mut far);
+        lobes.write(slices(&mut transfers));
+        let [_, far, _] = transfers;
         // The same by the integral over the disc, at the points that it sees.
-        let [x, y, z] = seen_tilted(toward(&context.receivers.far), tilt);
+        let [x, y, z] = seen_tilted(toward(&context.receivers.far[0]), tilt);
         let distance = 200.0;
         let tilted = ReceiverPosition { distance, inclination: libm::acos(z), azimuth: libm::atan2(y, x) };
-        let level = ReceiverPosition { distance, ..context.receivers.far };
+        let level = ReceiverPosition { distance, ..context.receivers.far[0] };
         let (orders, extent) = known.plate.table_extent(21_000.0);
         let tables = PlateTables::new(orders, extent);
-        let disc = FreeDisc::new(known.plate.spec.radius(), [tilted, level], 110);
+        let disc = FreeDisc::new(known.plate.spec.radius(), [tilted, level, level], 110);
         let shapes = known.plate.radial_shapes(&tables, disc.radii());
         for hz in [900.0, 3_000.0, 8_000.0, 15_000.0] {
             let k = (0..count).find(|&k| shells[rows[k]].omega > TAU * hz).unwrap();

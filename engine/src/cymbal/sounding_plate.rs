@@ -56,7 +56,7 @@ fn radiate(
     let finest = plate.flat.iter().flatten().map(|flat| flat.root).fold(0.0, f64::max);
     let trace = highest * spec.radius() / air_load::SPEED_OF_SOUND;
     let nodes = 12 + (0.7 * (finest + trace)) as usize;
-    let disc = FreeDisc::new(spec.radius(), [receivers.near, receivers.far], nodes);
+    let disc = FreeDisc::new(spec.radius(), receivers.points(), nodes);
     let shapes = plate.radial_shapes(tables, disc.radii());
     plate.shells.iter().enumerate().map(move |(at, shell)| {
         let radial = &shapes[at * nodes..][..nodes];

@@ -60,8 +60,13 @@ impl TunedHead {
         Ok(TunedHead { membrane, tensions, limit_hz })
     }
 
-    /// What the head does above its modes, pressed on at so many places.
-    pub fn high_band(&self, ear: Receiver, context: &BuildContext, places: usize) -> HighBandSpec {
+    /// What the head does above its modes, in slices of that density (an octave), pressed on at so many places.
+    pub fn high_band(
+        &self,
+        ear: Receiver,
+        context: &BuildContext,
+        (density, places): (f64, usize),
+    ) -> HighBandSpec {
         let limit = TAU * self.limit_hz;
         let reached =
             |mode: &&MembraneMode| self.membrane.ringing(mode, self.tensions[MIDDLE]).omega <= limit;
@@ -70,6 +75,7 @@ impl TunedHead {
             head: *self.membrane.spec(),
             tensions: [self.tensions[0], self.tensions[MIDDLE]],
             complete: pairs.map(|mode| if mode.m == 0 { 1 } else { 2 }).sum(),
+            density,
             ear,
             lossless: context.ideal.lossless,
             sample_rate: context.options.sample_rate,

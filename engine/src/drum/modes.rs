@@ -11,7 +11,7 @@ use crate::drum::spec::DrumSpec;
 use crate::drum::tension_field::MIXED_FROM;
 use crate::drum::tuned::{self, Grid, PitchPosition, TunedMode};
 use crate::error::SpecError;
-use crate::high_band::{HighBandSpec, Receiver};
+use crate::high_band::{HighBandSpec, Receiver, SLICES, SLICES_UNDER_WIRES};
 use crate::math::bessel::JTable;
 use crate::receiver::Receivers;
 use crate::shapes::{ShapeIndex, ShapeTable};
@@ -123,7 +123,7 @@ impl DrumModes {
     pub fn high_band(&self, spec: &DrumSpec, context: &BuildContext) -> HighBandSpec {
         let Receivers { near, far } = context.receivers;
         let ear = Receiver { point: near, away: far, outside: spec.outside(), far: false };
-        self.heads.batter.high_band(ear, context, STRIKER_PLACES)
+        self.heads.batter.high_band(ear, context, (density(spec), STRIKER_PLACES))
     }
 
     /// What the resonant head does above its modes, for wires to set going.
@@ -132,8 +132,13 @@ impl DrumModes {
         let Receivers { near, far } = context.receivers;
         let ear = Receiver { point: near.from_behind(behind), away: far, outside: spec.outside(), far: true };
         let head = self.heads.resonant.as_ref()?;
-        Some(head.high_band(ear, context, wires::SECTIONS))
+        Some(head.high_band(ear, context, (density(spec), wires::SECTIONS)))
     }
+}
+
+/// Slices in an octave of a drum's high bands.
+fn density(spec: &DrumSpec) -> f64 {
+    if spec.wires.is_some() { SLICES_UNDER_WIRES } else { SLICES }
 }
 
 #[cfg(test)]

@@ -52,9 +52,8 @@ use statics::{Balance, Statics};
 pub struct PairParts {
     /// The lower cymbal's modes.
     pub bottom: Vec<Mode>,
-    /// Their transfers to the near receiver and to the far one, at a metre, Pa s2/m of their acceleration, real and
-    /// imaginary part.
-    pub transfers: [Vec<[f64; 2]>; 2],
+    /// Their transfers to each point, far away as at a metre, Pa s2/m of their acceleration, real and imaginary part.
+    pub transfers: [Vec<[f64; 2]>; crate::receiver::POINTS],
     /// Shapes of the modes of the upper and the lower cymbal at the rim.
     pub folded: [RimHarmonics; 2],
     /// Both as rigid bodies.
@@ -97,9 +96,11 @@ pub struct Pair {
 impl Pair {
     /// A pair with the pedal up, at rest. Allocates.
     pub fn new(parts: PairParts) -> Pair {
-        let [near, far] = parts.transfers;
-        let mut lower = SoundingBody::new(parts.bottom, near, parts.sample_rate);
-        lower.receiver.transfer_mut(1).copy_from_slice(&far);
+        let [near, ..] = &parts.transfers;
+        let mut lower = SoundingBody::new(parts.bottom, near.clone(), parts.sample_rate);
+        for (point, transfers) in parts.transfers.iter().enumerate() {
+            lower.receiver.transfer_mut(point).copy_from_slice(transfers);
+        }
         Pair {
             lower,
             folded: parts.folded,

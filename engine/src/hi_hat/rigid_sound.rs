@@ -18,16 +18,13 @@
 use nalgebra::Complex;
 
 use crate::air_load::SPEED_OF_SOUND;
-use crate::modal::{Pressure, RECEIVERS};
+use crate::modal::Pressure;
 use crate::mode::Member;
 use crate::plate::free_disc::FreeDisc;
 use crate::radiation::Radiator;
-use crate::receiver::Receivers;
+use crate::receiver::{POINTS, Receivers};
 
 use super::rigid::Weights;
-
-/// Receivers that hear it: the near and the far one.
-const HEARD: usize = 2;
 
 /// Nodes along the radius: shapes are a constant and a line. *Converged*.
 const NODES: usize = 48;
@@ -42,9 +39,9 @@ const MATCHED: [f64; 5] = [0.2, 0.4, 0.7, 1.0, 1.6];
 #[derive(Debug, Clone, Copy, Default)]
 pub struct RigidSound {
     /// Of heave and tilts at each receiver, Pa s2/m.
-    slow: [Weights; HEARD],
-    middle: [Weights; HEARD],
-    fast: [Weights; HEARD],
+    slow: [Weights; POINTS],
+    middle: [Weights; POINTS],
+    fast: [Weights; POINTS],
     /// Share of the distance to the present acceleration that the filters go in a sample.
     share: f64,
     /// Accelerations behind one, two and three poles, m/s2.
@@ -67,8 +64,8 @@ impl RigidSound {
     /// A cymbal of a radius (m), heard by these receivers, at a sample time of `dt` (s). Allocates.
     pub fn new(radius: f64, receivers: &Receivers, dt: f64) -> RigidSound {
         let unit = SPEED_OF_SOUND / radius;
-        let disc = FreeDisc::new(radius, [receivers.near, receivers.far], NODES);
-        let none = [[0.0; 3]; HEARD];
+        let disc = FreeDisc::new(radius, receivers.points(), NODES);
+        let none = [[0.0; 3]; POINTS];
         let share = -(-POLE * unit * dt).exp_m1();
         let mut sound = RigidSound { slow: none, middle: none, fast: none, share, smoothed: [[0.0; 3]; 3] };
         for (part, (m, member)) in PARTS.into_iter().enumerate() {
@@ -76,9 +73,9 @@ impl RigidSound {
             let radial: Vec<f64> = disc.radii().iter().map(shape).collect();
             let heard =
                 |u: f64| disc.radiate(&Radiator { m, radial: &radial, omega: u * unit }, 0.0).transfers;
-            let points = [(receivers.near, 1.0), (receivers.far, receivers.far.distance)];
+            let points = receivers.points().into_iter().zip(receivers.scales());
             let (still, moving) = (heard(1e-3), MATCHED.map(heard));
-            for (at, (point, scale)) in points.into_iter().enumerate() {
+            for (at, (point, scale)) in points.enumerate() {
                 let share = scale * point.toward(m, member, 0.0);
                 let slow = still[at][0];
                 // H (1 + i x)^3 = slow + i x middle - x^2 fast: the real and the imaginary part are each linear in one of them.
@@ -109,7 +106,7 @@ impl RigidSound {
             }
             let [once, twice, thrice] = self.smoothed.map(|smoothed| smoothed[part]);
             let (middle, high) = (twice - thrice, once - 2.0 * twice + thrice);
-            for (at, heard) in heard.iter_mut().take(HEARD).enumerate() {
+            for (at, heard) in heard.iter_mut().take(POINTS).enumerate() {
                 let low = self.slow[at][part] * thrice;
                 *heard += (low + self.middle[at][part] * middle + self.fast[at][part] * high) as f32;
             }
@@ -123,8 +120,6 @@ impl RigidSound {
     }
 }
 
-const _: () = assert!(RECEIVERS >= HEARD);
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -135,15 +130,16 @@ mod tests {
     fn slow_or_fast_it_sounds_as_the_rigid_disc_does() {
         let (radius, rate) = (0.178, 48_000.0);
         let near = ReceiverPosition { distance: 0.5, inclination: 1.1, azimuth: 0.4 };
-        let receivers = Receivers { near, far: ReceiverPosition::far(0.5, 1.0) };
-        let disc = FreeDisc::new(radius, [receivers.near, receivers.far], NODES);
+        let receivers =
+            Receivers { near, far: [0.5, 0.7].map(|inclination| ReceiverPosition::far(inclination, 1.0)) };
+        let disc = FreeDisc::new(radius, receivers.points(), NODES);
         for (part, (m, member)) in PARTS.into_iter().enumerate() {
             let radial: Vec<f64> = disc.radii().iter().map(|&r| if m == 0 { 1.0 } else { 2.0 * r }).collect();
             for hz in [40.0, 80.0, 150.0, 300.0] {
                 let omega = TAU * hz;
                 let exact = disc.radiate(&Radiator { m, radial: &radial, omega }, 0.0).transfers;
                 let mut sound = RigidSound::new(radius, &receivers, 1.0 / rate);
-                let mut sums = [[0.0; 2]; HEARD];
+                let mut sums = [[0.0; 2]; POINTS];
                 for sample in 0..48_000 {
                     let phase = omega * f64::from(sample) / rate;
                     let mut moved = [0.0; 3];
@@ -156,8 +152,7 @@ mod tests {
                         }
                     }
                 }
-                for (at, (point, scale)) in
-                    [(receivers.near, 1.0), (receivers.far, receivers.far.distance)].into_iter().enumerate()
+                for (at, (point, scale)) in receivers.points().into_iter().zip(receivers.scales()).enumerate()
                 {
                     let share = (scale * point.toward(m, member, 0.0)).abs();
                     let want = share * exact[at][0].hypot(exact[at][1]);

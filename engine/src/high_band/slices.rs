@@ -11,12 +11,16 @@ use crate::math::trigonometry::sin_cos;
 use crate::membrane::MembraneSpec;
 use crate::modal::Mode;
 use crate::patch_factors::PatchFactors;
-use crate::receiver::ReceiverPosition;
+use crate::receiver::{DIRECTIONS, POINTS, ReceiverPosition};
 use crate::split::hash;
 
 /// Slices in an octave. *Judgement*: a sum of modes that lose 60 dB in 0.2 s is heard as noise from some 0.1 modes per hertz
 /// on, which these have at 4 kHz; a head has four times as many.
-const SLICES: f64 = 300.0;
+pub const SLICES: f64 = 300.0;
+
+/// Slices in an octave of a drum with wires, which keep on setting its heads going. *Converged*: while forces act, phases do not walk,
+/// and what is heard of slices so far apart at several microphones at once has 0.3 dB more spread than noise; of three times as many, 0.1.
+pub const SLICES_UNDER_WIRES: f64 = 900.0;
 
 /// Highest frequency, Hz, and its largest share of the sample rate.
 const TOP_HZ: f64 = 16_000.0;
@@ -27,8 +31,8 @@ const TOP_OF_RATE: f64 = 0.45;
 pub struct Receiver {
     /// The point, seen from the head's centre.
     pub point: ReceiverPosition,
-    /// A point far away.
-    pub away: ReceiverPosition,
+    /// Points far away, one in each direction.
+    pub away: [ReceiverPosition; DIRECTIONS],
     /// What surrounds the drum.
     pub outside: Outside,
     /// Whether the head is on the far side of the drum.
@@ -44,6 +48,8 @@ pub struct HighBandSpec {
     pub tensions: [f64; 2],
     /// Modes (pairs as two) of the complete set, all below the slices.
     pub complete: usize,
+    /// Slices in an octave.
+    pub density: f64,
     /// Where it is heard from.
     pub ear: Receiver,
     /// Nothing is lost.
@@ -66,9 +72,9 @@ pub(super) struct Slice {
     /// Where the wave runs, as cosine and sine, and its phase, rad.
     pub(super) direction: [f64; 2],
     pub(super) phase: f64,
-    /// Phases in which it is heard at the point and far away, as cosine and sine, and how loud for what the drum's body does
+    /// Phases in which it is heard at each point, as cosine and sine, and how loud for what the drum's body does
     /// to it.
-    pub(super) heard: [[f64; 2]; 2],
+    pub(super) heard: [[f64; 2]; POINTS],
     pub(super) gain: f64,
 }
 
@@ -143,7 +149,7 @@ fn cos_sin(angle: f64) -> [f64; 2] {
 /// Cuts the band.
 pub(super) fn slices(spec: &HighBandSpec) -> Vec<Slice> {
     let [slackest, tension] = spec.tensions;
-    let step = (1.0 / SLICES).exp2();
+    let step = (1.0 / spec.density).exp2();
     let mut slices: Vec<Slice> = Vec::new();
     // Where the complete set ends: N(k) solved for k.
     let mut low = 1.0 + (1.0 + 4.0 * spec.complete as f64).sqrt();
@@ -159,7 +165,7 @@ pub(super) fn slices(spec: &HighBandSpec) -> Vec<Slice> {
             count: (modes_below(high) - modes_below(low)).max(1.0),
             direction: cos_sin(TAU * draw(1)),
             phase: TAU * draw(2),
-            heard: [3, 4].map(|i| cos_sin(TAU * draw(i))),
+            heard: std::array::from_fn(|i| cos_sin(TAU * draw(3 + i as u32))),
             gain: gain(spec, omega),
         });
         low = high;
@@ -175,8 +181,8 @@ pub(super) fn tension_share(spec: &HighBandSpec, slice: &Slice, tension: f64) ->
 
 /// Rate at which the modes of a slice lose their common phase, 1/s: the half width in rad/s of a line as wide as the slice
 /// (half power), less the share that each mode has with itself.
-pub(super) fn walk_rate(slice: &Slice, omega: f64) -> f64 {
-    0.5 * std::f64::consts::LN_2 / SLICES * omega * (1.0 - 1.0 / slice.count)
+pub(super) fn walk_rate(spec: &HighBandSpec, slice: &Slice, omega: f64) -> f64 {
+    0.5 * std::f64::consts::LN_2 / spec.density * omega * (1.0 - 1.0 / slice.count)
 }
 
 /// Undamped angular frequency (rad/s), decay rate by radiation (1/s) and mass per area with its air
@@ -275,14 +281,19 @@ pub(super) fn loudness(spec: &HighBandSpec, slice: &Slice, omega: f64) -> f64 {
     slice.gain * DENSITY / TAU * rim_strip(spec, slice, omega) * near
 }
 
-/// How much louder the slices are far away, as at a metre, than at the point, in the mean: they come by chance in any
-/// phase here and there.
-pub(super) fn away(spec: &HighBandSpec, slices: &[Slice]) -> f32 {
-    let from_away = HighBandSpec { ear: Receiver { point: spec.ear.away, ..spec.ear }, ..*spec };
+/// How much louder the slices are far away, as at a metre, in each direction, than at the point, in the mean: they come by chance
+/// in any phase here and there.
+pub(super) fn away(spec: &HighBandSpec, slices: &[Slice]) -> [f32; DIRECTIONS] {
+    spec.ear.away.map(|point| away_at(spec, slices, point))
+}
+
+/// The same at one point.
+fn away_at(spec: &HighBandSpec, slices: &[Slice], point: ReceiverPosition) -> f32 {
+    let from_away = HighBandSpec { ear: Receiver { point, ..spec.ear }, ..*spec };
     let ratio = |slice: &Slice| {
         let (omega, _, _) = wave(&spec.head, slice.zero, spec.tensions[1]);
         let there = loudness(&from_away, &Slice { gain: gain(&from_away, omega), ..*slice }, omega);
-        (there * spec.ear.away.distance / loudness(spec, slice, omega)).ln()
+        (there * point.distance / loudness(spec, slice, omega)).ln()
     };
     (slices.iter().map(ratio).sum::<f64>() / slices.len().max(1) as f64).exp() as f32
 }

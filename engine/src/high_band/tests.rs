@@ -109,9 +109,10 @@ fn how_a_run_is_cut_changes_no_sample() {
                 band.push(0, n, 3.0 + (0.3 * time).sin());
                 band.push(2, n, if (20.0..40.0).contains(&time) { time } else { 0.0 });
             }
-            let mut far = [0.0; MAX_RUN];
-            let far = &mut far[..run.len()];
-            band.render(run, far);
+            let mut rows = [[0.0; MAX_RUN]; RECEIVERS];
+            let mut out = rows.each_mut().map(|row| &mut row[..run.len()]);
+            band.render(&mut out);
+            run.copy_from_slice(out[0]);
             (at, rest) = (at + run.len(), later);
             if rest.is_empty() {
                 break;
@@ -150,14 +151,14 @@ fn energy_after_a_slow_force(walks: bool) -> f64 {
     let (built, build) = rack_tom();
     let mut band = band(&built, &build);
     band.put(0, 0.3, 0.2, 0.004);
-    let (mut near, mut far) = ([0.0; 32], [0.0; 32]);
+    let mut rows = [[0.0; 32]; RECEIVERS];
     for block in 0..30 {
         for sample in 0..32 {
             let share = f64::from(block * 32 + sample) / 700.0;
             let force = if share < 1.0 { 20.0 * (std::f64::consts::PI * share).sin().powi(4) } else { 0.0 };
             band.push(0, sample as usize, force as f32);
         }
-        band.render(&mut near, &mut far);
+        band.render(&mut rows.each_mut().map(|row| &mut row[..]));
         band.settle();
         if walks {
             band.glide(0.0);

@@ -1,11 +1,15 @@
 //! Propagation of sound from each piece to the drums' heads and the microphones.
 //!
-//! Model: a piece radiates its far field in the direction of the overheads, given at a metre. The other pieces receive the
+//! Model: a piece radiates its far field in the directions of both overheads, given at a metre. The other pieces receive the
 //! [omnidirectional part](crate::surface::incident_field) of a drum. The delay is the path length over the speed of sound, and
 //! the pressure falls as one over the path length. Pieces neither shade nor reflect each other.
 //!
-//! Limits: one direction stands for all. That is right for a drum's low modes, which radiate evenly. To the side, high modes and
-//! cymbals, which are dipoles, radiate too much.
+//! Every way to the room's microphones takes one of the two: the direct one and those by the side walls that of their own side,
+//! those by the other surfaces one and the other by turns. High modes radiate another chance sum of theirs in every direction, so that the
+//! reflections of a wide-band sound do not add up to a comb.
+//!
+//! Limits: two directions stand for all. That is right for a drum's low modes, which radiate evenly, and in the mean over many high
+//! ones. To the side, cymbals, which are dipoles, radiate too much.
 
 use super::arrangement::Arrangement;
 use super::delay_line::{DelayLine, DelayTap, MovingDelayTap};
@@ -21,6 +25,7 @@ use crate::layout::{CLOSE, Layout, Pair, Placement, distance};
 use crate::microphones::CloseMicrophone;
 use crate::modal::RECEIVERS;
 use crate::piece::Piece;
+use crate::receiver::{DIRECTIONS, POINTS};
 use crate::slot::{SLOTS, Slot};
 
 /// Faces of a surface of the room.
@@ -29,12 +34,19 @@ const IMAGES: usize = 6;
 /// Pressure at a pair of microphones over a run, Pa.
 pub(super) type PairRun = [[f32; BLOCK]; 2];
 
+/// Direction that stands for the way by a surface of the room to the microphone of a side.
+fn toward(image: usize, side: usize) -> usize {
+    if image < 2 { image } else { (image + side) % DIRECTIONS }
+}
+
+const _: () = assert!(DIRECTIONS == 2, "a direction for each overhead");
+
 /// Delay lines and taps of a kit.
 pub(super) struct Propagation {
     sample_rate: f64,
     layout: Layout,
     room: RoomSpec,
-    /// Sound of each piece: near field, far field, and to other pieces.
+    /// Sound of each piece: near field, far field in each direction, and to other pieces.
     lines: [[DelayLine; RECEIVERS]; SLOTS],
     /// From the other pieces: `[receiver][source]`.
     between: Box<[[DelayTap; SLOTS]; SLOTS]>,
@@ -194,7 +206,7 @@ impl Propagation {
         job.receives = false;
         for (from, lines) in self.lines.iter().enumerate() {
             // Cymbals receive nothing, so their far field serves for all.
-            let line = &lines[if self.drums[from] { 2 } else { 1 }];
+            let line = &lines[if self.drums[from] { POINTS } else { 1 }];
             if from == receiver || line.is_silent() {
                 continue;
             }
@@ -244,15 +256,17 @@ impl Propagation {
             return sides;
         }
         for (piece, lines) in self.lines.iter().enumerate() {
-            if lines[1].is_silent() {
+            if lines[1..POINTS].iter().all(DelayLine::is_silent) {
                 continue;
             }
             for (side, total) in sides.iter_mut().enumerate() {
                 let mut sound = SILENT_RUN;
                 let sound = &mut sound[..samples];
-                self.pairs[pair][side][piece].hear(&lines[1], clock, sound);
+                self.pairs[pair][side][piece].hear(&lines[1 + side], clock, sound);
                 if pair == 1 {
-                    self.images[side][piece].iter_mut().for_each(|tap| tap.hear(&lines[1], clock, sound));
+                    for (image, tap) in self.images[side][piece].iter_mut().enumerate() {
+                        tap.hear(&lines[1 + toward(image, side)], clock, sound);
+                    }
                 }
                 for ((sum, sound), level) in total.iter_mut().zip(sound).zip(&levels[piece]) {
                     *sum += level * *sound;
@@ -262,9 +276,9 @@ impl Propagation {
         sides
     }
 
-    /// Adds the room's tail of `sent`, the far field at a metre, Pa.
-    pub(super) fn tail(&mut self, sent: &[f32], out: &mut PairRun) {
-        let [left, right] = out.each_mut().map(|side| &mut side[..sent.len()]);
+    /// Adds the room's tail of `sent`, the far field at a metre in each direction, Pa.
+    pub(super) fn tail(&mut self, sent: [&[f32]; DIRECTIONS], out: &mut PairRun) {
+        let [left, right] = out.each_mut().map(|side| &mut side[..sent[0].len()]);
         self.tail.render(sent, [left, right]);
     }
 

@@ -1,7 +1,8 @@
 //! Rendering of a kit, run by run: pieces, propagation, mix.
 
-use crate::block::BLOCK;
+use crate::block::{BLOCK, SILENT_RUN};
 use crate::kit_spec::Kind;
+use crate::receiver::DIRECTIONS;
 use crate::slot::SLOTS;
 
 use super::Kit;
@@ -75,7 +76,7 @@ impl Kit {
         let mut outputs = outputs
             .iter_mut()
             .map(|output| output.each_mut().map(|side| side.get_mut(at..at + samples).unwrap_or_default()));
-        let mut sent = [0.0; BLOCK];
+        let mut sent = [SILENT_RUN; DIRECTIONS];
         for (slot, job) in jobs.iter().enumerate() {
             if job.as_ref().is_some_and(|job| job.is_empty()) && air.is_slot_silent(slot) {
                 for side in outputs.next().into_iter().flatten() {
@@ -87,8 +88,10 @@ impl Kit {
             match job.as_ref().filter(|job| job.due == *clock) {
                 Some(job) => {
                     air.send(slot, *clock, job);
-                    let terms = sent.iter_mut().zip(&job.sound[1]).zip(&levels[slot]);
-                    terms.take(samples).for_each(|((sum, sound), level)| *sum += level * sound);
+                    for (sent, sound) in sent.iter_mut().zip(&job.sound[1..]) {
+                        let terms = sent.iter_mut().zip(sound).zip(&levels[slot]);
+                        terms.take(samples).for_each(|((sum, sound), level)| *sum += level * sound);
+                    }
                 }
                 None => {
                     air.send_silence(slot, *clock, samples);
@@ -104,7 +107,7 @@ impl Kit {
         for pair in 0..PAIRS {
             let mut sides = air.pair(pair, *clock, samples, &levels, mixer);
             if pair + 1 == PAIRS && !mixer.is_shut(pair) {
-                air.tail(&sent[..samples], &mut sides);
+                air.tail(sent.each_ref().map(|sent| &sent[..samples]), &mut sides);
             }
             let [left, right] = sides.each_ref().map(|side| &side[..samples]);
             mixer.add(SLOTS + pair, [left, right], &mut bus, outputs.next());

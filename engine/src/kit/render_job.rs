@@ -22,7 +22,7 @@ pub struct RenderJob {
     pub(super) receives: bool,
     /// Pressure of that sound, Pa.
     pub(super) incident: [f32; BLOCK],
-    /// Sound of the piece: at the close microphone, in the far field at a metre, and to other pieces at a metre, Pa.
+    /// Sound of the piece: at the close microphone, in the far field at a metre in each direction, and to other pieces at a metre, Pa.
     pub(super) sound: [[f32; BLOCK]; RECEIVERS],
 }
 

@@ -3,6 +3,7 @@
 use super::coefs::{Constants, TOGETHER};
 use super::row::{Row, zero_row};
 use super::simd::{self, RECEIVERS};
+use crate::receiver::POINTS;
 
 /// Pressure of a body at each of its receivers, Pa.
 pub type Pressure = [f32; RECEIVERS];
@@ -28,10 +29,12 @@ impl ReceiverWeights {
     /// the mode's frequency, for time going as `e^(i omega t)`. The transfers of the other receivers are zero until they are
     /// [set](Self::transfer_mut). Allocates.
     pub fn new(transfer: Vec<[f64; 2]>) -> ReceiverWeights {
-        let far = vec![[0.0; 2]; transfer.len()];
-        ReceiverWeights {
-            receivers: [Receiver::new(transfer), Receiver::new(far), Receiver::new(Vec::new())],
-        }
+        let modes = transfer.len();
+        let mut receivers = std::array::from_fn(|receiver| {
+            Receiver::new(vec![[0.0; 2]; if receiver < POINTS { modes } else { 0 }])
+        });
+        receivers[0] = Receiver::new(transfer);
+        ReceiverWeights { receivers }
     }
 
     /// Lets the last receiver take the first `modes`. Allocates.

@@ -75,11 +75,12 @@ mod tests {
     fn an_impulse_is_held_for_a_block_however_time_is_cut() {
         let held = |run: usize| {
             let mut smoothing = Smoothing::default();
-            smoothing.hold([1.0, 0.0, 0.5]);
+            smoothing.hold([1.0, 0.0, 0.5, 0.0]);
             let mut rows = [[0.0_f32; 2 * BLOCK]; RECEIVERS];
-            let [a, b, c] = &mut rows;
-            let runs = a.chunks_mut(run).zip(b.chunks_mut(run)).zip(c.chunks_mut(run));
-            runs.for_each(|((a, b), c)| smoothing.add_to(&mut [a, b, c]));
+            for from in (0..2 * BLOCK).step_by(run) {
+                let to = (from + run).min(2 * BLOCK);
+                smoothing.add_to(&mut rows.each_mut().map(|row| &mut row[from..to]));
+            }
             rows
         };
         let rows = held(2 * BLOCK);
@@ -91,11 +92,12 @@ mod tests {
     fn a_step_becomes_a_line_however_time_is_cut() {
         let smoothed = |run: usize| {
             let mut smoothing = Smoothing::default();
-            smoothing.step([1.0, 0.0, 0.0], [0.0, 2.0, 0.0]);
+            smoothing.step([1.0, 0.0, 0.0, 0.0], [0.0, 2.0, 0.0, 0.0]);
             let mut rows = [[0.0_f32; 2 * BLOCK]; RECEIVERS];
-            let [a, b, c] = &mut rows;
-            let runs = a.chunks_mut(run).zip(b.chunks_mut(run)).zip(c.chunks_mut(run));
-            runs.for_each(|((a, b), c)| smoothing.add_to(&mut [a, b, c]));
+            for from in (0..2 * BLOCK).step_by(run) {
+                let to = (from + run).min(2 * BLOCK);
+                smoothing.add_to(&mut rows.each_mut().map(|row| &mut row[from..to]));
+            }
             rows
         };
         let rows = smoothed(2 * BLOCK);

@@ -1,6 +1,6 @@
 //! Receiver weights that move: of a body that turns while it rings.
 //!
-//! The weights of the near and the far receiver go to new ones in even steps, those of the state for all modes and those of the
+//! The weights of the receivers at all points go to new ones in even steps, those of the state for all modes and those of the
 //! force for the coupled ones: the quasi-static sound of a nonlinear force is the small difference of the two.
 //!
 //! Limits: what strikers and the incident sound press at once is heard as before the step. It lasts a contact, or is small.
@@ -11,9 +11,7 @@ use super::coefs::{Constants, TOGETHER};
 use super::receiver_weights::weights_of;
 use super::row::{Row, zero_row};
 use super::{InputVector, ModalBody, ReceiverWeights};
-
-/// Receivers whose weights move: near and far.
-pub const MOVED: usize = 2;
+use crate::receiver::POINTS;
 
 /// Weights of a mode at a receiver: of the real and the imaginary part of its state, of the force, and of its rate of change.
 const WEIGHTS: usize = 4;
@@ -21,10 +19,10 @@ const WEIGHTS: usize = 4;
 /// Where the weights go, and their steps on the way.
 pub struct Sway {
     /// `[receiver][mode]`: the transfers, Pa s2/m.
-    transfers: [Vec<[f64; 2]>; MOVED],
+    transfers: [Vec<[f64; 2]>; POINTS],
     /// `[receiver][weight][mode]`.
-    goal: [[Row; WEIGHTS]; MOVED],
-    step: [[Row; WEIGHTS]; MOVED],
+    goal: [[Row; WEIGHTS]; POINTS],
+    step: [[Row; WEIGHTS]; POINTS],
     /// Steps left.
     left: usize,
 }
@@ -38,14 +36,14 @@ impl Sway {
         Sway { transfers, goal: rows(), step: rows(), left: 0 }
     }
 
-    /// The next transfers to the near and the far receiver, Pa s2/m, `[mode]`, to be [aimed](ModalBody::aim) at.
-    pub fn transfers_mut(&mut self) -> [&mut [[f64; 2]]; MOVED] {
+    /// The next transfers to the receivers at all points, Pa s2/m, `[mode]`, to be [aimed](ModalBody::aim) at.
+    pub fn transfers_mut(&mut self) -> [&mut [[f64; 2]]; POINTS] {
         self.transfers.each_mut().map(|transfers| &mut transfers[..])
     }
 
     /// How the pressures per unit force along an input vector of coupled modes change in a step, at once (Pa/N) and by its rate
     /// (Pa s/N), `[receiver]`.
-    pub fn step_along(&self, body: &ModalBody, input: &InputVector) -> [[f32; 2]; MOVED] {
+    pub fn step_along(&self, body: &ModalBody, input: &InputVector) -> [[f32; 2]; POINTS] {
         self.step.each_ref().map(|[.., direct, rate]| {
             [direct, rate].map(|row| {
                 let n = row.len().min(input.shape().len());
@@ -96,7 +94,7 @@ impl ModalBody {
     /// Linear in the number of modes.
     pub fn set_out(&self, sway: &mut Sway, weights: &mut ReceiverWeights, steps: usize) {
         let Sway { transfers, goal, step, left } = sway;
-        for (i, receiver) in weights.receivers.iter_mut().enumerate().take(MOVED) {
+        for (i, receiver) in weights.receivers.iter_mut().enumerate().take(POINTS) {
             receiver.transfer.copy_from_slice(&transfers[i]);
             let share = 1.0 / steps as f32;
             let rows = receiver.rows_mut();

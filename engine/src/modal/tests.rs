@@ -242,9 +242,11 @@ fn modes_that_sleep_early_are_missed_by_less_than_the_bound() {
 
 /// Pressure at the near receiver.
 fn ring(body: &mut ModalBody, weights: &ReceiverWeights, out: &mut [f32]) {
-    let mut others = [[0.0; simd::MAX_RUN]; 2];
-    let [far, few] = others.each_mut().map(|row| &mut row[..out.len()]);
-    body.ring(0, weights, [out, far, few]);
+    let mut rows = [[0.0; simd::MAX_RUN]; RECEIVERS];
+    let samples = out.len();
+    let mut runs = rows.each_mut().map(|row| &mut row[..samples]);
+    runs[0] = out;
+    body.ring(0, weights, runs);
 }
 
 #[test]

@@ -42,14 +42,14 @@ use crate::math::quadrature::{self, GaussLegendre};
 use crate::math::{bessel, jacobi};
 use crate::radiation::Radiator;
 use crate::radiation::rings::Rings;
-use crate::receiver::ReceiverPosition;
+use crate::receiver::{POINTS, ReceiverPosition};
 
 /// What a mode does to the air.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Radiated {
     /// Pressure at each point over modal acceleration, `[re, im]` in Pa s2/m, for a member whose shape
     /// is largest toward the point.
-    pub transfers: [[f64; 2]; 2],
+    pub transfers: [[f64; 2]; POINTS],
     /// Radiation resistance of both faces, kg/s.
     pub resistance: f64,
     /// Mass of air moved along, kg.
@@ -68,7 +68,7 @@ pub struct FarPattern(pub Vec<[f32; 2]>);
 /// A disc, its modes' shapes on a grid, and points.
 pub struct FreeDisc {
     radius: f64,
-    points: [ReceiverPosition; 2],
+    points: [ReceiverPosition; POINTS],
     rule: Shared<GaussLegendre>,
 }
 
@@ -77,7 +77,7 @@ const MARGIN: f64 = 6.0;
 
 impl FreeDisc {
     /// For a disc of `radius` (m). `nodes` along the radius: three a wavelength of the finest shape.
-    pub fn new(radius: f64, points: [ReceiverPosition; 2], nodes: usize) -> FreeDisc {
+    pub fn new(radius: f64, points: [ReceiverPosition; POINTS], nodes: usize) -> FreeDisc {
         FreeDisc { radius, points, rule: quadrature::shared_unit(nodes) }
     }
 
@@ -266,7 +266,7 @@ mod tests {
     const POINT: ReceiverPosition = ReceiverPosition { distance: 0.5, inclination: 0.6, azimuth: 0.0 };
 
     fn rigid(u: f64) -> Radiated {
-        let disc = FreeDisc::new(A, [POINT; 2], 48);
+        let disc = FreeDisc::new(A, [POINT; POINTS], 48);
         let radial = vec![1.0; 48];
         disc.radiate(&Radiator { m: 0, radial: &radial, omega: u * SPEED_OF_SOUND / A }, 0.0)
     }
@@ -292,7 +292,7 @@ mod tests {
         let (a, distance) = (plate.spec.radius(), 40.0);
         let rule = GaussLegendre::new(120, 0.0, FRAC_PI_2);
         let disc = |inclination| {
-            FreeDisc::new(a, [ReceiverPosition { distance, inclination, azimuth: 0.0 }; 2], nodes)
+            FreeDisc::new(a, [ReceiverPosition { distance, inclination, azimuth: 0.0 }; POINTS], nodes)
         };
         let shapes = plate.radial_shapes(&tables, disc(0.0).radii());
         for (m, n) in [(0, 1), (1, 1), (4, 5), (0, 8), (10, 9), (5, 18)] {
@@ -324,7 +324,7 @@ mod tests {
             for at in [0_usize, 20, 64, 101] {
                 let inclination = (at as f64 / (DIRECTIONS - 1) as f64).asin();
                 let point = ReceiverPosition { distance, inclination, azimuth: 0.0 };
-                let disc = FreeDisc::new(plate.spec.radius(), [point; 2], nodes);
+                let disc = FreeDisc::new(plate.spec.radius(), [point; POINTS], nodes);
                 let shapes = plate.radial_shapes(&tables, disc.radii());
                 let radial = &shapes[i * nodes..][..nodes];
                 let mode = Radiator { m, radial, omega: plate.shells[i].omega };
@@ -353,7 +353,7 @@ mod tests {
         let radial = vec![1.0; 64];
         let ratio = |u: f64| {
             let mode = Radiator { m: 0, radial: &radial, omega: u * SPEED_OF_SOUND / A };
-            let [a, b] = FreeDisc::new(A, [point; 2], 64).radiate(&mode, 0.0).transfers[0];
+            let [a, b] = FreeDisc::new(A, [point; POINTS], 64).radiate(&mode, 0.0).transfers[0];
             let [c, d] = crate::radiation::Rayleigh::new(A, point, 64).transfer(&mode);
             (Complex::new(a, b) / Complex::new(c, d)).to_polar()
         };
@@ -372,7 +372,11 @@ mod tests {
             let tables = PlateTables::new(orders, extent);
             let nodes = 60;
             let point = |distance, inclination| ReceiverPosition { distance, inclination, azimuth: 0.0 };
-            let disc = FreeDisc::new(plate.spec.radius(), [point(0.5, 1.1), point(1.4, 0.5)], nodes);
+            let disc = FreeDisc::new(
+                plate.spec.radius(),
+                [point(0.5, 1.1), point(1.4, 0.5), point(1.4, 0.5)],
+                nodes,
+            );
             let shapes = plate.radial_shapes(&tables, disc.radii());
             let at = plate.shells.iter().position(|shell| (shell.m, shell.n) == (0, n)).unwrap();
             let shell = &plate.shells[at];

@@ -6,7 +6,7 @@ use super::free_disc::FreeDisc;
 use super::*;
 use crate::math::quadrature::GaussLegendre;
 use crate::radiation::Radiator;
-use crate::receiver::ReceiverPosition;
+use crate::receiver::{POINTS, ReceiverPosition};
 use crate::reference::{self, cap_crash, cap_ride, cap_splash};
 
 fn hz(plate: &PlateModes, m: u32, n: u32) -> f64 {
@@ -126,7 +126,7 @@ fn a_crash_radiates_little_below_coincidence_and_its_whole_area_above() {
     let plate = PlateModes::new(&reference::cymbal("crash").plate(), 24_000.0).unwrap();
     let (max_order, x_max) = plate.table_extent(24_000.0);
     let point = ReceiverPosition { distance: 0.5, inclination: 0.6, azimuth: 0.0 };
-    let disc = FreeDisc::new(plate.spec.radius(), [point; 2], 140);
+    let disc = FreeDisc::new(plate.spec.radius(), [point; POINTS], 140);
     let shapes = plate.radial_shapes(&PlateTables::new(max_order, x_max), disc.radii());
     let shells = plate.shells.iter().zip(shapes.chunks_exact(disc.radii().len()));
     let resistance = |(shell, radial): (&ShellMode, &[f64])| {

@@ -66,9 +66,11 @@ fn hit(speed: f64) -> Strike {
 
 /// Renders what is heard from near.
 fn render(surface: &mut Surface, out: &mut [f32]) {
-    let mut others = [[0.0; 32]; 2];
-    let [far, around] = others.each_mut().map(|row| &mut row[..out.len()]);
-    surface.render_in_air([out, far, around], None);
+    let mut rows = [[0.0; 32]; RECEIVERS];
+    let samples = out.len();
+    let mut runs = rows.each_mut().map(|row| &mut row[..samples]);
+    runs[0] = out;
+    surface.render_in_air(runs, None);
 }
 
 fn run(surface: &mut Surface, samples: usize) -> Vec<f32> {

@@ -7,6 +7,7 @@ use crate::modal::simd::Kernels;
 use crate::modal::sway::Sway;
 use crate::modal::{InputVector, ModalBody, Mode, Pressure, RECEIVERS, ReceiverWeights};
 use crate::potential::{HEADS, NonlinearForce, Potential};
+use crate::receiver::POINTS;
 use crate::shapes::ShapeTable;
 use crate::transport::{Transport, TransportSpec};
 
@@ -221,15 +222,13 @@ impl StruckBody {
         }
     }
 
-    /// Changes the transfers to the near and the far receiver; [`follow`](Self::follow) must be called after.
-    pub(super) fn set_transfers(
-        &mut self,
-        near: impl Iterator<Item = [f64; 2]>,
-        far: impl Iterator<Item = [f64; 2]>,
-    ) {
+    /// Changes the transfers to the receiver at each point; [`follow`](Self::follow) must be called after.
+    pub(super) fn set_transfers(&mut self, transfers: [impl Iterator<Item = [f64; 2]>; POINTS]) {
         let receiver = &mut self.sound.receiver;
-        receiver.transfer_mut(0).iter_mut().zip(near).for_each(|(place, transfer)| *place = transfer);
-        receiver.transfer_mut(1).iter_mut().zip(far).for_each(|(place, transfer)| *place = transfer);
+        for (at, transfers) in transfers.into_iter().enumerate() {
+            let places = receiver.transfer_mut(at).iter_mut();
+            places.zip(transfers).for_each(|(place, transfer)| *place = transfer);
+        }
         self.air.iter().for_each(|air| air.send(receiver));
     }
 

@@ -6,7 +6,7 @@
 //! The volume is that of the point source in free air with the radiation loss of the mode: a mode receives as it radiates
 //! (reciprocity). Other pieces receive the pressure of that volume's acceleration `a` at a metre, `rho a / (4 pi)`, over the same
 //! path. Coupled drums therefore only lose energy. Modes with nodal diameters, or with waves shorter than the drum, receive
-//! nothing. Others receive their far field.
+//! nothing. Others receive the far field of the first direction.
 //!
 //! Neglected: scattering by the drum (up to 6 dB where it is large against the wavelength), modes that change no volume, and the
 //! delay between both heads.

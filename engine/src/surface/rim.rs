@@ -2,6 +2,7 @@
 
 use crate::modal::simd::MAX_RUN;
 use crate::modal::{Mode, Pressure, RECEIVERS};
+use crate::receiver::POINTS;
 use crate::rim::Rim;
 
 use super::attachment::{Attachment, Site};
@@ -18,10 +19,11 @@ impl AttachedRim {
     /// A rim at rest; sample rate in Hz. Allocates.
     pub fn new(rim: Rim, sample_rate: f64) -> AttachedRim {
         let modes: Vec<Mode> = rim.modes.iter().map(|mode| mode.mode).collect();
-        let near = rim.modes.iter().map(|mode| mode.transfer).collect();
+        let near = rim.modes.iter().map(|mode| mode.transfers[0]).collect();
         let mut sound = SoundingBody::new(modes, near, sample_rate);
-        for (far, mode) in sound.receiver.transfer_mut(1).iter_mut().zip(&rim.modes) {
-            *far = mode.far_transfer;
+        for point in 1..POINTS {
+            let transfers = sound.receiver.transfer_mut(point).iter_mut();
+            transfers.zip(&rim.modes).for_each(|(transfer, mode)| *transfer = mode.transfers[point]);
         }
         sound.follow();
         AttachedRim { rim, sound }

@@ -8,6 +8,7 @@
 
 use crate::block::BLOCK;
 use crate::modal::sway::Sway;
+use crate::receiver::POINTS;
 
 use super::body::{SoundingBody, StruckBody};
 
@@ -35,11 +36,11 @@ pub trait Directivity: Send {
     /// Linear in the number of modes.
     fn work(&mut self, part: usize, parts: usize);
 
-    /// The transfers to the near and the far receiver at the tilt turned to, Pa s2/m, `[mode]`, once all work is done.
-    fn write(&self, near: &mut [[f64; 2]], far: &mut [[f64; 2]]);
+    /// The transfers to each point at the tilt turned to, Pa s2/m, `[mode]`, once all work is done.
+    fn write(&self, transfers: [&mut [[f64; 2]]; POINTS]);
 
     /// The transfers at rest, likewise.
-    fn write_rest(&self, near: &mut [[f64; 2]], far: &mut [[f64; 2]]);
+    fn write_rest(&self, transfers: [&mut [[f64; 2]]; POINTS]);
 }
 
 /// The swing of a body.
@@ -99,8 +100,7 @@ impl Swing {
             }
             Some(_) => {
                 let Swing { directivity, sway, .. } = self;
-                let [near, far] = sway.transfers_mut();
-                directivity.write(near, far);
+                directivity.write(sway.transfers_mut());
                 body.modal.aim(sway, 0..body.modal.len());
                 body.modal.set_out(sway, &mut body.receiver, CYCLE * BLOCK / STEP);
                 self.moved = true;
@@ -147,8 +147,7 @@ impl Swing {
         if !std::mem::take(&mut self.moved) {
             return false;
         }
-        let [near, far] = self.sway.transfers_mut();
-        self.directivity.write_rest(near, far);
+        self.directivity.write_rest(self.sway.transfers_mut());
         for (receiver, transfers) in self.sway.transfers_mut().into_iter().enumerate() {
             body.receiver.transfer_mut(receiver).copy_from_slice(transfers);
         }

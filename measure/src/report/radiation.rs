@@ -7,7 +7,7 @@ use anyhow::Result;
 use overhear_engine::air_load::{DENSITY, SPEED_OF_SOUND};
 use overhear_engine::plate::free_disc::{FreeDisc, Radiated};
 use overhear_engine::radiation::Radiator;
-use overhear_engine::receiver::ReceiverPosition;
+use overhear_engine::receiver::{POINTS, ReceiverPosition};
 
 use super::heads::mode_of;
 use super::page::bodies::{EQUATION, ROUND};
@@ -60,7 +60,7 @@ const RADIUS: f64 = 0.2;
 /// A rigid disc in free air, its circumference so many waves.
 fn rigid(waves: f64) -> Radiated {
     let point = ReceiverPosition { distance: 1.0, inclination: 0.3, azimuth: 0.0 };
-    let disc = FreeDisc::new(RADIUS, [point; 2], 48);
+    let disc = FreeDisc::new(RADIUS, [point; POINTS], 48);
     let radial = vec![1.0; 48];
     disc.radiate(&Radiator { m: 0, radial: &radial, omega: waves * SPEED_OF_SOUND / RADIUS }, 0.0)
 }

@@ -23,12 +23,12 @@ fn over_its_rim_a_drum_shows_modes_that_it_hardly_sends_out() {
     for name in ["kick", "snare", "rack-tom", "floor-tom"] {
         let build = reference::standard(name);
         let spec = build.spec.drum().unwrap();
-        let far = shares(spec, build.receivers.far);
+        let far = shares(spec, build.receivers.far[0]);
         let close = shares(spec, build.receivers.near);
         println!("{name}: (m, 1) over the loudest round mode, m = 1 to 4: close {close:.3?}, far {far:.4?}");
         // The more nodal diameters, the less a mode sends out, and the more the near field is all there is of it.
         assert!(far[1] > 3.0 * far[2] && far[2] > 3.0 * far[3], "{far:?}");
-        for (m, least) in [(2, 3.0), (3, 10.0), (4, 30.0)] {
+        for (m, least) in [(2, 3.0), (3, 10.0), (4, 20.0)] {
             assert!(
                 close[m - 1] > least * far[m - 1],
                 "{name} ({m}, 1): {} and {}",

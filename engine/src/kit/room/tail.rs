@@ -3,11 +3,11 @@
 //! Model: sixteen long lines (one to ten mean free ways), what is lost on them, a Hadamard matrix, sixteen short lines, the matrix
 //! again, and round. The matrix keeps energy, and what is lost on a way is as its length, so that all modes of an octave
 //! last equally long ([losses](super::losses)). The two matrices with short lines between scatter: each round makes 256 echoes of
-//! one; the sound enters at sixteen times, so that the first round has as many. All lengths are primes. The
-//! ways of all lines add up to 0.67 s or more: that many modes per hertz. Left and right hear different lines.
+//! one; the sound enters at sixteen times, so that the first round has as many; what a piece sends in each direction has lines of its
+//! own, for a reverberant field is made of all directions. All lengths are primes. The ways of all lines add up to 0.67 s or more: that many modes per hertz. Left and right hear different lines.
 //!
 //! ```text
-//! sound --> 16 taps --(+)--> H --> long lines --> losses --> H --> short lines --+--> left (even), right (odd)
+//! sounds --> 16 taps --(+)--> H --> long lines --> losses --> H --> short lines --+--> left (even), right (odd)
 //!                      ^                                                         |
 //!                      +---------------------------------------------------------+
 //! ```
@@ -30,6 +30,7 @@ use super::losses::{Losses, SHELVES};
 use crate::air_load::SPEED_OF_SOUND;
 use crate::block::{BLOCK, SILENT_RUN};
 use crate::kit_spec::room::RoomSpec;
+use crate::receiver::DIRECTIONS;
 
 /// Lines of each kind.
 const LINES: usize = 16;
@@ -63,8 +64,8 @@ type Row = [f32; LINES];
 
 /// The tail.
 pub(in crate::kit) struct Tail {
-    scatter: [Scatter; SCATTERS],
-    entry: Entry,
+    scatter: [[Scatter; SCATTERS]; DIRECTIONS],
+    entry: [Entry; DIRECTIONS],
     long: Lines,
     short: Lines,
     /// What is left after each short line.
@@ -99,8 +100,9 @@ impl Tail {
         let lines_a_side = LINES as f64 / 2.0;
         let square =
             16.0 * PI / (0.161 * room.volume()) * (6.0 * std::f64::consts::LN_10) * round / lines_a_side;
-        let scatter: [usize; SCATTERS] = SCATTER.map(|way| prime(&mut taken, unit * way));
-        let lead = scatter.iter().sum::<usize>();
+        let scatter: [[usize; SCATTERS]; DIRECTIONS] =
+            std::array::from_fn(|_| SCATTER.map(|way| prime(&mut taken, unit * way)));
+        let lead = scatter.as_flattened().iter().sum::<usize>() / DIRECTIONS;
         let feed = |(i, delay): (usize, usize)| {
             let sign = if i.count_ones() % 2 == 0 { 1.0 } else { -1.0 };
             (delay, (sign * square.sqrt() * left(lead + delay)) as f32)
@@ -114,8 +116,15 @@ impl Tail {
             (delay, (sign * (long[i] as f64 / all).sqrt() * left(delay) / SCALE) as f32)
         });
         Tail {
-            scatter: scatter.map(Scatter::new),
-            entry: Entry::new(std::array::from_fn(|i| feed((i, short[LINES - 1 - i] / 2)))),
+            scatter: scatter.map(|ways| ways.map(Scatter::new)),
+            entry: std::array::from_fn(|direction| {
+                // Pairs of neighbours by turns: left and right hear lines of both.
+                let own = |i: usize| i / 2 % DIRECTIONS == direction;
+                Entry::new(std::array::from_fn(|i| {
+                    let (delay, gain) = feed((i, short[LINES - 1 - i] / 2));
+                    (delay, if own(i) { gain } else { 0.0 })
+                }))
+            }),
             long: Lines::new(long),
             short: Lines::new(short),
             short_gains: short.map(|length| left(length) as f32),
@@ -130,13 +139,13 @@ impl Tail {
         self.silent
     }
 
-    /// Adds the tail of a sound of up to [`BLOCK`] samples to the left and right output.
-    pub(in crate::kit) fn render(&mut self, sound: &[f32], [left, right]: [&mut [f32]; 2]) {
-        if self.silent && sound.iter().all(|&x| x == 0.0) {
+    /// Adds the tail of what was sent in each direction, up to [`BLOCK`] samples of one length, to the left and right output.
+    pub(in crate::kit) fn render(&mut self, sent: [&[f32]; DIRECTIONS], [left, right]: [&mut [f32]; 2]) {
+        if self.silent && sent.iter().all(|sound| sound.iter().all(|&x| x == 0.0)) {
             return;
         }
         self.silent = false;
-        let samples = sound.len();
+        let samples = sent[0].len();
         let (mut near, mut far) = ([SILENT_RUN; LINES], [SILENT_RUN; LINES]);
         self.short.read(&mut near, samples);
         self.long.read(&mut far, samples);
@@ -149,10 +158,12 @@ impl Tail {
         self.weakening.render(&mut far, samples);
         hadamard(&mut far);
         self.short.write(&far, samples);
-        let mut scattered = SILENT_RUN;
-        scattered[..samples].copy_from_slice(sound);
-        self.scatter.iter_mut().for_each(|scatter| scatter.render(&mut scattered[..samples]));
-        self.entry.add(&scattered[..samples], &mut near);
+        for ((scatter, entry), sound) in self.scatter.iter_mut().zip(&mut self.entry).zip(sent) {
+            let mut scattered = SILENT_RUN;
+            scattered[..samples].copy_from_slice(sound);
+            scatter.iter_mut().for_each(|scatter| scatter.render(&mut scattered[..samples]));
+            entry.add(&scattered[..samples], &mut near);
+        }
         hadamard(&mut near);
         self.long.write(&near, samples);
     }
@@ -163,8 +174,12 @@ impl Tail {
             return;
         }
         // All passes fade faster than the rest: they end before their numbers become too small to be fast.
-        self.scatter.iter_mut().filter(|scatter| scatter.is_quiet()).for_each(Scatter::reset);
-        if self.entry.is_quiet()
+        self.scatter
+            .as_flattened_mut()
+            .iter_mut()
+            .filter(|scatter| scatter.is_quiet())
+            .for_each(Scatter::reset);
+        if self.entry.iter().all(Entry::is_quiet)
             && self.short.are_quiet(SILENCE)
             && self.long.are_quiet(SCALE as f32 * SILENCE)
         {
@@ -174,8 +189,8 @@ impl Tail {
 
     /// Silence.
     pub(in crate::kit) fn reset(&mut self) {
-        self.scatter.iter_mut().for_each(Scatter::reset);
-        self.entry.reset();
+        self.scatter.as_flattened_mut().iter_mut().for_each(Scatter::reset);
+        self.entry.iter_mut().for_each(Entry::reset);
         self.long.reset();
         self.short.reset();
         self.weakening.reset();

@@ -4,6 +4,7 @@ use pulp::Simd;
 
 use super::dispatch::{Kernel, Kernels, LANES};
 use super::primitives::turn;
+use crate::receiver::POINTS;
 
 /// Longest run of [`Kernels::ring`], samples.
 pub const MAX_RUN: usize = 32;
@@ -36,12 +37,9 @@ pub struct Ring<'a> {
     pub heard: [PressureSum<'a>; RECEIVERS],
 }
 
-/// Receivers of a body: a near and a far one that take all modes, and one that takes the first modes only, as many as it has
-/// weights.
-pub const RECEIVERS: usize = 3;
-
-/// Receivers that take all modes.
-const FULL: usize = 2;
+/// Receivers of a body: those at its [points](POINTS), which take all modes, and one that takes the first modes only, as many as it
+/// has weights.
+pub const RECEIVERS: usize = POINTS + 1;
 
 /// Zeros at the end of a row that is shorter than others: the largest number of modes that are advanced together.
 pub const REST: usize = GROUPS * LANES;
@@ -156,9 +154,9 @@ fn ring_some<S: Simd, const G: usize>(
     match (moves || driven, driven, rows.reach_all(first + G)) {
         (false, ..) => {}
         (_, false, true) => ring_groups::<S, G, RECEIVERS, false>(simd, fma, first, (re, im), rows, sums),
-        (_, false, false) => ring_groups::<S, G, FULL, false>(simd, fma, first, (re, im), rows, sums),
+        (_, false, false) => ring_groups::<S, G, POINTS, false>(simd, fma, first, (re, im), rows, sums),
         (_, true, true) => ring_groups::<S, G, RECEIVERS, true>(simd, fma, first, (re, im), rows, sums),
-        (_, true, false) => ring_groups::<S, G, FULL, true>(simd, fma, first, (re, im), rows, sums),
+        (_, true, false) => ring_groups::<S, G, POINTS, true>(simd, fma, first, (re, im), rows, sums),
     }
 }
 

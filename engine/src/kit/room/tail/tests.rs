@@ -14,7 +14,7 @@ fn impulse(room: &RoomSpec, rate: f64, seconds: f64) -> [Vec<f64>; 2] {
         sound[0] = f32::from(u8::from(response[0].is_empty()));
         let mut sides = [SILENT_RUN; 2];
         let [left, right] = &mut sides;
-        tail.render(&sound, [left, right]);
+        tail.render([&sound; 2], [left, right]);
         for (response, side) in response.iter_mut().zip(sides) {
             response.extend(side.map(f64::from));
         }
@@ -226,14 +226,14 @@ fn the_tail_is_the_same_however_time_is_cut_and_ends_in_exact_silence() {
                 (at..at + samples).map(|i| if i < 500 { (i as f32).sin() } else { 0.0 }).collect();
             let mut sides = [SILENT_RUN; 2];
             let [left, right] = &mut sides;
-            tail.render(&sound, [&mut left[..samples], &mut right[..samples]]);
+            tail.render([&sound; 2], [&mut left[..samples], &mut right[..samples]]);
             response.extend_from_slice(&sides[0][..samples]);
         }
         response.truncate(40_000);
         // Silent some time later, and then exactly.
         let mut blocks = 0;
         while !tail.is_silent() {
-            tail.render(&SILENT_RUN, [&mut SILENT_RUN.clone(), &mut SILENT_RUN.clone()]);
+            tail.render([&SILENT_RUN; 2], [&mut SILENT_RUN.clone(), &mut SILENT_RUN.clone()]);
             tail.settle();
             blocks += 1;
             assert!(blocks < 2_000);
