@@ -98,7 +98,8 @@ fn play(document: &KitDocument, chance: &mut Chance) -> Result<f32, String> {
         render(&mut kit, 0.05)?;
         waited += 0.05;
         if waited > ASLEEP_WITHIN {
-            let awake = Slot::ALL.into_iter().filter(|&slot| kit.piece(slot).is_some_and(|it| !it.is_asleep()));
+            let awake =
+                Slot::ALL.into_iter().filter(|&slot| kit.piece(slot).is_some_and(|it| !it.is_asleep()));
             return Err(format!("{:?} are awake after {waited:.0} s", awake.collect::<Vec<_>>()));
         }
     }
