@@ -1,8 +1,8 @@
 //! Random kits from the accepted ranges: each can be built, plays, gains no energy, falls asleep, and is read back to the bit
 //! from what a project stores.
 //!
-//! Every run draws other kits and prints its seed; `OVERHEAR_SEED` repeats one, `OVERHEAR_SWEEP` says how many kits are drawn:
-//! `OVERHEAR_SWEEP=1000 cargo test --release -p overhear-tests --test random_kits`.
+//! Every run draws other kits and prints its seed. `OVERHEAR_SEED` repeats a run, `OVERHEAR_SWEEP` says how many kits are drawn,
+//! `OVERHEAR_KIT` which one is played alone: `OVERHEAR_SWEEP=1000 cargo test -p overhear-tests --test random_kits`.
 
 use overhear::kit_document::KitDocument;
 use overhear::kit_file;
@@ -117,37 +117,45 @@ fn reopen(document: &KitDocument) -> Result<usize, String> {
     Ok(text.len())
 }
 
-/// How many kits: as asked for, else a few.
-fn asked() -> usize {
-    let number = std::env::var("OVERHEAR_SWEEP").ok();
-    number.map_or(KITS, |text| text.parse().expect("OVERHEAR_SWEEP is a number"))
+/// The number of an environment variable.
+fn asked(variable: &str) -> Option<usize> {
+    let number = std::env::var(variable).ok();
+    number.map(|text| text.parse().unwrap_or_else(|_| panic!("{variable} is a number")))
+}
+
+/// What is wrong with a kit, or how long its text is.
+fn fault(document: &KitDocument, chance: &mut Chance) -> Result<usize, String> {
+    let length = reopen(document)?;
+    let played = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| play(document, chance)));
+    played.unwrap_or_else(|_| Err("it panicked".to_owned())).map(|_| length)
 }
 
 #[test]
 fn random_kits_can_be_built_played_and_stored() {
     let seed = *Chance::seeds(&[]).last().expect("a seed");
-    let (kits, mut pieces, mut largest, mut faults) = (asked(), 0, 0, Vec::new());
-    for number in 0..kits {
+    let kits = asked("OVERHEAR_KIT").map_or(0..asked("OVERHEAR_SWEEP").unwrap_or(KITS), |kit| kit..kit + 1);
+    let (mut pieces, mut largest, mut faults) = (0, 0, Vec::new());
+    for number in kits.clone() {
         // A sequence of its own for every kit, so that one can be repeated without those before it.
         let mut chance = Chance::new(seed.wrapping_mul(1_000_003).wrapping_add(number as u64));
         // Most are small; every size comes.
         let count = 1 + (SLOTS as f64 * chance.unit().powi(3)) as usize;
         let document = random::kit(&mut chance, count.min(SLOTS));
         pieces += document.kit.pieces.len();
-        match reopen(&document) {
+        match fault(&document, &mut chance) {
             Ok(length) => largest = largest.max(length),
-            Err(fault) => faults.push(format!("kit {number}: {fault}")),
+            Err(fault) => {
+                println!("OVERHEAR_SEED={seed} OVERHEAR_KIT={number}: {fault}");
+                if kits.len() == 1 {
+                    println!("{document:#?}");
+                }
+                faults.push(number);
+            }
         }
-        let played = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| play(&document, &mut chance)));
-        match played {
-            Ok(Ok(_)) => {}
-            Ok(Err(fault)) => faults.push(format!("kit {number}: {fault}")),
-            Err(_) => faults.push(format!("kit {number}: panicked")),
-        }
-        if kits > 100 && number % 50 == 49 {
+        if number % 100 == 99 {
             println!("{} kits, {} faults", number + 1, faults.len());
         }
     }
-    println!("{kits} kits of {pieces} pieces, texts of up to {largest} bytes, seed {seed}");
-    assert!(faults.is_empty(), "OVERHEAR_SEED={seed}:\n{}", faults.join("\n"));
+    println!("{} kits of {pieces} pieces, texts of up to {largest} bytes", kits.len());
+    assert!(faults.is_empty(), "OVERHEAR_SEED={seed}, kits {faults:?}");
 }

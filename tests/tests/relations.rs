@@ -151,8 +151,8 @@ fn a_thin_film_rings_shorter_than_a_thick_one() {
     rises("length, s", &heads.each_ref().map(Heard::length), 0.04);
 }
 
-/// A pillow or a blanket takes the ring and leaves the attack: any manual of a kick's muffling, such as drummagazine.com on
-/// drumhead designs.
+/// A pillow takes ring and boom and leaves a punch: drumbeatsonline.com/blog/bass-drum-dampening-how-to-control-your-kick-drum-sound;
+/// musicalinstrumentworld.com/archives/16175.
 #[test]
 fn a_muffled_kick_is_shorter_and_more_attack() {
     let kicks = [0.0, 0.5, 1.0].map(|muffle| {
