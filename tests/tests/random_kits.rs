@@ -79,8 +79,12 @@ fn play(document: &KitDocument, chance: &mut Chance) -> Result<f32, String> {
         loudest = loudest.max(render(&mut kit, PLAYED / document.kit.pieces.len() as f64)?);
         let [there, brought] = balance(&kit);
         if there - at_rest > brought * (1.0 + 1e-4) + 1e-9 {
-            let name = &document.kit.pieces[slot.index()].name;
-            return Err(format!("{there} J of {brought} J after {strike:?} on {name}, {at_rest} at rest"));
+            let each = document.kit.slots().filter_map(|(slot, piece)| {
+                let kept = kit.piece(slot)?;
+                Some(format!("{} {:.3e} of {:.3e}", piece.name, total_energy(kept), kept.brought_energy()))
+            });
+            let each = each.collect::<Vec<_>>().join(", ");
+            return Err(format!("{there} J of {brought} J after {strike:?} in {slot:?}: {each}"));
         }
     }
     if loudest == 0.0 {
