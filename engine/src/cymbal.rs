@@ -7,6 +7,7 @@
 
 use std::f64::consts::{FRAC_2_PI, TAU};
 
+pub mod alloy;
 pub mod assembly;
 pub mod hammering;
 pub mod hand;
@@ -28,6 +29,7 @@ use crate::mode::{ModeInfo, ModeKind};
 use crate::plate::ShellMode;
 use crate::surface::Surface;
 
+pub use alloy::Alloy;
 use assembly::{CymbalPlate, Ordered, RigidMotion};
 use modes::CymbalModes;
 pub use spec::{CymbalSpec, Stand};

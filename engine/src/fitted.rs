@@ -115,7 +115,7 @@ fitted! {
     // Cymbals.
     BRONZE_LOSS = 0.55, "1/s", "pieces.crash.loss.constant_1_s";
         to "recorded decays of crashes, rides and splashes at 500 Hz"; tried "not recorded"; moves "every cymbal's length";
-    BRONZE_LOSS_PER_KHZ = 0.13, "1/s", "pieces.crash.loss.per_khz_1_s";
+    BRONZE_LOSS_FACTOR = 4.14e-5, "1", "pieces.crash.alloy.loss_factor";
         to "recorded decays of crashes, rides and splashes at 8 kHz"; tried "not recorded"; moves "every cymbal's highs";
     CRASH_BOW = 0.020, "m", "pieces.crash.bow_m";
         to "recorded crashes, within trade sizes: cymbals of 16 in stand 4 to 5 cm high, bell included";

@@ -324,7 +324,8 @@ fn assemble(
     let lossless = ideal.lossless;
     let mut surface = struck.into_surface(&spec.top, &top.cymbal, context);
     let tip = Tip::Solid { material: spec.rim, radius: spec.edge };
-    let law = ContactLaw::new(&tip, &spec.bottom.alloy, if lossless { 1.0 } else { spec.restitution });
+    let law =
+        ContactLaw::new(&tip, &spec.bottom.alloy.material(), if lossless { 1.0 } else { spec.restitution });
     let heights = spec.warp.heights();
     let leaning = spec.top.plate().radius() * spec.tilt;
     let dt = 1.0 / options.sample_rate;

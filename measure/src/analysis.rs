@@ -9,6 +9,7 @@ pub mod envelope;
 pub mod glide;
 pub mod level;
 pub mod lines;
+pub mod loudness;
 pub mod one_shot;
 pub mod partials;
 
@@ -16,4 +17,5 @@ pub use decay::{OCTAVES, broadband_decays, octave_decays};
 pub use glide::{Motion, glide_cents};
 pub use level::{mean, peak, rms, to_dbfs};
 pub use lines::line_share;
+pub use loudness::loudness_lufs;
 pub use one_shot::OneShot;

@@ -45,7 +45,7 @@ use std::io::Read as _;
 use std::path::Path;
 
 use overhear_engine::error::SpecError;
-use overhear_engine::kit_spec::KitSpec;
+use overhear_engine::kit_spec::{Defaults, KitSpec, PieceSpec};
 use toml::de::DeTable;
 use toml::{Table, Value};
 
@@ -147,7 +147,7 @@ fn document(Source { table, origins }: Source) -> Result<KitDocument, Fault> {
         .drafts()?;
     let mut pieces =
         drafts.iter().map(|draft| pieces::read(draft, &origins)).collect::<Result<Vec<_>, _>>()?;
-    let level_db = level(&table, &origins)?;
+    let level_db = level(&table, &pieces, &origins)?;
     pieces.iter_mut().for_each(|piece| piece.defaults.level_db += level_db);
     let kit = KitSpec {
         pieces,
@@ -185,12 +185,25 @@ fn head(table: &Table, origins: &Origins) -> Result<Option<KitDocument>, Fault> 
     }
 }
 
-/// What the file adds to the level of every piece, dB.
-fn level(table: &Table, origins: &Origins) -> Result<f64, Fault> {
+/// What the file adds to the level of every piece, dB: as much as leaves each within its own range.
+fn level(table: &Table, pieces: &[PieceSpec], origins: &Origins) -> Result<f64, Fault> {
     let Some(value) = table.get("level_db") else { return Ok(0.0) };
     let level_db: f64 = typed::read(value, "level_db", &[], origins)?;
-    SpecError::check("level_db", level_db, *LEVEL_DB.start(), *LEVEL_DB.end())
-        .map_err(|error| Fault::of_spec(&error, origins))?;
+    let refused = |error: SpecError| Fault::of_spec(&error, origins);
+    SpecError::check("level_db", level_db, *LEVEL_DB.start(), *LEVEL_DB.end()).map_err(refused)?;
+    let beyond = |piece: &&PieceSpec| {
+        let own = piece.defaults.level_db;
+        Defaults::LEVEL_DB.contains(&own) && !Defaults::LEVEL_DB.contains(&(own + level_db))
+    };
+    if let Some(piece) = pieces.iter().find(beyond) {
+        let (name, own) = (&piece.name, piece.defaults.level_db);
+        let [least, most] = [Defaults::LEVEL_DB.start() - own, Defaults::LEVEL_DB.end() - own];
+        let reason = format!(
+            "is {level_db}, which puts `{name}` at {} dB, accepted with it: {least} to {most}",
+            own + level_db
+        );
+        return Err(Fault::of("level_db", origins, &reason));
+    }
     Ok(level_db)
 }
 

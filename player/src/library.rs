@@ -3,6 +3,8 @@
 //! They are kit files (`player/library/kits`) and files of single pieces (`player/library/pieces`), which take heads, shells, hoops,
 //! alloys and wires from lists of parts (`player/library/parts`). A kit file takes an instrument over with `like`; see [`kit_file`].
 
+use std::sync::OnceLock;
+
 use overhear_engine::kit_spec::{KitSpec, PieceSpec};
 use toml::Table;
 
@@ -36,22 +38,26 @@ fn field(file: &Table, key: &str) -> String {
     file.get(key).and_then(toml::Value::as_str).unwrap_or_default().to_owned()
 }
 
-/// Every instrument, in the order of families.
+/// Every instrument, in the order of families; read from their files the first time.
 pub fn instruments() -> impl Iterator<Item = Instrument> {
-    let [instruments, _] = kit_file::library();
-    instruments.iter().map(|&(name, text)| {
+    static READ: OnceLock<Vec<Instrument>> = OnceLock::new();
+    let read = |&(name, text): &(&'static str, &str)| {
         let file: Table = text.parse().unwrap_or_default();
         Instrument { name, family: field(&file, "family"), about: field(&file, "about") }
-    })
+    };
+    let [instruments, _] = kit_file::library();
+    READ.get_or_init(|| instruments.iter().map(read).collect()).iter().cloned()
 }
 
-/// Every whole kit.
+/// Every whole kit; read from their files the first time.
 pub fn kits() -> impl Iterator<Item = WholeKit> {
-    let [_, kits] = kit_file::library();
-    kits.iter().map(|&(name, text)| {
+    static READ: OnceLock<Vec<WholeKit>> = OnceLock::new();
+    let read = |&(name, text): &(&'static str, &'static str)| {
         let file: Table = text.parse().unwrap_or_default();
         WholeKit { name, about: field(&file, "about"), text }
-    })
+    };
+    let [_, kits] = kit_file::library();
+    READ.get_or_init(|| kits.iter().map(read).collect()).iter().cloned()
 }
 
 /// The instrument of a name.

@@ -29,6 +29,9 @@ enum Task {
         /// Instead play half a minute with every preset, into demo-presets
         #[arg(long)]
         all_presets: bool,
+        /// Instead play the groove on every whole kit of the library, into demo-kits
+        #[arg(long, conflicts_with = "all_presets")]
+        all_kits: bool,
     },
     /// Run every check, including tests in hosts
     Test {
@@ -103,10 +106,11 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 
 fn dispatch(task: Task) -> Result<()> {
     match task {
-        Task::Demo { all_presets: true } => {
+        Task::Demo { all_presets: true, .. } => {
             demo::presets::run(&std::env::current_dir()?.join("demo-presets"))
         }
-        Task::Demo { all_presets: false } => demo::run(&std::env::current_dir()?),
+        Task::Demo { all_kits: true, .. } => demo::kits::run(&std::env::current_dir()?.join("demo-kits")),
+        Task::Demo { .. } => demo::run(&std::env::current_dir()?),
         Task::Test { ardour: true, .. } => suite::run_ardour(),
         Task::Test { quick: true, .. } => suite::run_quick(),
         Task::Test { .. } => suite::run(),

@@ -4,6 +4,7 @@
 //! `assets/groove.mid` through it at 48 kHz, writes `demo.wav` and `demo.png`, prints the level of each
 //! piece at each microphone and the cost, and takes pictures of the editor if the requirements are met.
 
+pub mod kits;
 mod levels;
 pub mod presets;
 

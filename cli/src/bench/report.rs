@@ -240,6 +240,7 @@ impl fmt::Display for Report {
             build_from_disk_s,
             build_warm_s,
             build_cpu_s,
+            reopen_16_s,
             memory_mb,
             limit,
         } = self.builds;
@@ -249,6 +250,7 @@ impl fmt::Display for Report {
         {
             writeln!(f, "{:<20} {seconds:>7.3} s {cpu_s:>9.3} s of all processors", format!("build {from}"))?;
         }
+        writeln!(f, "{:<20} {reopen_16_s:>7.3} s", "reopen 16 pieces")?;
         writeln!(f, "an instance without pieces {:.1} ms; memory {memory_mb:.0} MB", 1e3 * instance_s)?;
         if let Some(Limit { multiply_adds_per_s, modes, ringing_share }) = limit {
             writeln!(

@@ -43,6 +43,8 @@ pub struct Builds {
     pub build_warm_s: f64,
     /// CPU seconds of all processors for these three, in their order: what other work on the machine adds least to.
     pub build_cpu_s: [f64; 3],
+    /// A kit that fills every slot, read from a project's text and built, all in the cache folder, s.
+    pub reopen_16_s: f64,
     /// Memory of the process after the first, in MB.
     pub memory_mb: f64,
     /// The machine's limit, and the demand of a ringing kit.

@@ -217,8 +217,9 @@ impl<'a> CymbalPlate<'a> {
             ShapeTable::new(&radial_rows(rigid, plate, &self.tables), rows.index).with_mixture(mixture);
         let mut modes = CymbalModes {
             modes: rows.modes,
+            alloy: self.spec.alloy,
+            heat: Thermoelastic::new(&self.spec.plate(), &self.spec.alloy.heat()),
             loss: self.spec.loss,
-            heat: Thermoelastic::bronze(&self.spec.plate()),
             mass: self.spec.mass,
         };
         modes.damp(&self.spec.muffler, &shapes);
@@ -384,7 +385,7 @@ impl PlateShapes {
             modes: (0..built.modes.len()).map(|k| built.bare(k, 1.0)).collect(),
             shapes: self.shapes,
             transfer: vec![[0.0; 2]; built.modes.len()],
-            material: spec.alloy,
+            material: spec.alloy.material(),
             lossless: ideal.lossless,
             sample_rate: options.sample_rate,
         });

@@ -5,6 +5,7 @@ use crate::modal::Mode;
 use crate::mode::{Member, ModeKind};
 use crate::shapes::ShapeTable;
 
+use super::alloy::Alloy;
 use super::hand::Hand;
 
 /// One mode of the body, as built.
@@ -36,10 +37,12 @@ pub struct BuiltMode {
 pub struct CymbalModes {
     /// `[mode]`.
     pub modes: Vec<BuiltMode>,
-    /// Losses in the metal beside those by heat.
-    pub loss: LossLaw,
-    /// Those by heat.
+    /// The metal, which loses by internal friction.
+    pub alloy: Alloy,
+    /// What it loses by heat.
     pub heat: Thermoelastic,
+    /// All other losses inside.
+    pub loss: LossLaw,
     /// Of the plate, kg.
     pub mass: f64,
 }
@@ -60,7 +63,10 @@ impl CymbalModes {
         let built = &self.modes[k];
         match built.kind {
             ModeKind::Rigid => built.mounted,
-            _ => self.loss.sigma(omega) + self.heat.sigma(omega) + built.radiated + built.mounted,
+            _ => {
+                let inside = self.loss.sigma(omega) + self.alloy.friction(omega) + self.heat.sigma(omega);
+                inside + built.radiated + built.mounted
+            }
         }
     }
 

@@ -4,13 +4,13 @@ use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
-use crate::contact::Material;
 use crate::damping::{LossLaw, Muffler};
 use crate::error::SpecError;
 use crate::numbers::{self, Numbers, Visitor};
 use crate::plate::{Bell, Flange, PlateSpec};
 use crate::split::Splitting;
 
+use super::alloy::Alloy;
 use super::hammering::HammeringSpec;
 
 /// A cymbal's description.
@@ -35,8 +35,8 @@ pub struct CymbalSpec {
     /// Thickness at the rim over that in the middle, 0.3 to 1 (as thick everywhere).
     pub taper: f64,
     /// What it is made of.
-    pub alloy: Material,
-    /// Losses in the metal beside those by heat.
+    pub alloy: Alloy,
+    /// Losses beside those of the alloy: by heat and by internal friction.
     pub loss: LossLaw,
     /// What holds it; none of a hi-hat's cymbal, which its mount holds.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -76,11 +76,7 @@ impl Numbers for Stand {
 impl Numbers for CymbalSpec {
     fn visit(&mut self, visitor: &mut dyn Visitor) {
         visitor.number("diameter_m", &mut self.diameter, 0.1..=0.8);
-        visitor.enter("alloy");
-        visitor.number("youngs_modulus_pa", &mut self.alloy.youngs_modulus, 1e9..=1e12);
-        visitor.number("poisson_ratio", &mut self.alloy.poisson_ratio, 0.0..=0.49);
-        visitor.number("density_kg_m3", &mut self.alloy.density, 500.0..=25_000.0);
-        visitor.leave();
+        self.alloy.visit_part("alloy", visitor);
         // Within 20 kg, what a plate of this metal weighs that is as thin or as thick as is accepted.
         let face = self.alloy.density * PI * (0.5 * self.diameter).powi(2);
         let (lightest, heaviest) = (face * PlateSpec::THINNEST, face * PlateSpec::THICKEST * self.diameter);

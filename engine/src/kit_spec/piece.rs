@@ -1,5 +1,7 @@
 //! A piece of a kit as a document: what it is, where it stands, how its controls stand.
 
+use std::ops::RangeInclusive;
+
 use serde::{Deserialize, Serialize};
 
 use crate::build_context::Idealization;
@@ -135,10 +137,15 @@ impl Numbers for InstrumentSpec {
     }
 }
 
+impl Defaults {
+    /// Accepted levels, dB.
+    pub const LEVEL_DB: RangeInclusive<f64> = -60.0..=12.0;
+}
+
 impl Numbers for Defaults {
     fn visit(&mut self, visitor: &mut dyn Visitor) {
         visitor.number("muffle", &mut self.muffle, 0.0..=1.0);
-        visitor.number("level_db", &mut self.level_db, -60.0..=12.0);
+        visitor.number("level_db", &mut self.level_db, Defaults::LEVEL_DB);
         visitor.number("pan", &mut self.pan, -1.0..=1.0);
         if let Some(preload) = &mut self.preload {
             visitor.number("preload_n", preload, wires::PRELOAD);

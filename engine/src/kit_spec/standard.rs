@@ -7,6 +7,7 @@ use std::f64::consts::{PI, TAU};
 use crate::build_context::Idealization;
 use crate::contact::Material;
 use crate::cymbal::FELT_RADIUS;
+use crate::cymbal::alloy::Alloy;
 use crate::cymbal::hammering::HammeringSpec;
 use crate::cymbal::spec::{CymbalSpec, Stand};
 use crate::damping::{EdgeSpec, LossLaw, Muffler};
@@ -347,7 +348,7 @@ fn bronze(diameter_in: f64, mass: f64, bow: f64, (radius, rise): (f64, f64)) -> 
         bell: Some(Bell { radius, rise }),
         flange: None,
         taper: fitted::CYMBAL_TAPER,
-        alloy: Material::BRONZE,
+        alloy: Alloy::BRONZE,
         loss: LossLaw::BRONZE,
         stand: Some(stand(inches(diameter_in) / 2.0, bow + rise)),
         // A strip of tape near the edge. *By ear*.

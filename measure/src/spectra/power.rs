@@ -46,6 +46,14 @@ impl PowerSpectrum {
         (top as f64 + offset) * self.bin_hz
     }
 
+    /// Mean of the frequencies between two (Hz) weighted by their power, Hz; nothing of silence.
+    pub fn centroid(&self, low: f64, high: f64) -> Option<f64> {
+        let bins = (low / self.bin_hz).ceil() as usize..(high / self.bin_hz).ceil() as usize;
+        let moment: f64 = bins.clone().map(|bin| bin as f64 * self.bin_hz * self.power[bin]).sum();
+        let whole: f64 = self.power[bins].iter().sum();
+        (whole > 0.0).then(|| moment / whole)
+    }
+
     /// Power between two frequencies, Hz.
     pub fn band(&self, low: f64, high: f64) -> f64 {
         let bins = (low / self.bin_hz).ceil() as usize..(high / self.bin_hz).ceil() as usize;

@@ -40,10 +40,11 @@ pub(super) struct Missing {
     pub(super) reason: String,
 }
 
-/// The file of an instrument.
-pub(super) fn file(name: &str) -> Option<Table> {
-    let text = INSTRUMENTS.iter().find(|(own, _)| *own == name)?.1;
-    Some(Source::parse(text).ok()?.table)
+/// The file of an instrument. All are read at once, the first time.
+pub(super) fn file(name: &str) -> Option<&'static Table> {
+    static FILES: OnceLock<BTreeMap<&'static str, Table>> = OnceLock::new();
+    let read = |(name, text): &(&'static str, &str)| Some((*name, Source::parse(text).ok()?.table));
+    FILES.get_or_init(|| INSTRUMENTS.iter().filter_map(read).collect()).get(name)
 }
 
 /// The piece or the instrument that an instrument is like.
@@ -53,7 +54,7 @@ pub(super) fn likeness(name: &str) -> Option<String> {
 
 /// All fields of an instrument, those that say where it stands included.
 pub(super) fn fields(name: &str) -> Option<Table> {
-    let Some(Value::Table(mut own)) = file(name)?.remove("piece") else { return None };
+    let mut own = file(name)?.get("piece")?.as_table()?.clone();
     let mut fields = match own.remove("like") {
         Some(Value::String(other)) => {
             let standard = KitSpec::standard();

@@ -100,3 +100,43 @@ fn assignments_are_stored_and_broken_ones_left_out() {
     assert_eq!(notes("38=49 x 300=38 41=loud 40=silent =  200=38"), changed);
     assert!(notes("").is_empty());
 }
+
+/// What a host keeps of a kit of sixteen of these pieces: all parameters and fields as the shell writes them, bytes.
+fn stored_size(piece: &str) -> usize {
+    let others = "kick snare rack-tom floor-tom crash ride splash hi-hat timpani".split(' ');
+    let mut text = format!("format = 1\nremove = {:?}\n", others.collect::<Vec<_>>());
+    for number in 1..=16 {
+        text += &format!(
+            "[pieces.a-name-of-24-letters-{number:02}]\nlike = \"{piece}\"\nplace.centre_m = [{}.123456789, 0.7, {}.987654321]\n",
+            number % 4,
+            number / 4,
+        );
+        text += &format!("notes = [{}, {}, {}, {}]\n", number, 20 + number, 40 + number, 60 + number);
+    }
+    let document = crate::kit_file::read("sixteen", &text).unwrap_or_else(|error| panic!("{error}"));
+    let mut state = with_kit(&kit_text(&document).unwrap());
+    for value in state.values.values_mut() {
+        if let StoredValue::Number(value) = value {
+            *value += 0.123_456_7;
+        }
+    }
+    let values: BTreeMap<_, _> = state
+        .values
+        .iter()
+        .map(|(id, value)| match value {
+            StoredValue::Number(value) => (id, serde_json::json!({ "f32": value })),
+            other => (id, serde_json::json!({ "bool": *other == StoredValue::Switch(true) })),
+        })
+        .collect();
+    let json = serde_json::json!({ "version": "0.1.0", "params": values, "fields": state.fields });
+    json.to_string().len()
+}
+
+#[test]
+fn a_state_of_sixteen_pieces_is_smaller_than_64_kilobytes() {
+    for piece in ["snare-14-standard", "hats-14", "crash-16", "kick-22x18"] {
+        let size = stored_size(piece);
+        println!("16 of {piece}: {size} bytes");
+        assert!(size < 64_000, "16 of {piece}: {size} bytes");
+    }
+}

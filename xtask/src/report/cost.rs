@@ -83,6 +83,7 @@ pub fn page() -> Result<Page> {
         ("build of the kit, cold", "build_cold_s", 1.0, "s"),
         ("build from the cache folder", "build_from_disk_s", 0.1, "s"),
         ("build from memory", "build_warm_s", 0.1, "s"),
+        ("a kit of 16 pieces reopened from its text and the cache folder", "reopen_16_s", 0.3, "s"),
         ("an instance without pieces, as a host's scan makes", "instance_s", 0.05, "s"),
         ("memory with a kit built", "memory_mb", 150.0, "MB"),
     ] {

@@ -313,3 +313,18 @@ fn files_that_are_none_are_refused() {
     assert!(missing.contains("missing.toml: cannot be read: "), "{missing}");
     std::fs::remove_dir_all(&folder).unwrap();
 }
+
+#[test]
+fn a_level_of_the_whole_kit_that_is_too_much_for_a_piece_is_told_at_its_line() {
+    let piece = "[pieces.snare]\ndefaults.level_db = 8";
+    assert_eq!(
+        error(&format!("format = 1\n\nlevel_db = 6\n{piece}")),
+        "3: level_db is 6, which puts `snare` at 14 dB, accepted with it: -68 to 4"
+    );
+    assert!(error("format = 1\nlevel_db = 21").starts_with("2: level_db is 21, accepted: -40 to 20"));
+    // What is wrong without it is told where it stands.
+    let wrong = "[pieces.snare]\ndefaults.level_db = 13";
+    assert!(
+        error(&format!("format = 1\nlevel_db = 1\n{wrong}")).starts_with("4: pieces.snare.defaults.level_db")
+    );
+}
