@@ -40,7 +40,13 @@ impl KitSpec {
     pub fn standard() -> KitSpec {
         KitSpec {
             pieces: vec![
-                piece("kick", "Kick", kick(), ([0.0, 0.30, -0.23], [0.0, 0.0, -1.0]), (0.15, 0.0, 0.0)),
+                at_a_kick(piece(
+                    "kick",
+                    "Kick",
+                    kick(),
+                    ([0.0, 0.30, -0.23], [0.0, 0.0, -1.0]),
+                    (0.15, 0.0, 0.0),
+                )),
                 PieceSpec {
                     // *Fitted*.
                     defaults: Defaults {
@@ -150,6 +156,16 @@ fn piece(
         defaults: Defaults { muffle, level_db, pan, preload: None },
         ideal: Idealization::NONE,
     }
+}
+
+/// The piece, its close microphone as far from the head as those of kicks stand.
+fn at_a_kick(piece: PieceSpec) -> PieceSpec {
+    let close = CloseSpec::OverRim {
+        height: fitted::KICK_CLOSE_HEIGHT,
+        azimuth: fitted::OVER_RIM_AZIMUTH,
+        gain: fitted::KICK_CLOSE_GAIN,
+    };
+    PieceSpec { close, ..piece }
 }
 
 /// Modes of a struck head reach this far; above, single modes can no longer be told apart. Hz.
