@@ -64,7 +64,7 @@ const APART: f64 = 0.35;
 /// sources. None was found of a kick.
 const RECORDED: [(u8, Option<[f64; 2]>); 9] = [
     (36, None),
-    (38, Some([0.85, 0.045])),
+    (38, Some([0.84, 0.038])),
     (48, Some([0.31, 0.026])),
     (43, Some([0.62, 0.071])),
     (42, Some([1.16, 0.026])),
