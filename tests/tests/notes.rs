@@ -60,6 +60,20 @@ fn the_sound_of_a_note_begins_at_its_sample_at_every_buffer_size() {
 const REPEATED: usize = 32;
 const APART: f64 = 0.35;
 
+/// Notes, and how recordings scatter that repeat such a stroke: level, dB, and centroid, octaves. `docs/playing.md` has their
+/// sources. None was found of a kick.
+const RECORDED: [(u8, Option<[f64; 2]>); 9] = [
+    (36, None),
+    (38, Some([0.84, 0.038])),
+    (48, Some([0.31, 0.026])),
+    (43, Some([0.62, 0.071])),
+    (42, Some([1.16, 0.026])),
+    (46, Some([1.10, 0.142])),
+    (49, Some([0.57, 0.112])),
+    (51, Some([0.43, 0.059])),
+    (55, Some([0.84, 0.163])),
+];
+
 /// Mean deviation from the mean.
 fn scatter(values: &[f64]) -> f64 {
     let mean = values.iter().sum::<f64>() / values.len() as f64;
@@ -94,16 +108,23 @@ fn repeated(document: &KitDocument, note: u8) -> Vec<[f64; 2]> {
 #[test]
 fn thirty_two_equal_notes_differ_as_strokes_of_a_hand_do() {
     let document = KitDocument::standard();
-    println!("| note | level, dB | centroid, octaves |");
-    for note in [36, 38, 48, 43, 42, 46, 49, 51, 55] {
+    println!("| note | level, dB | centroid, octaves | both, recorded |");
+    for (note, recorded) in RECORDED {
         let strokes = repeated(&document, note);
         // The first finds the piece at rest.
         let [levels, centroids] =
             [0, 1].map(|of| strokes[1..].iter().map(|stroke| stroke[of]).collect::<Vec<_>>());
         let (level, centroid) = (scatter(&levels), scatter(&centroids));
         let name = &document.notes.row(note).expect("a note").name;
-        println!("| {name} | {level:.2} | {centroid:.3} |");
-        assert!((0.2..3.0).contains(&level), "{name}: {level} dB");
+        println!("| {name} | {level:.2} | {centroid:.3} | {recorded:.2?} |");
+        // Recordings scatter by 0.3 to 1.2 dB, and within dynamics that were sorted by ear.
+        assert!((0.3..1.8).contains(&level), "{name}: {level} dB");
+        if let Some([recorded, _]) = recorded {
+            assert!(
+                level > 0.4 * recorded && level < recorded + 1.2,
+                "{name}: {level} dB, {recorded} recorded"
+            );
+        }
         assert!(centroid > 0.002 && centroid < 0.6, "{name}: {centroid} octaves");
         assert!(strokes.windows(2).all(|pair| pair[0] != pair[1]), "{name}: a machine gun");
     }

@@ -36,8 +36,9 @@ pub const CURVE: f64 = 0.75;
 
 /// Default mean distance of strokes from where they are aimed, share of the radius: a centimetre on a snare drum. *Assumed*.
 pub const POSITION_SPREAD: f64 = 0.05;
-/// Default mean deviation of strokes from their speed, dB. *Assumed*.
-pub const SPEED_SPREAD: f64 = 1.0;
+/// Default mean deviation of strokes from their speed, dB. *Fitted* to recordings that repeat a stroke, whose levels scatter by 0.3 to
+/// 1.2 dB (`docs/playing.md`); with 1.0 those of notes scatter by 1.2 to 2.0 dB, with 0.5 by 0.6 to 1.3.
+pub const SPEED_SPREAD: f64 = 0.5;
 
 /// Speed of a pedal's beater over that of a stick, for a note of full velocity. *Literature*: a hard kick filmed at 220 frames a second turns the
 /// beater at 2,000 degrees a second, 7 to 9 m/s at its head.
