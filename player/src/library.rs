@@ -77,10 +77,14 @@ pub fn document() -> String {
          `cargo xtask docs` writes this page from the files in `player/library/`; do not edit it.\n\n\
          A kit file takes an instrument over with `like = \"NAME\"`, as a new piece or in the place of one of the standard kit; \
          `--kit NAME` plays a whole kit, and `overhear kit new mine.toml --from NAME` begins a file with one. \
-         See [kit files](kit-files.md).\n\n## Whole kits\n\n| name | |\n|---|---|\n",
+         See [kit files](kit-files.md).\n\n## Whole kits\n\nThe beginning of the groove on each, as `cargo xtask demo --all-kits` plays it.\n\n\
+         | name | | listen | |\n|---|---|---|---|\n",
     );
     for kit in kits() {
-        page.push_str(&format!("| `{}` | {} |\n", kit.name, kit.about));
+        let (name, about) = (kit.name, &kit.about);
+        page.push_str(&format!(
+            "| `{name}` | {about} | [{name}.mp3](sounds/kits/{name}.mp3) | [picture](pictures/kits/{name}.png) |\n"
+        ));
     }
     let mut family = String::new();
     for instrument in instruments() {

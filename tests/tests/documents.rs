@@ -30,3 +30,17 @@ fn the_pages_that_come_from_the_code_are_up_to_date() {
         assert!(found == text, "{path} is out of date: run `cargo xtask docs`");
     }
 }
+
+#[test]
+fn every_kit_of_the_library_has_a_sound_and_a_picture() {
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs");
+    for kit in overhear::library::kits() {
+        for (path, begins) in [
+            (format!("sounds/kits/{}.mp3", kit.name), &b"\xff\xfb"[..]),
+            (format!("pictures/kits/{}.png", kit.name), b"\x89PNG"),
+        ] {
+            let file = std::fs::read(docs.join(&path)).unwrap_or_default();
+            assert!(file.len() > 20_000 && file.starts_with(begins), "docs/{path}: {} bytes", file.len());
+        }
+    }
+}
