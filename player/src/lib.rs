@@ -15,6 +15,7 @@ pub mod deadline;
 pub mod decimation;
 mod denormals;
 pub mod kit_document;
+pub mod kit_edits;
 pub mod kit_file;
 pub mod library;
 pub mod midi;
