@@ -167,6 +167,16 @@ pub fn replace(document: &KitDocument, other: KitDocument) -> Edit {
     Edit { document: other, origins, about: Slot::ALL[0] }
 }
 
+/// A kit of the piece of a slot alone, with its notes: what a file of a piece holds.
+///
+/// # Errors
+/// [`SpecError`] of an empty slot.
+pub fn alone(document: &KitDocument, slot: Slot) -> Result<KitDocument, SpecError> {
+    let kit = document.kit.alone(slot).ok_or_else(|| SpecError::refused("piece", "is not in the kit"))?;
+    let only = |of: Slot| (of == slot).then_some(Slot::ALL[0]);
+    Ok(KitDocument { kit, notes: notes::moved(&document.notes, only) })
+}
+
 fn kept(kit: &KitSpec) -> Vec<Origin> {
     kit.slots().map(|(slot, _)| Origin::Kept(slot)).collect()
 }

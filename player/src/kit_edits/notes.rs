@@ -82,11 +82,11 @@ pub(super) fn moved(table: &NoteTable, to: impl Fn(Slot) -> Option<Slot>) -> Not
 pub(super) fn give(document: &mut KitDocument, slot: Slot, title: &str, notes: &Notes) {
     let table = &mut document.notes;
     let Some((own, ordinary)) = notes.first() else { return };
-    let is_free = |table: &NoteTable, note: u8| {
-        table.row(note).is_none_or(|row| row.meaning == Meaning::Silent)
-    };
+    let is_free =
+        |table: &NoteTable, note: u8| table.row(note).is_none_or(|row| row.meaning == Meaning::Silent);
     if is_free(table, *own) {
-        for (note, row) in notes.iter().filter(|(note, _)| is_free(table, *note)).cloned().collect::<Notes>() {
+        for (note, row) in notes.iter().filter(|(note, _)| is_free(table, *note)).cloned().collect::<Notes>()
+        {
             table.set(note, Some(Row { meaning: about(row.meaning, slot), ..row }));
         }
         table.set_ordinary(slot, Some(*own));
@@ -143,7 +143,13 @@ fn place(row: &Row) -> &'static str {
         (Meaning::Steps(_, Foot::Splash), _) => "foot splash",
         (Meaning::Steps(..), _) => "pedal",
         (Meaning::Chokes(_), _) => "choke",
-        (Meaning::Throws(_, on), _) => if on { "wires on" } else { "wires off" },
+        (Meaning::Throws(_, on), _) => {
+            if on {
+                "wires on"
+            } else {
+                "wires off"
+            }
+        }
         (Meaning::Silent, _) => "silent",
         (Meaning::Strikes(stroke), _) => match (stroke.striker, row.pedal) {
             (Striker::RimShot, _) => "rimshot",
