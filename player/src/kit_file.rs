@@ -32,6 +32,7 @@ mod format;
 mod laying;
 mod located;
 mod notes;
+pub mod parts;
 mod pieces;
 mod source;
 mod text;
@@ -130,6 +131,15 @@ pub fn fresh(name: &str) -> String {
 /// The files of the library by name, in the order in which they are shown: instruments, and whole kits.
 pub(crate) fn library() -> [&'static [(&'static str, &'static str)]; 2] {
     [catalogue::INSTRUMENTS, catalogue::KITS]
+}
+
+/// The piece of the standard kit that an instrument of the library is like, directly or through others.
+pub(crate) fn library_model(name: &str) -> Option<String> {
+    let mut likeness = catalogue::likeness(name)?;
+    while let Some(next) = catalogue::likeness(&likeness) {
+        likeness = next;
+    }
+    Some(likeness)
 }
 
 /// The parts of a kind (`heads`, `walls`, `hoops`, `alloys`, `wires`) that the library has, by name.

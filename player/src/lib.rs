@@ -1,6 +1,6 @@
 //! The player of the kit: everything between a note and the engine that needs no host and no window.
 //!
-//! In reading order: a [`kit_document`] is a kit with the notes that play it, and a [`kit_file`] its text; a host's note goes
+//! In reading order: a [`kit_document`] is a kit with the notes that play it, and a [`kit_file`] its text, which [`kit_edits`] change by hand; a host's note goes
 //! through the [`midi_map`] to the [`performer`], which owns the engine's kit; [`parameters`] is the table of everything a host
 //! may automate, [`presets`] are values of it, and [`state`] is what a project stores. [`building`] says which pieces are wanted,
 //! [`builder`] makes them on threads of its own, and [`cache`] holds tables that outlive the process. [`workers`] render pieces
@@ -15,6 +15,7 @@ pub mod deadline;
 pub mod decimation;
 mod denormals;
 pub mod kit_document;
+pub mod kit_edits;
 pub mod kit_file;
 pub mod library;
 pub mod midi;

@@ -31,6 +31,7 @@ use overhear_player::builder::Shapes;
 use overhear_player::presets::Library;
 use overhear_player::strokes::Strokes;
 
+mod build;
 mod calibration;
 mod field;
 mod gesture;

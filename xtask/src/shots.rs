@@ -74,6 +74,8 @@ const SHOTS: &[Shot] = &[
     shot("microphones", 3, "snare", &[], 400),
     shot("midi", 4, "snare", &[], 400),
     shot("settings", 5, "snare", &[], 400),
+    shot("build", 6, "snare", &[], 400),
+    shot("build-cymbal", 6, "crash", &[], 400),
 ];
 
 /// Task for the editor.

@@ -4,8 +4,10 @@
 //! preset, is one step. Automation and other windows are not hands: undoing puts back what a parameter was when it
 //! was taken hold of, whatever it is now.
 
-use nice_plug::prelude::{FloatParam, Param};
+use std::sync::Arc;
 
+use nice_plug::prelude::{FloatParam, Param};
+use overhear_player::kit_document::KitDocument;
 use overhear_player::midi::assignments::Taught;
 
 use super::gesture::{Gesture, put};
@@ -27,6 +29,8 @@ enum Step {
     Moved(Vec<Edit>),
     /// Notes or a calibration were learned: what was taught before and after.
     Learned(Box<[Taught; 2]>),
+    /// Another kit was put in the place of one, and parameters went with it.
+    Built([Arc<KitDocument>; 2], Vec<Edit>),
 }
 
 /// Where what is undone and done again goes.
@@ -35,6 +39,8 @@ pub struct Undoing<'a> {
     pub set: &'a mut dyn FnMut(usize, Gesture),
     /// Receives what is taught instead of what was.
     pub teach: &'a mut dyn FnMut(&Taught),
+    /// Receives the kit that is put in the place of the present one.
+    pub build: &'a mut dyn FnMut(&Arc<KitDocument>),
 }
 
 /// What was done.
@@ -46,8 +52,8 @@ pub struct History {
     held: Vec<Edit>,
     /// What this frame has brought.
     fresh: Vec<Edit>,
-    /// The setting that is not in use: plain values of all parameters.
-    other: Option<Vec<f32>>,
+    /// The setting that is not in use: plain values of all parameters, and the kit.
+    other: Option<(Vec<f32>, Arc<KitDocument>)>,
     /// Whether the second setting is in use.
     second: bool,
 }
@@ -89,6 +95,12 @@ impl History {
         self.add(Step::Learned(Box::new([before, after])));
     }
 
+    /// Takes note of a kit that was put in the place of another in this frame, with what happened to parameters: a step.
+    pub fn built(&mut self, before: Arc<KitDocument>, after: Arc<KitDocument>) {
+        let edits = std::mem::take(&mut self.fresh);
+        self.add(Step::Built([before, after], edits));
+    }
+
     fn add(&mut self, step: Step) {
         self.done.push(step);
         self.undone.clear();
@@ -113,6 +125,10 @@ impl History {
         match &step {
             Step::Moved(edits) => edits.iter().rev().for_each(|edit| put(edit.index, edit.from, to.set)),
             Step::Learned(taught) => (to.teach)(&taught[0]),
+            Step::Built([before, _], edits) => {
+                (to.build)(before);
+                edits.iter().rev().for_each(|edit| put(edit.index, edit.from, to.set));
+            }
         }
         self.undone.push(step);
     }
@@ -123,6 +139,10 @@ impl History {
         match &step {
             Step::Moved(edits) => edits.iter().for_each(|edit| put(edit.index, edit.to, to.set)),
             Step::Learned(taught) => (to.teach)(&taught[1]),
+            Step::Built([_, after], edits) => {
+                (to.build)(after);
+                edits.iter().for_each(|edit| put(edit.index, edit.to, to.set));
+            }
         }
         self.done.push(step);
     }
@@ -132,17 +152,24 @@ impl History {
         self.second
     }
 
-    /// Puts the other setting in place of this one, which is kept; at first both are the same.
-    pub fn swap(&mut self, values: &[FloatParam], set: &mut dyn FnMut(usize, Gesture)) {
+    /// Puts the other setting in place of this one, which is kept; at first both are the same. Gives the kit of the other
+    /// setting, if that is to be put in the place of the present one.
+    pub fn swap(
+        &mut self,
+        values: &[FloatParam],
+        document: &Arc<KitDocument>,
+        set: &mut dyn FnMut(usize, Gesture),
+    ) -> Option<Arc<KitDocument>> {
         let present: Vec<f32> = values.iter().map(|value| value.unmodulated_plain_value()).collect();
         self.second = !self.second;
-        let Some(wanted) = self.other.replace(present.clone()) else { return };
+        let (wanted, kit) = self.other.replace((present.clone(), document.clone()))?;
         for (index, (from, to)) in present.into_iter().zip(wanted).enumerate() {
             if from != to {
                 self.fresh.push(Edit { index, from, to });
                 put(index, to, set);
             }
         }
+        (kit != *document).then_some(kit)
     }
 }
 
@@ -163,11 +190,11 @@ mod tests {
         history.end_frame();
         let mut moved = Vec::new();
         let set = &mut |index, gesture| moved.push((index, gesture));
-        history.undo(&mut Undoing { set, teach: &mut |_| {} });
+        history.undo(&mut Undoing { set, teach: &mut |_| {}, build: &mut |_| {} });
         assert_eq!(moved, [Gesture::Begin, Gesture::Set(10.0), Gesture::End].map(|gesture| (3, gesture)));
         moved.clear();
         let set = &mut |index, gesture| moved.push((index, gesture));
-        history.redo(&mut Undoing { set, teach: &mut |_| {} });
+        history.redo(&mut Undoing { set, teach: &mut |_| {}, build: &mut |_| {} });
         assert_eq!(moved[1], (3, Gesture::Set(15.0)));
         assert!(history.can_undo() && !history.can_redo());
     }
@@ -181,7 +208,7 @@ mod tests {
         history.end_frame();
         let mut undone = 0;
         let set = &mut |_, gesture| undone += usize::from(gesture == Gesture::Set(0.0));
-        history.undo(&mut Undoing { set, teach: &mut |_| {} });
+        history.undo(&mut Undoing { set, teach: &mut |_| {}, build: &mut |_| {} });
         assert_eq!(undone, 5);
         assert!(!history.can_undo());
     }

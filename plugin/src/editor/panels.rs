@@ -6,6 +6,7 @@ use egui::{Align, Align2, Button, Layout, Rect, Ui, UiBuilder, pos2, vec2};
 use overhear_engine::slot::Slot;
 use overhear_engine::snapshot::{FieldShapes, KitSnapshot};
 
+use super::build::{About, Build};
 use super::gesture::Gesture;
 use super::history::{History, Undoing};
 use super::kit_view::camera::Camera;
@@ -55,17 +56,25 @@ pub enum Page {
     Midi,
     /// What is about the kit as a whole.
     Settings,
+    /// What the kit is made of.
+    Build,
 }
 
 impl Page {
-    pub const ALL: [(Page, &'static str); 6] = [
+    /// In the order in which projects count them.
+    pub const ALL: [(Page, &'static str); 7] = [
         (Page::Kit, "Kit"),
         (Page::Physics, "Physics"),
         (Page::Mix, "Mix"),
         (Page::Microphones, "Microphones"),
         (Page::Midi, "MIDI"),
         (Page::Settings, "Settings"),
+        (Page::Build, "Build"),
     ];
+
+    /// In the order in which they are shown.
+    const SHOWN: [(Page, &'static str); 7] =
+        [Page::ALL[0], Page::ALL[6], Page::ALL[1], Page::ALL[2], Page::ALL[3], Page::ALL[4], Page::ALL[5]];
 }
 
 /// What a window looks at.
@@ -100,6 +109,7 @@ pub struct Panels {
     stage: Stage,
     physics: Physics,
     mix: Mix,
+    build: Build,
     levels: Levels,
     presets: PresetBar,
     playing: PlayingPanel,
@@ -120,6 +130,8 @@ pub struct Panels {
 impl Panels {
     /// Panels about a kit, with the presets of a library.
     pub fn new(library: Library, view: View, document: Arc<KitDocument>) -> Panels {
+        // Beside that of the presets.
+        let folder = library.folder().ok().and_then(|presets| Some(presets.parent()?.join("kits")));
         let kit = KitView::seen_from(Camera::of(view.camera), &document.kit);
         Panels {
             page: Page::ALL.get(usize::from(view.page)).map_or(Page::Kit, |(page, _)| *page),
@@ -131,6 +143,7 @@ impl Panels {
             stage: Stage::default(),
             physics: Physics::new(),
             mix: Mix::default(),
+            build: Build::new(folder),
             levels: Levels::default(),
             presets: PresetBar::new(library),
             playing: PlayingPanel::default(),
@@ -170,11 +183,16 @@ impl Panels {
         if Arc::ptr_eq(&document, &self.document) {
             return;
         }
+        self.history.forget();
+        self.adopt(document, inputs);
+    }
+
+    /// Goes over to a kit.
+    fn adopt(&mut self, document: Arc<KitDocument>, inputs: &Inputs<'_>) {
         self.selected = within(&document, self.selected.index());
         self.kit.adopt(&document.kit, inputs.snapshot);
         self.physics.forget();
         self.mix.forget();
-        self.history.forget();
         self.taught = None;
         self.latest = Latest::default();
         self.former = *inputs.snapshot;
@@ -213,12 +231,19 @@ impl Panels {
             list::show(ui, beside, &document.kit, &mut self.selected, inputs.snapshot, &self.levels);
             let mut hands = Hands { set: &mut set, play: hands.play };
             self.page(ui, page, inputs, &document, &mut hands);
-            self.footer(ui, footer, inputs, &mut undone);
         }
         for (index, gesture, value) in noted {
             self.history.note(index, gesture, value);
         }
-        self.history.end_frame();
+        // A kit that hands have built or chosen, as a state would not come just now.
+        let built = inputs.parameters.document();
+        if Arc::ptr_eq(&built, &document) {
+            self.history.end_frame();
+        } else {
+            self.history.built(document.clone(), built.clone());
+            self.adopt(built, inputs);
+        }
+        self.footer(ui, footer, inputs, &mut undone);
         for (index, gesture) in undone {
             (hands.set)(index, gesture);
         }
@@ -230,7 +255,7 @@ impl Panels {
         ui: &mut Ui,
         rect: Rect,
         inputs: &Inputs<'_>,
-        document: &KitDocument,
+        document: &Arc<KitDocument>,
         hands: &mut Hands<'_>,
     ) {
         let values = Values { all: inputs.parameters.values(), kit: &document.kit };
@@ -250,6 +275,11 @@ impl Panels {
             Page::Mix => self.mix.show(ui, rect, values, &self.levels, hands.set),
             Page::Midi => self.playing.show(ui, rect, inputs.parameters, document),
             Page::Settings => settings::show(ui, rect, values, &mut self.zoom, hands.set),
+            Page::Build => {
+                let ready = |slot: Slot| inputs.snapshot.pieces[slot.index()].ready;
+                let about = About { parameters: inputs.parameters, document, ready: &ready };
+                self.build.show(ui, rect, &about, &mut self.selected, hands.set);
+            }
         }
     }
 
@@ -327,7 +357,7 @@ impl Panels {
         let rect = Rect::from_min_max(rect.min + vec2(108.0, 0.0), rect.max - vec2(0.0, GAP));
         ui.scope_builder(UiBuilder::new().max_rect(rect), |ui| {
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                for (page, name) in Page::ALL {
+                for (page, name) in Page::SHOWN {
                     ui.selectable_value(&mut self.page, page, name);
                 }
                 ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -374,14 +404,24 @@ impl Panels {
             ("A", "Setting A; click to switch to setting B")
         };
         if ui.button(shown).on_hover_text(tip).clicked() {
-            self.history.swap(inputs.parameters.values(), set);
+            let other = self.history.swap(inputs.parameters.values(), &inputs.parameters.document(), set);
+            if let Some(kit) = other {
+                self.put_back(&kit, inputs);
+            } else {
+                self.history.end_frame();
+            }
         }
         let (undo, redo) = ui.input(|input| {
             let z = input.modifiers.command && input.key_pressed(egui::Key::Z);
             (z && !input.modifiers.shift, z && input.modifiers.shift)
         });
         let assignments = inputs.parameters.assignments();
-        let mut back = Undoing { set, teach: &mut |taught| assignments.teach(taught) };
+        let mut kit = None;
+        let mut back = Undoing {
+            set,
+            teach: &mut |taught| assignments.teach(taught),
+            build: &mut |document| kit = Some(document.clone()),
+        };
         let mut acted = false;
         if ui.add_enabled(self.history.can_redo(), Button::new("Redo")).clicked() || redo {
             self.history.redo(&mut back);
@@ -391,8 +431,28 @@ impl Panels {
             self.history.undo(&mut back);
             acted = true;
         }
+        if let Some(kit) = kit {
+            let document = inputs.parameters.document();
+            // It has been there before, so it passes the check.
+            if inputs.parameters.set_document(kit).is_ok()
+                && !Arc::ptr_eq(&document, &inputs.parameters.document())
+            {
+                self.adopt(inputs.parameters.document(), inputs);
+            }
+        }
         if acted {
             self.taught = Some((assignments.fingerprint(), assignments.taught()));
+        }
+    }
+}
+
+impl Panels {
+    /// Puts the kit of the other setting in the place of the present one, which is a step.
+    fn put_back(&mut self, kit: &Arc<KitDocument>, inputs: &Inputs<'_>) {
+        let before = self.document.clone();
+        if inputs.parameters.set_document(kit.clone()).is_ok() {
+            self.history.built(before, kit.clone());
+            self.adopt(inputs.parameters.document(), inputs);
         }
     }
 }

@@ -14,6 +14,7 @@ use overhear_player::kit_document::KitDocument;
 use overhear_player::parameters::{self, SlotParameter};
 use overhear_player::strokes::Stroke;
 
+mod build;
 mod kits;
 mod pages;
 mod panics;

@@ -1,0 +1,345 @@
+//! Sizes of a piece as drummers say them: in inches or millimetres, grams, hertz.
+
+use overhear_engine::cymbal::CymbalSpec;
+use overhear_engine::drum::spec::{DrumSpec, ShellSpec};
+use overhear_engine::error::SpecError;
+use overhear_engine::kit_spec::{InstrumentSpec, PieceSpec};
+use overhear_engine::slot::Slot;
+
+use crate::kit_document::KitDocument;
+
+use super::{Edit, change};
+
+/// A size of a piece.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Size {
+    /// Across the head or the plate.
+    Diameter,
+    /// From end to end of a shell.
+    Depth,
+    /// Of the air in a kettle.
+    Volume,
+    /// To which a drum is tuned, with its lowest and highest pitch.
+    Pitch,
+    /// Of the resonant head over the batter head's.
+    PitchRatio,
+    /// Of the hole in the resonant head.
+    Port,
+    /// Of a cymbal, of the upper one of a hi-hat.
+    Weight,
+    /// Of the lower one of a hi-hat.
+    LowerWeight,
+    /// Rise of a cymbal's bow.
+    Bow,
+    /// Thickness at the rim over that in the middle.
+    Taper,
+    /// To the drummer's right, from the middle of the kit.
+    Right,
+    /// Over the floor.
+    Height,
+    /// Toward the audience.
+    Forward,
+}
+
+/// What a size is measured in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Measure {
+    Length,
+    Volume,
+    Mass,
+    Pitch,
+    Ratio,
+}
+
+/// Units of lengths on screen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Units {
+    /// Inches, as drums are sold.
+    #[default]
+    Inches,
+    /// Millimetres.
+    Millimetres,
+}
+
+/// A value that is not accepted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Refusal {
+    /// The value, what is accepted, and why.
+    pub words: String,
+    /// The nearest value that is, in SI units.
+    pub nearest: Option<f64>,
+}
+
+impl Size {
+    /// All of them.
+    pub const ALL: [Size; 13] = [
+        Size::Diameter,
+        Size::Depth,
+        Size::Volume,
+        Size::Pitch,
+        Size::PitchRatio,
+        Size::Port,
+        Size::Weight,
+        Size::LowerWeight,
+        Size::Bow,
+        Size::Taper,
+        Size::Right,
+        Size::Height,
+        Size::Forward,
+    ];
+
+    /// What it is called on screen.
+    pub fn label(self) -> &'static str {
+        match self {
+            Size::Diameter => "Diameter",
+            Size::Depth => "Depth",
+            Size::Volume => "Kettle",
+            Size::Pitch => "Pitch",
+            Size::PitchRatio => "Resonant pitch",
+            Size::Port => "Port",
+            Size::Weight => "Weight",
+            Size::LowerWeight => "Lower weight",
+            Size::Bow => "Bow",
+            Size::Taper => "Rim thickness",
+            Size::Right => "Right",
+            Size::Height => "Height",
+            Size::Forward => "Forward",
+        }
+    }
+
+    fn measure(self) -> Measure {
+        match self {
+            Size::Volume => Measure::Volume,
+            Size::Weight | Size::LowerWeight => Measure::Mass,
+            Size::Pitch => Measure::Pitch,
+            Size::PitchRatio | Size::Taper => Measure::Ratio,
+            _ => Measure::Length,
+        }
+    }
+
+    /// The field of a kit file that it is, as the end of its path.
+    fn field(self) -> &'static str {
+        match self {
+            Size::Diameter => "diameter_m",
+            Size::Depth => "depth_m",
+            Size::Volume => "volume_m3",
+            Size::Pitch => "pitch_hz",
+            Size::PitchRatio => "pitch_ratio",
+            Size::Port => "port_diameter_m",
+            Size::Weight | Size::LowerWeight => "mass_kg",
+            Size::Bow => "bow_m",
+            Size::Taper => "taper",
+            Size::Right => "centre_m.x",
+            Size::Height => "centre_m.y",
+            Size::Forward => "centre_m.z",
+        }
+    }
+
+    /// The size of a piece in SI units, if it has it.
+    pub fn of(self, piece: &PieceSpec) -> Option<f64> {
+        let centre = piece.place.centre;
+        match (self, &piece.instrument) {
+            (Size::Right, _) => Some(centre[0]),
+            (Size::Height, _) => Some(centre[1]),
+            (Size::Forward, _) => Some(centre[2]),
+            (Size::Diameter, instrument) => Some(2.0 * instrument.radius()),
+            (Size::Depth, InstrumentSpec::Drum(drum)) => match drum.shell {
+                Some(ShellSpec::Cylinder { depth, .. }) => Some(depth),
+                _ => None,
+            },
+            (Size::Volume, InstrumentSpec::Drum(drum)) => match drum.shell {
+                Some(ShellSpec::Kettle { volume, .. }) => Some(volume),
+                _ => None,
+            },
+            (Size::Pitch, InstrumentSpec::Drum(drum)) => Some(drum.pitch_hz),
+            (Size::PitchRatio, InstrumentSpec::Drum(drum)) => drum.resonant.map(|head| head.pitch_ratio),
+            (Size::Port, InstrumentSpec::Drum(drum)) => drum.resonant.and_then(|head| head.port_diameter),
+            (_, InstrumentSpec::Cymbal(cymbal)) => self.of_cymbal(cymbal),
+            (Size::LowerWeight, InstrumentSpec::HiHat(hat)) => Some(hat.bottom.mass),
+            (_, InstrumentSpec::HiHat(hat)) => self.of_cymbal(&hat.top),
+            _ => None,
+        }
+    }
+
+    fn of_cymbal(self, cymbal: &CymbalSpec) -> Option<f64> {
+        match self {
+            Size::Weight => Some(cymbal.mass),
+            Size::Bow => Some(cymbal.bow),
+            Size::Taper => Some(cymbal.taper),
+            _ => None,
+        }
+    }
+
+    /// Changes a piece that has this size. A larger drum keeps the tension of its heads, a larger cymbal its thickness and
+    /// its form.
+    fn set(self, piece: &mut PieceSpec, value: f64) {
+        let centre = &mut piece.place.centre;
+        match (self, &mut piece.instrument) {
+            (Size::Right, _) => centre[0] = value,
+            (Size::Height, _) => centre[1] = value,
+            (Size::Forward, _) => centre[2] = value,
+            (_, InstrumentSpec::Drum(drum)) => self.set_drum(drum, value),
+            (Size::LowerWeight, InstrumentSpec::HiHat(hat)) => hat.bottom.mass = value,
+            (Size::Diameter, InstrumentSpec::HiHat(hat)) => {
+                [&mut hat.top, &mut hat.bottom].into_iter().for_each(|cymbal| widen(cymbal, value));
+            }
+            (Size::Bow | Size::Taper, InstrumentSpec::HiHat(hat)) => {
+                [&mut hat.top, &mut hat.bottom].into_iter().for_each(|cymbal| self.set_cymbal(cymbal, value));
+            }
+            (_, InstrumentSpec::HiHat(hat)) => self.set_cymbal(&mut hat.top, value),
+            (_, InstrumentSpec::Cymbal(cymbal)) => self.set_cymbal(cymbal, value),
+        }
+    }
+
+    fn set_drum(self, drum: &mut DrumSpec, value: f64) {
+        let tune = |drum: &mut DrumSpec, by: f64| {
+            for pitch in [&mut drum.pitch_hz, &mut drum.lowest_pitch_hz, &mut drum.highest_pitch_hz] {
+                *pitch *= by;
+            }
+        };
+        match (self, &mut drum.shell, &mut drum.resonant) {
+            (Size::Diameter, shell, resonant) => {
+                let by = value / drum.diameter;
+                if let Some(ShellSpec::Kettle { volume, .. }) = shell {
+                    *volume *= by.powi(3);
+                }
+                if let Some(port) = resonant.as_mut().and_then(|head| head.port_diameter.as_mut()) {
+                    *port *= by;
+                }
+                drum.diameter = value;
+                tune(drum, 1.0 / by);
+            }
+            (Size::Depth, Some(ShellSpec::Cylinder { depth, .. }), _) => *depth = value,
+            (Size::Volume, Some(ShellSpec::Kettle { volume, .. }), _) => *volume = value,
+            (Size::Pitch, ..) => {
+                let by = value / drum.pitch_hz;
+                tune(drum, by);
+                drum.pitch_hz = value;
+            }
+            (Size::PitchRatio, _, Some(head)) => head.pitch_ratio = value,
+            (Size::Port, _, Some(head)) => head.port_diameter = Some(value),
+            _ => {}
+        }
+    }
+
+    fn set_cymbal(self, cymbal: &mut CymbalSpec, value: f64) {
+        match self {
+            Size::Diameter => widen(cymbal, value),
+            Size::Weight => cymbal.mass = value,
+            Size::Bow => cymbal.bow = value,
+            Size::Taper => cymbal.taper = value,
+            _ => {}
+        }
+    }
+
+    /// A value with its unit.
+    pub fn text(self, value: f64, units: Units) -> String {
+        let (scale, unit, digits) = self.unit(units);
+        let text = format!("{:.digits$}", value / scale);
+        let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+        format!("{text} {unit}").trim_end().to_owned()
+    }
+
+    /// The value that a text stands for, in SI units: a number, with or without a unit.
+    pub fn parse(self, text: &str, units: Units) -> Option<f64> {
+        let text = text.trim();
+        let end = text.find(|c: char| c.is_alphabetic() || c == '"').unwrap_or(text.len());
+        let (number, unit) = text.split_at(end);
+        let number: f64 = number.trim().replace(',', ".").parse().ok()?;
+        let scale = match (self.measure(), unit.trim()) {
+            (_, "") => self.unit(units).0,
+            (Measure::Length, "in" | "\"") => INCH,
+            (Measure::Length, "mm") | (Measure::Mass, "g") | (Measure::Volume, "l") => 1e-3,
+            (Measure::Length, "cm") => 1e-2,
+            (Measure::Length, "m") | (Measure::Mass, "kg") | (Measure::Pitch, "Hz" | "hz") => 1.0,
+            _ => return None,
+        };
+        Some(number * scale)
+    }
+
+    /// The unit that it is shown in: its size in SI units, its name, digits behind the point.
+    fn unit(self, units: Units) -> (f64, &'static str, usize) {
+        match (self.measure(), units) {
+            (Measure::Length, Units::Inches) => (INCH, "in", 2),
+            (Measure::Length, Units::Millimetres) => (1e-3, "mm", 1),
+            (Measure::Volume, _) => (1e-3, "l", 1),
+            (Measure::Mass, _) => (1e-3, "g", 0),
+            (Measure::Pitch, _) => (1.0, "Hz", 1),
+            (Measure::Ratio, _) => (1.0, "", 3),
+        }
+    }
+
+    /// The nearest value that a hand which drags comes to: half inches, or 10 mm.
+    pub fn snapped(self, value: f64, units: Units) -> f64 {
+        let step = match units {
+            Units::Inches => 0.5 * INCH,
+            Units::Millimetres => 0.01,
+        };
+        (value / step).round() * step
+    }
+}
+
+/// An inch, m.
+const INCH: f64 = 0.0254;
+
+fn widen(cymbal: &mut CymbalSpec, diameter: f64) {
+    let by = diameter / cymbal.diameter;
+    cymbal.diameter = diameter;
+    cymbal.mass *= by * by;
+    cymbal.bow *= by;
+    if let Some(bell) = &mut cymbal.bell {
+        (bell.radius, bell.rise) = (bell.radius * by, bell.rise * by);
+    }
+    if let Some(flange) = &mut cymbal.flange {
+        (flange.radius, flange.rise) = (flange.radius * by, flange.rise * by);
+    }
+}
+
+/// Gives the piece of a slot another size, SI units.
+///
+/// # Errors
+/// [`Refusal`] with what is accepted and the nearest that is.
+pub fn resize(
+    document: &KitDocument,
+    slot: Slot,
+    size: Size,
+    value: f64,
+    units: Units,
+) -> Result<Edit, Refusal> {
+    let attempt = |value: f64| change(document, slot, |piece| size.set(piece, value));
+    let error = match attempt(value) {
+        Ok(edit) => return Ok(edit),
+        Err(error) => error,
+    };
+    let present = document.kit.piece(slot).and_then(|piece| size.of(piece));
+    let nearest = present.map(|present| {
+        // What there is works; what was asked for does not.
+        let (mut works, mut fails) = (present, value);
+        for _ in 0..40 {
+            let middle = 0.5 * (works + fails);
+            if attempt(middle).is_ok() { works = middle } else { fails = middle }
+        }
+        rounded(size, works, present, units)
+    });
+    let title = document.kit.piece(slot).map_or("", |piece| piece.title.as_str());
+    let label = size.label();
+    let given = size.text(value, units);
+    let why = match &error {
+        SpecError::OutOfRange { field, min, max, .. } if field.ends_with(&format!(".{}", size.field())) => {
+            format!("accepted: {} to {}", size.text(*min, units), size.text(*max, units))
+        }
+        error => error.to_string(),
+    };
+    let near = nearest.map_or(String::new(), |nearest| {
+        format!("; the nearest that works is {}", size.text(nearest, units))
+    });
+    Err(Refusal { words: format!("{title}: {label} is {given}, {why}{near}"), nearest })
+}
+
+/// A value as it is shown, on the side of another one.
+fn rounded(size: Size, value: f64, toward: f64, units: Units) -> f64 {
+    let (scale, _, digits) = size.unit(units);
+    let step = scale * 10.0_f64.powi(-(digits as i32));
+    let steps = value / step;
+    step * if toward < value { steps.floor() } else { steps.ceil() }
+}

@@ -1,0 +1,136 @@
+use super::sizes::{Size, Units, resize};
+use super::*;
+use crate::library;
+use crate::midi_map::Meaning;
+
+fn standard() -> KitDocument {
+    KitDocument::standard()
+}
+
+fn instrument(name: &str) -> Instrument {
+    library::instrument(name).unwrap()
+}
+
+fn slot(document: &KitDocument, name: &str) -> Slot {
+    document.kit.find(name).unwrap().0
+}
+
+#[test]
+fn a_second_crash_gets_general_midi_s_second_note_and_free_ones_for_the_rest() {
+    let edit = add(&standard(), &instrument("crash-18-thin")).unwrap();
+    let (notes, new) = (&edit.document.notes, edit.about);
+    assert_eq!((new, edit.origins[9]), (Slot::ALL[9], Origin::New));
+    let ordinary = notes.ordinary(new).unwrap();
+    assert!([52, 57].contains(&ordinary), "{ordinary}");
+    let own: Vec<u8> = notes.rows().filter(|(_, row)| row.meaning.slot() == Some(new)).map(|n| n.0).collect();
+    assert!(own.len() >= 4, "edge, bow, bell, choke: {own:?}");
+    assert!(notes.rows().any(|(_, row)| row.meaning == Meaning::Chokes(new)));
+    // The first one has kept its own.
+    assert_eq!(notes.ordinary(slot(&edit.document, "crash")), Some(49));
+}
+
+#[test]
+fn every_instrument_of_the_library_can_be_added_and_put_in_every_place() {
+    let standard = standard();
+    for instrument in library::instruments() {
+        let edit = add(&standard, &instrument).unwrap_or_else(|error| panic!("{}: {error}", instrument.name));
+        let ordinary = edit.document.notes.ordinary(edit.about);
+        assert!(ordinary.is_some(), "{} has no note", instrument.name);
+        let twice = duplicate(&edit.document, edit.about).unwrap();
+        assert_ne!(twice.document.notes.ordinary(twice.about), ordinary);
+        assert!(twice.document.notes.ordinary(twice.about).is_some());
+    }
+}
+
+#[test]
+fn a_kit_has_no_more_than_sixteen_pieces_and_no_fewer_than_one() {
+    let mut document = standard();
+    for _ in document.kit.pieces.len()..SLOTS {
+        document = add(&document, &instrument("splash-8")).unwrap().document;
+    }
+    let error = add(&document, &instrument("splash-8")).unwrap_err().to_string();
+    assert_eq!(error, "pieces would be 17, accepted: 1 to 16; remove one first");
+    while document.kit.pieces.len() > 1 {
+        document = remove(&document, Slot::ALL[0]).unwrap().document;
+    }
+    assert!(remove(&document, Slot::ALL[0]).is_err());
+}
+
+#[test]
+fn a_piece_that_goes_leaves_all_others_but_the_last_in_their_slots() {
+    let document = standard();
+    let edit = remove(&document, slot(&document, "snare")).unwrap();
+    let after = &edit.document;
+    assert_eq!(slot(after, "hi-hat"), slot(&document, "snare"));
+    for name in ["kick", "rack-tom", "ride", "timpani"] {
+        assert_eq!(slot(after, name), slot(&document, name));
+    }
+    assert_eq!(after.notes.ordinary(slot(after, "hi-hat")), Some(42));
+    assert_eq!(after.notes.row(38).map(|row| row.meaning), Some(Meaning::Silent));
+    // It comes back to its own notes.
+    let again = add(after, &instrument("snare-14-standard")).unwrap();
+    assert_eq!(again.document.notes.ordinary(again.about), Some(38));
+}
+
+#[test]
+fn one_of_the_same_kind_takes_over_name_place_and_notes() {
+    let document = standard();
+    let snare = slot(&document, "snare");
+    let edit = exchange(&document, snare, &instrument("piccolo-13")).unwrap();
+    let piece = edit.document.kit.piece(snare).unwrap();
+    assert_eq!((&*piece.name, piece.place), ("snare", document.kit.piece(snare).unwrap().place));
+    assert_eq!(edit.document.notes, document.notes);
+    let ride = exchange(&document, snare, &instrument("ride-20-flat")).unwrap();
+    assert_ne!(ride.document.kit.piece(snare).unwrap().name, "snare");
+    assert_eq!(ride.document.notes.ordinary(slot(&document, "ride")), Some(51));
+    assert!(ride.document.notes.ordinary(snare).is_some());
+}
+
+#[test]
+fn sizes_are_refused_with_the_range_and_the_nearest_that_works() {
+    let document = standard();
+    let (tom, crash) = (slot(&document, "rack-tom"), slot(&document, "crash"));
+    let of = |slot, size, value| resize(&document, slot, size, value, Units::Inches);
+    let edit = of(tom, Size::Diameter, 14.0 * 0.0254).unwrap();
+    let (before, after) = (document.kit.piece(tom).unwrap(), edit.document.kit.piece(tom).unwrap());
+    let pitch = |piece: &PieceSpec| piece.drum().unwrap().pitch_hz;
+    assert!((pitch(after) / pitch(before) - 12.0 / 14.0).abs() < 1e-9, "the heads keep their tension");
+    for (slot, size, value, says) in [
+        (tom, Size::Diameter, 2.0, "accepted: 5.91 in to"),
+        (tom, Size::Pitch, 480.0, "strained"),
+        (crash, Size::Weight, 0.05, "Weight is 50 g, accepted:"),
+        (tom, Size::Right, -0.4, "inside it"),
+    ] {
+        // The tom is put where the snare stands.
+        let refused = match size {
+            Size::Right => {
+                let there = document.kit.find("snare").unwrap().1.place;
+                let under = change(&document, tom, |piece| {
+                    piece.place.centre = [0.0, there.centre[1], there.centre[2]];
+                    piece.place.facing = there.facing;
+                });
+                resize(&under.unwrap().document, slot, size, value, Units::Inches).unwrap_err()
+            }
+            _ => of(slot, size, value).unwrap_err(),
+        };
+        assert!(refused.words.contains(says), "{}", refused.words);
+        let nearest = refused.nearest.unwrap();
+        assert!(size == Size::Right || of(slot, size, nearest).is_ok(), "{nearest}: {}", refused.words);
+    }
+}
+
+#[test]
+fn sizes_are_read_as_they_are_shown() {
+    for (text, units, metres) in [
+        ("13", Units::Inches, 0.3302),
+        ("13 in", Units::Millimetres, 0.3302),
+        ("330 mm", Units::Inches, 0.33),
+        ("33 cm", Units::Inches, 0.33),
+        ("330,2", Units::Millimetres, 0.3302),
+    ] {
+        assert!((Size::Diameter.parse(text, units).unwrap() - metres).abs() < 1e-12, "{text}");
+    }
+    assert_eq!(Size::Diameter.parse("wide", Units::Inches), None);
+    assert_eq!(Size::Diameter.text(0.3302, Units::Inches), "13 in");
+    assert_eq!(Size::Weight.text(1.1, Units::Inches), "1100 g");
+}

@@ -1,0 +1,212 @@
+//! Parts of a piece chosen from the library's lists: heads, shells, hoops, wires, metals.
+
+use overhear_engine::kit_spec::{InstrumentSpec, KitSpec, PieceSpec};
+use toml::{Table, Value};
+
+use super::catalogue;
+use super::drafts::Draft;
+use super::laying::lay_over;
+use super::pieces;
+use super::source::Origins;
+use super::text;
+
+/// A part that a piece has, or can do without.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Part {
+    /// What it is called on screen.
+    pub label: &'static str,
+    /// Where it stands among the piece's fields.
+    path: &'static [&'static str],
+    /// The list that it is chosen from.
+    kind: &'static str,
+    /// Whether the piece can do without it.
+    pub optional: bool,
+}
+
+/// A part of the library.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Made {
+    /// What kit files call it.
+    pub name: &'static str,
+    /// What it is, in a few words.
+    pub title: &'static str,
+}
+
+const fn part(label: &'static str, path: &'static [&'static str], kind: &'static str) -> Part {
+    Part { label, path, kind, optional: false }
+}
+
+const fn optional(label: &'static str, path: &'static [&'static str], kind: &'static str) -> Part {
+    Part { label, path, kind, optional: true }
+}
+
+/// Parts of a drum, of a cymbal, of a hi-hat.
+const BATTER: Part = part("Batter head", &["batter"], "heads");
+const RESONANT: Part = optional("Resonant head", &["resonant"], "heads");
+const SHELL: Part = optional("Shell", &["shell", "wall"], "walls");
+const HOOP: Part = optional("Hoops", &["hoop"], "hoops");
+const WIRES: Part = optional("Wires", &["wires"], "wires");
+const ALLOY: Part = part("Alloy", &["alloy"], "alloys");
+const HATS: [Part; 2] =
+    [part("Top alloy", &["top", "alloy"], "alloys"), part("Bottom alloy", &["bottom", "alloy"], "alloys")];
+
+/// The parts of a piece that can be chosen.
+pub fn of(piece: &PieceSpec) -> Vec<Part> {
+    use overhear_engine::drum::spec::ShellSpec;
+    match &piece.instrument {
+        InstrumentSpec::Drum(drum) => match drum.shell {
+            Some(ShellSpec::Cylinder { .. }) => vec![BATTER, RESONANT, SHELL, HOOP, WIRES],
+            _ => vec![BATTER, HOOP],
+        },
+        InstrumentSpec::Cymbal(_) => vec![ALLOY],
+        InstrumentSpec::HiHat(_) => HATS.to_vec(),
+    }
+}
+
+impl Part {
+    /// What it can be chosen from.
+    pub fn choices(&self) -> Vec<Made> {
+        let made = |(name, fields): (&'static String, &'static Value)| {
+            let about = fields.get("about").and_then(Value::as_str).unwrap_or(name);
+            Made { name: name.as_str(), title: about.split(':').next().unwrap_or(about) }
+        };
+        catalogue::parts(self.kind).iter().map(made).collect()
+    }
+
+    /// Whether a piece has it.
+    pub fn is_there(&self, piece: &PieceSpec) -> bool {
+        self.found(&text::fields(piece)).is_some()
+    }
+
+    /// Which of the library's it is, if it is one of them.
+    pub fn chosen(&self, piece: &PieceSpec) -> Option<&'static str> {
+        let fields = text::fields(piece);
+        let own = self.found(&fields)?;
+        let known = catalogue::parts(self.kind).iter();
+        known
+            .filter_map(|(name, made)| Some((name, made.as_table()?)))
+            .find_map(|(name, made)| agrees(own, made).then_some(name.as_str()))
+    }
+
+    fn found<'a>(&self, fields: &'a Table) -> Option<&'a Table> {
+        let mut table = fields;
+        for key in self.path {
+            table = table.get(*key)?.as_table()?;
+        }
+        Some(table)
+    }
+
+    /// The piece with this part from the library, or without it.
+    ///
+    /// # Errors
+    /// A line on what does not fit.
+    pub fn fitted(&self, piece: &PieceSpec, name: Option<&str>) -> Result<PieceSpec, String> {
+        let mut changes = Table::new();
+        match name {
+            None => changes.insert("like".to_owned(), Value::String("none".to_owned())),
+            Some(name) => {
+                let made = catalogue::parts(self.kind).get(name).and_then(Value::as_table);
+                let mut made = made.cloned().ok_or_else(|| format!("{name} is not in the library"))?;
+                made.remove("about");
+                changes = made;
+                None
+            }
+        };
+        let mut fields = text::fields(piece);
+        let missing = self.found(&fields).is_none();
+        let (last, way) = self.path.split_last().ok_or("a part has no place")?;
+        let mut table = &mut fields;
+        for key in way {
+            let inner = table.get_mut(*key).and_then(Value::as_table_mut);
+            table = inner.ok_or_else(|| format!("{} has no {key}", piece.title))?;
+        }
+        if name.is_none() {
+            table.remove(*last);
+        } else {
+            if missing {
+                table.insert((*last).to_owned(), Value::Table(self.usual()));
+            }
+            lay_over(table, Table::from_iter([((*last).to_owned(), Value::Table(changes))]));
+        }
+        // Wires need a force that presses them on, and a head to lie against.
+        if *self == RESONANT && name.is_none() {
+            fields.remove("wires");
+        }
+        preload(&mut fields);
+        let draft = Draft { name: piece.name.clone(), fields, is_kept: true, beside: Table::new() };
+        pieces::read(&draft, &Origins::default()).map_err(|fault| fault.reason)
+    }
+
+    /// What the part is beside what the library says: that of the first piece of the standard kit which has one.
+    fn usual(&self) -> Table {
+        let standard = KitSpec::standard();
+        let of_piece = |piece: &PieceSpec| self.found(&text::fields(piece)).cloned();
+        standard.pieces.iter().rev().find_map(of_piece).unwrap_or_default()
+    }
+}
+
+/// Whether a table has all that another says, beside the line on what it is.
+fn agrees(own: &Table, made: &Table) -> bool {
+    let number = |value: &Value| value.as_float().or(value.as_integer().map(|whole| whole as f64));
+    made.iter().filter(|(key, _)| *key != "about").all(|(key, made)| match (own.get(key), made) {
+        (Some(Value::Table(own)), Value::Table(made)) => agrees(own, made),
+        (Some(own), made) => own == made || number(own).is_some_and(|own| Some(own) == number(made)),
+        (None, _) => false,
+    })
+}
+
+/// Gives a piece with wires the force that presses them on, and takes it from one without.
+fn preload(fields: &mut Table) {
+    const FORCE: &str = "preload_n";
+    let wires = fields.contains_key("wires");
+    let Some(Value::Table(defaults)) = fields.get_mut("defaults") else { return };
+    if !wires {
+        defaults.remove(FORCE);
+    } else if !defaults.contains_key(FORCE) {
+        let standard = KitSpec::standard();
+        if let Some(force) = standard.pieces.iter().find_map(|piece| piece.defaults.preload) {
+            defaults.insert(FORCE.to_owned(), Value::Float(force));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn standard(name: &str) -> PieceSpec {
+        KitSpec::standard().find(name).unwrap().1.clone()
+    }
+
+    #[test]
+    fn every_part_of_every_list_can_be_fitted_and_is_found_again() {
+        let kit = KitSpec::standard();
+        let mut fitted = 0;
+        for piece in &kit.pieces {
+            for part in of(piece) {
+                for made in part.choices() {
+                    let with = part.fitted(piece, Some(made.name)).unwrap();
+                    assert_eq!(part.chosen(&with), Some(made.name), "{} of {}", part.label, piece.name);
+                    assert!(!made.title.is_empty());
+                    fitted += 1;
+                }
+                if part.optional {
+                    let without = part.fitted(piece, None).unwrap();
+                    assert!(!part.is_there(&without));
+                    assert_eq!(without.check(), Ok(()), "{} without {}", piece.name, part.label);
+                }
+            }
+        }
+        assert!(fitted > 100, "{fitted}");
+    }
+
+    #[test]
+    fn wires_come_with_their_force_and_go_with_the_head_that_they_lie_against() {
+        let tom = standard("rack-tom");
+        let rattling = WIRES.fitted(&tom, Some("strands-12")).unwrap();
+        assert!(rattling.defaults.preload.is_some() && rattling.check() == Ok(()));
+        assert_eq!(WIRES.fitted(&rattling, None).unwrap(), tom);
+        let open = RESONANT.fitted(&standard("snare"), None).unwrap();
+        assert!(open.drum().unwrap().wires.is_none() && open.defaults.preload.is_none());
+    }
+}
