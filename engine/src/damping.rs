@@ -93,7 +93,7 @@ impl EdgeSpec {
 /// How a metal expands and conducts heat.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Heat {
-    /// Linear expansion, 1/K.
+    /// Linear expansion, dimensionless for each kelvin (1/K).
     pub expansion: f64,
     /// Heat capacity by volume, J/(m3 K).
     pub by_volume: f64,

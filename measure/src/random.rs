@@ -2,9 +2,9 @@
 //!
 //! Each begins as a piece of the standard kit, gains or loses parts, and has every number of its description moved: by a
 //! factor of up to three either way, sometimes to the very end of its accepted range. Pieces that the description refuses,
-//! or that have too many modes, are drawn again. [`kit`] puts them together.
+//! or that have too many modes, are drawn again. [`kits`] puts them together.
 
-mod kits;
+pub mod kits;
 
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
@@ -18,8 +18,6 @@ use overhear_engine::kit_spec::{InstrumentSpec, PieceSpec};
 use overhear_engine::numbers::{Numbers, Visitor};
 
 use crate::{Chance, spec};
-
-pub use kits::kit;
 
 /// Sample rate of random pieces, Hz: the lowest that hosts play at.
 pub const RATE: f64 = 44_100.0;

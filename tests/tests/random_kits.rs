@@ -152,7 +152,7 @@ fn random_kits_can_be_built_played_and_stored() {
         let mut chance = Chance::new(seed.wrapping_mul(1_000_003).wrapping_add(number as u64));
         // Most are small; every size comes.
         let count = 1 + (SLOTS as f64 * chance.unit().powi(3)) as usize;
-        let document = random::kit(&mut chance, count.min(SLOTS));
+        let document = random::kits::kit(&mut chance, count.min(SLOTS));
         pieces += document.kit.pieces.len();
         match fault(&document, &mut chance) {
             Ok(length) => largest = largest.max(length),

@@ -16,7 +16,7 @@ use overhear_tests::stroke;
 const RATE: f64 = 44_100.0;
 
 /// A struck instrument.
-struct Heard(Vec<f32>);
+struct Recorded(Vec<f32>);
 
 /// Kit file of a kit of the one piece `tested`.
 fn file(piece: &str) -> String {
@@ -30,14 +30,14 @@ fn read(piece: &str) -> KitDocument {
 }
 
 /// Builds what a kit file says of a piece, strikes it, and listens for so many seconds.
-fn struck(piece: &str, strike: Strike, seconds: f64) -> Heard {
+fn struck(piece: &str, strike: Strike, seconds: f64) -> Recorded {
     let kit = read(piece).kit;
     let options = BuildOptions::new(RATE);
     let request = Request { kit, strike, settings: Vec::new(), options, seconds };
-    Heard(hear::render(&request).expect("a piece that can be built").samples)
+    Recorded(hear::render(&request).expect("a piece that can be built").samples)
 }
 
-impl Heard {
+impl Recorded {
     /// The strongest line between two frequencies, Hz.
     fn line(&self, low: f64, high: f64) -> f64 {
         PowerSpectrum::hann(&self.0, RATE).line(0.5 * (low + high), 0.5 * (high - low))
@@ -50,7 +50,7 @@ impl Heard {
 
     /// Mean frequency by power of what rings from 50 ms on, Hz.
     fn ring(&self) -> f64 {
-        Heard(self.0[(0.05 * RATE) as usize..].to_vec()).brightness()
+        Recorded(self.0[(0.05 * RATE) as usize..].to_vec()).brightness()
     }
 
     /// Time by which the sound would fall by 60 dB, from its first 10 dB, s.
@@ -100,7 +100,7 @@ fn of_drums_with_one_head_at_one_tension_the_larger_are_lower() {
         struck(&piece, stroke(STICK, 3.0, 0.3, 0.0), 1.5)
     });
     falls("the strongest line, Hz", &toms.each_ref().map(|tom| tom.line(60.0, 300.0)), 0.08);
-    falls("mean frequency, Hz", &toms.each_ref().map(Heard::brightness), 0.05);
+    falls("mean frequency, Hz", &toms.each_ref().map(Recorded::brightness), 0.05);
     rises("decay at 125 Hz, s", &toms.each_ref().map(|tom| tom.decay(125.0)), 0.03);
 }
 
@@ -115,10 +115,10 @@ fn a_deeper_snare_has_a_lower_cavity_and_is_darker() {
         struck(&piece, stroke(STICK, 2.0, 0.0, 0.0), 1.0)
     });
     falls("the first round mode, Hz", &snares.each_ref().map(|snare| snare.line(180.0, 290.0)), 0.02);
-    falls("mean frequency, Hz", &snares.each_ref().map(Heard::brightness), 0.04);
+    falls("mean frequency, Hz", &snares.each_ref().map(Recorded::brightness), 0.04);
 }
 
-fn headed(head: &str) -> Heard {
+fn headed(head: &str) -> Recorded {
     let piece = format!("like = \"tom-12x9\"\nbatter.like = \"{head}\"");
     struck(&piece, stroke(STICK, 3.0, 0.3, 0.0), 2.0)
 }
@@ -128,7 +128,7 @@ fn headed(head: &str) -> Heard {
 #[test]
 fn two_plies_are_duller_and_shorter_than_one() {
     let heads = ["clear-7", "two-ply-clear"].map(headed);
-    falls("what rings, mean frequency, Hz", &heads.each_ref().map(Heard::ring), 0.02);
+    falls("what rings, mean frequency, Hz", &heads.each_ref().map(Recorded::ring), 0.02);
     for octave in [250.0, 1000.0, 4000.0] {
         falls(&format!("decay at {octave} Hz, s"), &heads.each_ref().map(|head| head.decay(octave)), 0.25);
     }
@@ -148,7 +148,7 @@ fn a_coated_head_is_shorter_than_a_clear_one() {
 #[test]
 fn a_thin_film_rings_shorter_than_a_thick_one() {
     let heads = ["clear-7", "clear-10", "clear-12"].map(headed);
-    rises("length, s", &heads.each_ref().map(Heard::length), 0.04);
+    rises("length, s", &heads.each_ref().map(Recorded::length), 0.04);
 }
 
 /// A pillow takes ring and boom and leaves a punch: drumbeatsonline.com/blog/bass-drum-dampening-how-to-control-your-kick-drum-sound;
@@ -159,8 +159,8 @@ fn a_muffled_kick_is_shorter_and_more_attack() {
         let piece = format!("like = \"kick-22x18\"\ndefaults.muffle = {muffle}");
         struck(&piece, stroke(Striker::FeltBeater, 4.0, 0.15, 0.0), 2.0)
     });
-    falls("length, s", &kicks.each_ref().map(Heard::length), 0.3);
-    let attack = kicks.each_ref().map(Heard::ping);
+    falls("length, s", &kicks.each_ref().map(Recorded::length), 0.3);
+    let attack = kicks.each_ref().map(Recorded::ping);
     println!("the first 30 ms over the rest, dB: {attack:.1?}");
     assert!(attack.windows(2).all(|pair| pair[1] > pair[0] + 2.0), "{attack:?}");
 }
@@ -175,10 +175,10 @@ fn of_cymbals_of_one_thickness_the_larger_are_lower() {
         struck(&piece, stroke(Striker::TimpaniMallet, 3.0, 0.9, 0.0), 2.0)
     });
     falls("the strongest line, Hz", &cymbals.each_ref().map(|cymbal| cymbal.line(200.0, 1000.0)), 0.03);
-    falls("mean frequency, Hz", &cymbals.each_ref().map(Heard::brightness), 0.01);
+    falls("mean frequency, Hz", &cymbals.each_ref().map(Recorded::brightness), 0.01);
 }
 
-fn ride(change: &str, strike: Strike) -> Heard {
+fn ride(change: &str, strike: Strike) -> Recorded {
     struck(&format!("like = \"ride-20\"\n{change}"), strike, 4.0)
 }
 
@@ -191,7 +191,7 @@ fn a_heavier_ride_is_higher_drier_and_lasts_longer() {
         masses.map(|kg| ride(&format!("mass_kg = {kg}"), stroke(Striker::TimpaniMallet, 1.0, 0.95, 0.0)));
     rises("the lowest mode, Hz", &bowed.each_ref().map(|ride| ride.line(20.0, 90.0)), 0.1);
     let tipped = masses.map(|kg| ride(&format!("mass_kg = {kg}"), stroke(STICK, 2.0, 0.5, 0.0)));
-    let ping = tipped.each_ref().map(Heard::ping);
+    let ping = tipped.each_ref().map(Recorded::ping);
     println!("ping over wash, dB: {ping:.1?}");
     assert!(ping[2] > ping[0] + 1.0, "{ping:?}");
     rises("decay at 500 Hz, s", &tipped.each_ref().map(|ride| ride.decay(500.0)), 0.1);
@@ -202,7 +202,7 @@ fn a_heavier_ride_is_higher_drier_and_lasts_longer() {
 fn a_cymbal_of_a_higher_profile_is_higher() {
     let rides = [12, 18, 26]
         .map(|bow| ride(&format!("bow_mm = {bow}"), stroke(Striker::TimpaniMallet, 1.0, 0.9, 0.0)));
-    rises("mean frequency, Hz", &rides.each_ref().map(Heard::brightness), 0.05);
+    rises("mean frequency, Hz", &rides.each_ref().map(Recorded::brightness), 0.05);
 }
 
 /// Brass conducts heat more than twice as well as bronze and has a loss factor of 2e-4 to 1e-3: L. Cremer, M. Heckl,
@@ -217,8 +217,8 @@ fn brass_is_shorter_and_darker_than_bronze() {
     for octave in [1000.0, 4000.0, 8000.0] {
         falls(&format!("decay at {octave} Hz, s"), &crashes.each_ref().map(|crash| crash.decay(octave)), 0.4);
     }
-    falls("mean frequency, Hz", &crashes.each_ref().map(Heard::brightness), 0.1);
-    falls("what rings, mean frequency, Hz", &crashes.each_ref().map(Heard::ring), 0.1);
+    falls("mean frequency, Hz", &crashes.each_ref().map(Recorded::brightness), 0.1);
+    falls("what rings, mean frequency, Hz", &crashes.each_ref().map(Recorded::ring), 0.1);
 }
 
 /// Heavy hats are loud and bright, light ones dark and soft: samash.com, Cymbal buyer's guide, of thin and thick cymbals.
@@ -228,7 +228,7 @@ fn heavier_hats_are_brighter() {
         let piece = format!("like = \"hats-14\"\ntop.mass_kg = {top}\nbottom.mass_kg = {bottom}");
         struck(&piece, stroke(Striker::Shoulder, 3.0, 0.9, 0.0), 2.0)
     });
-    rises("mean frequency, Hz", &hats.each_ref().map(Heard::brightness), 0.1);
+    rises("mean frequency, Hz", &hats.each_ref().map(Recorded::brightness), 0.1);
 }
 
 /// The air in a kettle stiffens a timpani's round modes and hardly moves those with nodal diameters: R. S. Christian, R. E. Davis,

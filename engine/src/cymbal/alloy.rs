@@ -26,7 +26,7 @@ pub struct Alloy {
     /// None in files older than this field, whose `loss` has it.
     #[serde(default)]
     pub loss_factor: f64,
-    /// Linear expansion, 1/K, 0 to 1e-4.
+    /// Linear expansion, dimensionless for each kelvin (1/K), 0 to 1e-4.
     #[serde(rename = "expansion_1_k", default = "bronze_expansion")]
     pub expansion: f64,
     /// Heat capacity by mass, J/(kg K), 50 to 5000.
