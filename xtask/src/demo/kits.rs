@@ -28,7 +28,7 @@ const APART: f64 = 2.0;
 /// beginning as `NAME.wav` and its spectrogram as `NAME.png` into `folder`.
 ///
 /// # Errors
-/// If a kit does not sound as it must, is clipped, or is more than [`APART`] from another in loudness.
+/// If a kit does not sound as it must, is clipped, or is more than 2 LU from another in loudness.
 pub fn run(folder: &Path) -> Result<()> {
     let song = Song::read(&workspace::root().join("assets/groove.mid"))?;
     let _folder = Folder::new(folder)?;

@@ -3,12 +3,12 @@
 //! *Literature*, as the modules leave the factory: Roland's list of the TD-17 and the implementation charts of TD-27 and TD-50,
 //! whose notes those that followed share; Yamaha DTX502; Alesis Nitro. *Assumed*, as no list of their notes was found in public:
 //!
-//! * `EFNOTE`: that of Roland, with notes of its own for a half open hi-hat and a foot splash.
-//! * `EDRUMIN`: Audiofront's manual (2.3.1) has positional sensing, three zones on one input and a pedal, and leaves every note to
-//!   the user; two drums and one of each cymbal, on the notes that the DTX and Roland's modules have in common.
-//! * `MEGADRUM`: its documents say that every input has notes of its own, and its editor (MegaDrumManagerFX) that bow, edge and
-//!   bell of the hi-hat have one each for open, two of semi-open, two of half open, semi-closed and closed, beside chick and
-//!   splash. Which numbers those are is assumed, with one zone for each opening.
+//! * `EFNOTE`: Roland's notes, with two more for a half open hi-hat and a foot splash. No document was found.
+//! * `EDRUMIN`: Audiofront's manual (2.3.1) tells of positional sensing, three zones at one input and a pedal; what was read of it
+//!   names no note.
+//! * `MEGADRUM`: its documents (pad settings) say that every input has notes of its own, and its editor (MegaDrumManagerFX,
+//!   `ConfigPedal`) that bow, edge and bell of the hi-hat each have one for two semi-open, two half open, a semi-closed and a
+//!   closed position, beside chick and splash. Neither prints which; here each opening has one note for all zones.
 
 /// A pad of an instrument.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
