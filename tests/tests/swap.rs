@@ -1,8 +1,14 @@
 //! Pieces replaced and taken away while they ring.
 
+use std::sync::Arc;
+
+use overhear::building::Pace;
+use overhear::kit_document::KitDocument;
+use overhear::performer::{Performer, Setup};
+use overhear::{kit_edits, library};
 use overhear_engine::kit::{Arrangement, Control, Kit, Microphone};
 use overhear_engine::kit_spec::KitSpec;
-use overhear_engine::piece::Piece;
+use overhear_engine::piece::{BuildOptions, Piece};
 use overhear_engine::slot::Slot;
 use overhear_engine::strike::Striker;
 use overhear_tests::{kit, member, slot, standard, stroke};
@@ -166,4 +172,53 @@ fn what_stays_rings_on_through_a_change_of_the_kit_in_every_buffer_size() {
     // Once the other has faded out, the crash is heard as if nothing had happened.
     let undisturbed = play(512, false, false);
     assert!(whole[BEFORE + 2_400..] == undisturbed[BEFORE + 2_400..]);
+}
+
+/// A groove on a kit at buffers of 64 samples; in the middle, if there is one, another kit comes: first what is about all
+/// pieces, then, some buffers later, the piece that differs.
+fn groove(before: &Arc<KitDocument>, after: Option<(&Arc<KitDocument>, Slot)>) -> Vec<f32> {
+    const BUFFER: usize = 64;
+    let mut performer = Performer::new(RATE, before, Arc::default());
+    performer.install_kit(RATE, Pace::RealTime).expect("the kit can be built");
+    let mut coming = after.map(|(document, slot)| {
+        let build = document.kit.build(slot).expect("a piece");
+        let piece = Piece::new(slot, &build, &BuildOptions::new(RATE)).expect("it can be built");
+        (Setup::new(RATE, document.clone()), Box::new(piece))
+    });
+    let mut sound = Vec::new();
+    let [mut left, mut right] = [[0.0; BUFFER]; 2];
+    for buffer in 0..1_500 {
+        // An eighth is 150 buffers, 0.2 s.
+        if buffer % 150 == 0 {
+            performer.note_on(42, 0.6, 9);
+            performer.note_on([36, 49, 38, 51][buffer / 150 % 4], 0.8, 9);
+        }
+        if buffer == 700
+            && let Some((setup, piece)) = coming.take()
+        {
+            drop(performer.change_kit(setup));
+            drop(performer.install(piece));
+        }
+        performer.render(&mut left, &mut right);
+        sound.extend_from_slice(&left);
+    }
+    sound
+}
+
+#[test]
+fn a_piece_exchanged_while_a_groove_plays_makes_no_step_beyond_the_sound_s_own() {
+    let before = Arc::new(KitDocument::standard());
+    let undisturbed = groove(&before, None);
+    let (from, to) = (700 * 64, 748 * 64);
+    for (name, by) in [("crash", "crash-18-thin"), ("kick", "kick-18x14"), ("hi-hat", "hats-13")] {
+        let edit = kit_edits::exchange(&before, slot(name), &library::instrument(by).unwrap()).unwrap();
+        let exchanged = groove(&before, Some((&Arc::new(edit.document), slot(name))));
+        assert!(exchanged[..from] == undisturbed[..from]);
+        assert!(exchanged != undisturbed, "{by} sounds as what was there");
+        // While it fades the sound is no rougher than it was anywhere before.
+        let (own, fading) = (roughest(&undisturbed[..to]), roughest(&exchanged[from - 2..to]));
+        assert!(fading <= own, "{by}: {fading} {own}");
+        let here = roughest(&undisturbed[from - 2..to]);
+        assert!(fading <= 1.05 * here, "{by}: {fading} where it was {here}");
+    }
 }

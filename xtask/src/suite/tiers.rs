@@ -12,7 +12,7 @@ pub enum Tier {
 }
 
 /// Every integration test of the workspace by its target: when it is run, and why then.
-pub const TARGETS: [(&str, Tier, &str); 33] = [
+pub const TARGETS: [(&str, Tier, &str); 35] = [
     ("acoustics", Tier::Quick, "figures of modes, computed rather than played"),
     ("automation", Tier::Whole, "plays the kit under every parameter"),
     ("command_line", Tier::Quick, "the program for users, in an empty folder"),
@@ -42,8 +42,10 @@ pub const TARGETS: [(&str, Tier, &str); 33] = [
         Tier::Whole,
         "builds hundreds of random pieces, and a seed that is new may find one that fails",
     ),
+    ("random_kits", Tier::Whole, "builds random kits, and a seed that is new may find one that fails"),
     ("realtime", Tier::Traps, "counts allocations, with an allocator of its own"),
     ("recordings", Tier::Whole, "plays the kit softly to hard"),
+    ("relations", Tier::Whole, "builds some thirty pieces"),
     ("sleep", Tier::Quick, "rests more than it plays"),
     ("strokes", Tier::Quick, "single strokes"),
     ("swap", Tier::Quick, "exchanges a piece while it plays"),
