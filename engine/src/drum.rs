@@ -30,7 +30,7 @@ use crate::high_band::{HighBand, HighMuffling};
 use crate::instrument::Instrument;
 use crate::modal::Mode;
 use crate::mode::ModeInfo;
-use crate::receiver::{DIRECTIONS, POINTS};
+use crate::receiver::POINTS;
 use crate::rim::{Rim, RimPart};
 use crate::schema::SCHEMA;
 use crate::shapes::ShapeTable;
@@ -42,7 +42,7 @@ use crate::surface::{Surface, SurfaceParts};
 
 use body::{BodyMode, all_around, describe, long_wave, sampled};
 use mixing::MixedModes;
-use mode_transfer::ModeTransfer;
+use mode_transfer::{ModeTransfer, ModeTransfers};
 use modes::DrumModes;
 use muffler::MufflerCoefs;
 pub use spec::{DrumSpec, HeadContact, HeadSpec, PitchOf, ResonantSpec, ShellSpec};
@@ -58,10 +58,7 @@ fn modes_key(spec: &DrumSpec) -> impl Serialize {
 /// What has been worked out of late.
 static MODES: Cache<DrumModes> = Cache::new("drum", SCHEMA, 24);
 static MIXED: Cache<MixedModes> = Cache::new("mixing", SCHEMA, 24);
-/// How a drum's modes are heard from near and from each direction far away.
-type Hearing = (ModeTransfer, [ModeTransfer; DIRECTIONS]);
-
-static TRANSFERS: Cache<Hearing> = Cache::new("hearing", SCHEMA, 24);
+static TRANSFERS: Cache<ModeTransfers> = Cache::new("hearing", SCHEMA, 24);
 
 /// What is asked for while it rings.
 struct Controls {
@@ -169,7 +166,7 @@ pub struct Drum {
     built: Shared<DrumModes>,
     mixing: Option<Mixing>,
     /// From near and from far.
-    hearing: Shared<Hearing>,
+    hearing: Shared<ModeTransfers>,
     /// What makes of the pressure at each point the one that is passed on.
     scales: [f64; POINTS],
     modes: Vec<BodyMode>,

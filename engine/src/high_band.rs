@@ -127,6 +127,7 @@ struct Laid {
     muffling: HighMuffling,
     /// The modes at that tension, without muffling.
     modes: Vec<Mode>,
+    inaudible: InaudibleModes,
 }
 
 /// The high band of one head.
@@ -134,7 +135,6 @@ pub struct HighBand {
     spec: HighBandSpec,
     body: ModalBody,
     pickup: ReceiverWeights,
-    inaudible: InaudibleModes,
     slices: Vec<Slice>,
     waves: Waves,
     laid: Laid,
@@ -177,8 +177,12 @@ impl HighBand {
             spec: *spec,
             body: ModalBody::new(modes.clone(), spec.sample_rate),
             pickup: ReceiverWeights::new(vec![[0.0; 2]; count]),
-            inaudible: InaudibleModes::new(count),
-            laid: Laid { tension: 0.0, muffling: HighMuffling::NONE, modes },
+            laid: Laid {
+                tension: 0.0,
+                muffling: HighMuffling::NONE,
+                modes,
+                inaudible: InaudibleModes::new(count),
+            },
             waves: Waves::new(spec, &slices),
             slices,
             places: (0..spec.places.min(MAX_DRIVES)).map(place).collect(),
@@ -207,11 +211,11 @@ impl HighBand {
             self.lay(tension);
         }
         self.laid.muffling = *muffling;
-        let HighBand { spec, body, pickup, inaudible, slices, smoothing, laid, .. } = self;
+        let HighBand { spec, body, pickup, slices, smoothing, laid, .. } = self;
         let held = |k: usize| if spec.lossless { 0.0 } else { muffling.sigma(&slices[k]) };
         body.set_modes(|k, _| Mode { sigma: laid.modes[k].sigma + held(k), ..laid.modes[k] });
         body.tune(pickup);
-        body.update_thresholds(inaudible, pickup, 0, None);
+        body.update_thresholds(&mut laid.inaudible, pickup, 0, None);
         smoothing.step(before, body.listen(pickup));
         for place in &mut self.places {
             body.connect(&mut place.port);
@@ -315,7 +319,7 @@ impl HighBand {
     /// Linear in the number of slices; meant for once a block.
     pub fn settle(&mut self) -> bool {
         if self.rings {
-            self.body.flush_inaudible(&self.inaudible);
+            self.body.flush_inaudible(&self.laid.inaudible);
             for place in self.places.iter_mut().filter(|place| place.slow.abs() < FAINT) {
                 place.slow = 0.0;
             }

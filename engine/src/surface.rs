@@ -286,8 +286,8 @@ impl Surface {
         self.body.set_volumes(volumes);
     }
 
-    /// Changes the transfers to the near receiver, as in [`SurfaceParts::transfer`], and to the far ones, given at a metre. They
-    /// act at once.
+    /// Changes the transfers to the near receiver, as in [`SurfaceParts::transfer`], and to the far ones, given at a metre, Pa s2/m,
+    /// `[point][mode]`. They act at once.
     ///
     /// # Real-time
     /// No allocation; linear in the number of modes.

@@ -15,7 +15,8 @@ use overhear_engine::slot::{SLOTS, Slot};
 
 use crate::kit_document::KitDocument;
 use crate::library::Instrument;
-use crate::midi_map::Row;
+
+use notes::Notes;
 
 /// Where a piece of a changed kit comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,7 +24,7 @@ pub enum Origin {
     /// It was not there.
     New,
     /// It was in that slot.
-    Kept(Slot),
+    Same(Slot),
     /// Another one was in that slot, in whose place it is.
     Exchanged(Slot),
 }
@@ -38,9 +39,6 @@ pub struct Edit {
     /// The piece that the change was about.
     pub about: Slot,
 }
-
-/// Notes of a piece with what they play, the ordinary one first.
-type Notes = Vec<(u8, Row)>;
 
 /// Adds an instrument of the library where there is room for it, with notes of its own.
 ///
@@ -89,7 +87,7 @@ fn append(document: &KitDocument, mut piece: PieceSpec, notes: &Notes) -> Result
     place(&mut piece, &document.kit);
     notes::give(&mut document, about, &piece.title, notes);
     document.kit.pieces.push(piece);
-    let kept = Slot::ALL.into_iter().take(count).map(Origin::Kept);
+    let kept = Slot::ALL.into_iter().take(count).map(Origin::Same);
     checked(Edit { document, origins: kept.chain([Origin::New]).collect(), about })
 }
 
@@ -111,7 +109,7 @@ pub fn remove(document: &KitDocument, slot: Slot) -> Result<Edit, SpecError> {
         _ if of == last => Some(slot),
         _ => Some(of),
     });
-    let origin = |at: Slot| Origin::Kept(if at == slot { last } else { at });
+    let origin = |at: Slot| Origin::Same(if at == slot { last } else { at });
     let origins = Slot::ALL.into_iter().take(count - 1).map(origin).collect();
     checked(Edit { document, origins, about: Slot::ALL[slot.index().min(count - 2)] })
 }
@@ -178,7 +176,7 @@ pub fn alone(document: &KitDocument, slot: Slot) -> Result<KitDocument, SpecErro
 }
 
 fn kept(kit: &KitSpec) -> Vec<Origin> {
-    kit.slots().map(|(slot, _)| Origin::Kept(slot)).collect()
+    kit.slots().map(|(slot, _)| Origin::Same(slot)).collect()
 }
 
 fn checked(edit: Edit) -> Result<Edit, SpecError> {

@@ -33,7 +33,9 @@ fn the_outputs_of_the_microphones_add_up_to_the_main_one() {
     for side in 0..2 {
         for i in 0..9_000 {
             let sum: f32 = microphones.iter().map(|pair| pair[side][i]).sum();
-            assert!((sum - main[side][i]).abs() < 1e-6, "sample {i}: {sum} for {}", main[side][i]);
+            // From 2 on the ceiling bends the main output.
+            let most = if sum.abs() < 1.99 { 1e-6 } else { 0.02 };
+            assert!((sum - main[side][i]).abs() < most, "sample {i}: {sum} for {}", main[side][i]);
         }
     }
     for (i, pair) in microphones.iter().enumerate() {

@@ -31,7 +31,7 @@ fn a_microphone_34_3_cm_farther_hears_a_millisecond_later_and_one_twice_as_far_h
 #[test]
 fn a_close_microphone_hears_modes_that_overheads_and_room_do_not() {
     for name in ["rack-tom", "floor-tom"] {
-        for ((m, least), levels) in [(2, 6.0), (3, 15.0)].into_iter().zip(near_field(&spec(name), 44_100.0)) {
+        for ((m, least), levels) in [(2, 6.0), (3, 12.0)].into_iter().zip(near_field(&spec(name), 44_100.0)) {
             println!("{name} ({m}, 1): close, overheads, room {levels:.1?} dB of the whole");
             assert!(levels[0] > levels[1] + least && levels[0] > levels[2] + least, "{name}: {levels:?}");
         }

@@ -53,10 +53,8 @@ fn wires_land_when_a_rack_tom_is_struck_the_more_the_harder() {
     let outside =
         [0.1, 0.35, 0.5].map(|radius| [2.0, 4.0, 6.0].map(|speed| landings(&mut kit, speed, radius)));
     println!("at .1, .35, .5 of the radius: {outside:?}");
-    assert!(
-        outside[0].iter().sum::<u32>() > outside[1].iter().sum::<u32>() && outside[1][2] > 0,
-        "{outside:?}"
-    );
+    // Hard strokes keep the wires landing wherever they fall.
+    assert!(outside.is_sorted_by(|inner, outer| inner[0] > outer[0]) && outside[1][2] > 0, "{outside:?}");
 }
 
 #[test]

@@ -86,7 +86,7 @@ impl Numbers for CymbalSpec {
             let radius = 0.5 * self.diameter;
             visitor.enter("bell");
             visitor.number("radius_m", &mut bell.radius, 0.05 * radius..=0.5 * radius);
-            visitor.number("rise_m", &mut bell.rise, 0.0..=bell.radius);
+            visitor.number("rise_m", &mut bell.rise, 0.0..=Bell::HIGHEST * bell.radius);
             visitor.leave();
         }
         if let Some(flange) = &mut self.flange {

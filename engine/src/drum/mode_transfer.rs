@@ -24,7 +24,7 @@ use crate::drum::modes::DrumModes;
 use crate::drum::spec::DrumSpec;
 use crate::drum::tuned::{PitchPosition, TunedMode};
 use crate::radiation::{Radiator, Rayleigh};
-use crate::receiver::ReceiverPosition;
+use crate::receiver::{DIRECTIONS, ReceiverPosition};
 use crate::split::Splitting;
 
 /// Modes up to so many times the default pitch are heard one by one: all of the octave of 500 Hz, which ends at 707 Hz, of a
@@ -47,6 +47,9 @@ enum PairTransfer {
         ends: [f32; 2],
     },
 }
+
+/// How a drum's modes are heard from near and from each direction far away.
+pub type ModeTransfers = (ModeTransfer, [ModeTransfer; DIRECTIONS]);
 
 /// Everything needed to hear a drum at any of its pitches.
 #[derive(Serialize, Deserialize)]

@@ -41,6 +41,12 @@ pub struct Bell {
     pub rise: f64,
 }
 
+impl Bell {
+    /// Rise over radius at most. *Derived*: its steepest slope, `1.72 rise / radius`, is 1 there; shells are taken as shallow. Real bells
+    /// have a third.
+    pub const HIGHEST: f64 = 0.58;
+}
+
 /// A china's upturned rim: outside of `radius` it rises over the bow by `rise s^3`, `s` from 0 there to 1 at the rim.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -78,7 +84,7 @@ impl PlateSpec {
         if let Some(bell) = self.bell {
             let radius = self.radius();
             SpecError::check("bell radius (m)", bell.radius, 0.05 * radius, 0.5 * radius)?;
-            SpecError::check("bell rise (m)", bell.rise, 0.0, bell.radius)?;
+            SpecError::check("bell rise (m)", bell.rise, 0.0, Bell::HIGHEST * bell.radius)?;
         }
         if let Some(flange) = self.flange {
             let radius = self.radius();

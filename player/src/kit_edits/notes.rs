@@ -14,7 +14,8 @@ use crate::library::Instrument;
 use crate::midi::figures::Figure;
 use crate::midi_map::{Foot, LONGEST_NAME, Meaning, NoteTable, Row, Stroke};
 
-use super::Notes;
+/// Notes of a piece with what they play, the ordinary one first.
+pub(super) type Notes = Vec<(u8, Row)>;
 
 /// As many notes at most are given to a piece whose own ones another has.
 const MOST: usize = 10;

@@ -24,7 +24,7 @@ pub enum Size {
     /// Of the resonant head over the batter head's.
     PitchRatio,
     /// Of the hole in the resonant head.
-    Port,
+    Opening,
     /// Of a cymbal, of the upper one of a hi-hat.
     Weight,
     /// Of the lower one of a hi-hat.
@@ -78,7 +78,7 @@ impl Size {
         Size::Volume,
         Size::Pitch,
         Size::PitchRatio,
-        Size::Port,
+        Size::Opening,
         Size::Weight,
         Size::LowerWeight,
         Size::Bow,
@@ -96,7 +96,7 @@ impl Size {
             Size::Volume => "Kettle",
             Size::Pitch => "Pitch",
             Size::PitchRatio => "Resonant pitch",
-            Size::Port => "Port",
+            Size::Opening => "Port",
             Size::Weight => "Weight",
             Size::LowerWeight => "Lower weight",
             Size::Bow => "Bow",
@@ -125,7 +125,7 @@ impl Size {
             Size::Volume => "volume_m3",
             Size::Pitch => "pitch_hz",
             Size::PitchRatio => "pitch_ratio",
-            Size::Port => "port_diameter_m",
+            Size::Opening => "port_diameter_m",
             Size::Weight | Size::LowerWeight => "mass_kg",
             Size::Bow => "bow_m",
             Size::Taper => "taper",
@@ -153,7 +153,7 @@ impl Size {
             },
             (Size::Pitch, InstrumentSpec::Drum(drum)) => Some(drum.pitch_hz),
             (Size::PitchRatio, InstrumentSpec::Drum(drum)) => drum.resonant.map(|head| head.pitch_ratio),
-            (Size::Port, InstrumentSpec::Drum(drum)) => drum.resonant.and_then(|head| head.port_diameter),
+            (Size::Opening, InstrumentSpec::Drum(drum)) => drum.resonant.and_then(|head| head.port_diameter),
             (_, InstrumentSpec::Cymbal(cymbal)) => self.of_cymbal(cymbal),
             (Size::LowerWeight, InstrumentSpec::HiHat(hat)) => Some(hat.bottom.mass),
             (_, InstrumentSpec::HiHat(hat)) => self.of_cymbal(&hat.top),
@@ -217,7 +217,7 @@ impl Size {
                 drum.pitch_hz = value;
             }
             (Size::PitchRatio, _, Some(head)) => head.pitch_ratio = value,
-            (Size::Port, _, Some(head)) => head.port_diameter = Some(value),
+            (Size::Opening, _, Some(head)) => head.port_diameter = Some(value),
             _ => {}
         }
     }

@@ -7,7 +7,8 @@ mod drawing;
 mod files;
 mod floor;
 mod parts;
-mod shelf;
+mod library_list;
+mod wish;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -18,9 +19,10 @@ use overhear_engine::slot::Slot;
 use overhear_player::kit_document::KitDocument;
 use overhear_player::kit_edits::sizes::{Refusal, Size, Units, resize};
 use overhear_player::kit_edits::{self, Edit, Origin};
-use overhear_player::kit_file::parts::Part;
 use overhear_player::library;
 use overhear_player::parameters::{SlotParameter, default_value, is_live, slot_index};
+
+use wish::Wish;
 
 use super::gesture::{Gesture, put};
 use super::theme;
@@ -33,28 +35,10 @@ const LINE: f32 = 30.0;
 /// Space between panels, points.
 const GAP: f32 = 8.0;
 
-/// What a hand wants.
-#[derive(Debug, Clone, PartialEq)]
-enum Wish {
-    Add(&'static str),
-    Exchange(&'static str),
-    Duplicate,
-    Remove,
-    Kit(&'static str),
-    Resize(Size, f64),
-    Fit(Part, Option<&'static str>),
-    /// To the right and toward the audience, m.
-    Move(Slot, [f64; 2]),
-    SaveKit(String),
-    SavePiece(String),
-    Open(String),
-    AddFile(String),
-}
-
 /// The page of one window.
 pub struct Build {
     units: Units,
-    shelf: shelf::Shelf,
+    list: library_list::LibraryList,
     floor: floor::Floor,
     drawing: drawing::Drawing,
     files: files::Files,
@@ -77,7 +61,7 @@ impl Build {
     pub fn new(folder: Option<PathBuf>) -> Build {
         Build {
             units: Units::default(),
-            shelf: shelf::Shelf::default(),
+            list: library_list::LibraryList::default(),
             floor: floor::Floor::default(),
             drawing: drawing::Drawing::default(),
             files: files::Files::of(folder),
@@ -122,7 +106,7 @@ impl Build {
                 *wish = Some(Wish::Remove);
             }
             ui.separator();
-            if let Some(name) = shelf::whole_kits(ui) {
+            if let Some(name) = library_list::whole_kits(ui) {
                 *wish = Some(Wish::Kit(name));
             }
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -146,15 +130,15 @@ impl Build {
         let left = (0.29 * rect.width()).clamp(168.0, 300.0);
         let right = (0.36 * rect.width()).clamp(214.0, 330.0);
         let part = |from: f32, to: f32| Rect::from_x_y_ranges(from..=to, rect.y_range());
-        let shelf = part(rect.min.x, rect.min.x + left);
-        let views = part(shelf.max.x + GAP, rect.max.x - right - GAP);
+        let list = part(rect.min.x, rect.min.x + left);
+        let views = part(list.max.x + GAP, rect.max.x - right - GAP);
         let made = part(rect.max.x - right, rect.max.x);
         let (floor, drawn) = views.split_top_bottom_at_fraction(0.52);
         let floor = Rect::from_min_max(floor.min, pos2(floor.max.x, floor.max.y - GAP));
-        for panel in [shelf, floor, drawn, made] {
+        for panel in [list, floor, drawn, made] {
             ui.painter().rect_filled(panel, theme::CORNER, theme::of(ui).panel);
         }
-        self.shelf.show(ui, shelf.shrink(8.0), wish);
+        self.list.show(ui, list.shrink(8.0), wish);
         self.floor.show(ui, floor, kit, selected, wish);
         self.drawing.show(ui, drawn, piece, (*selected, self.units), wish);
         parts::show(ui, made.shrink(8.0), piece, (*selected, self.units), wish);
@@ -292,7 +276,7 @@ fn take(edit: Edit, parameters: &HostParameters, set: &mut dyn FnMut(usize, Gest
 fn carried(what: SlotParameter, origin: Origin, values: Values<'_>) -> Option<f32> {
     let own_sound = matches!(what, SlotParameter::Tune | SlotParameter::Muffle | SlotParameter::Preload);
     let slot = match origin {
-        Origin::Kept(slot) => slot,
+        Origin::Same(slot) => slot,
         // What another piece sounds like is its own affair.
         Origin::Exchanged(slot) if !own_sound => slot,
         Origin::Exchanged(_) | Origin::New => return None,

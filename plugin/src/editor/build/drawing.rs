@@ -6,7 +6,7 @@ use overhear_engine::slot::Slot;
 use overhear_player::kit_edits::sizes::{Size, Units};
 
 use super::super::theme;
-use super::Wish;
+use super::wish::Wish;
 
 /// A handle's half width, points.
 const HANDLE: f32 = 7.0;

@@ -8,7 +8,7 @@ use overhear_engine::slot::Slot;
 use overhear_player::kit_document::KitDocument;
 use overhear_player::kit_file;
 
-use super::Wish;
+use super::wish::Wish;
 
 /// Extension of the files.
 const EXTENSION: &str = "toml";

@@ -5,7 +5,7 @@ use overhear_engine::kit_spec::{InstrumentSpec, KitSpec, PieceSpec};
 use overhear_engine::slot::Slot;
 
 use super::super::theme;
-use super::Wish;
+use super::wish::Wish;
 
 /// How far an arrow key moves a piece, m; with Shift.
 const STEP: (f64, f64) = (0.02, 0.1);

@@ -7,7 +7,7 @@ use overhear_player::kit_edits::sizes::{Size, Units};
 use overhear_player::kit_file::parts::{self, Part};
 
 use super::super::theme;
-use super::Wish;
+use super::wish::Wish;
 
 /// Draws both.
 pub fn show(

@@ -6,7 +6,7 @@ use egui::{ComboBox, Rect, RichText, ScrollArea, TextEdit, Ui, UiBuilder};
 use overhear_player::library::{self, Instrument, WholeKit};
 
 use super::super::theme;
-use super::Wish;
+use super::wish::Wish;
 
 /// Both are read once.
 static INSTRUMENTS: LazyLock<Vec<Instrument>> = LazyLock::new(|| library::instruments().collect());
@@ -14,17 +14,17 @@ static KITS: LazyLock<Vec<WholeKit>> = LazyLock::new(|| library::kits().collect(
 
 /// The library as one window shows it.
 #[derive(Default)]
-pub struct Shelf {
+pub struct LibraryList {
     /// What is searched for.
     wanted: String,
     /// The instrument that is chosen.
     chosen: Option<&'static str>,
 }
 
-impl Shelf {
+impl LibraryList {
     /// Draws it.
     pub fn show(&mut self, ui: &mut Ui, rect: Rect, wish: &mut Option<Wish>) {
-        ui.scope_builder(UiBuilder::new().max_rect(rect).id_salt("shelf"), |ui| {
+        ui.scope_builder(UiBuilder::new().max_rect(rect).id_salt("library list"), |ui| {
             ui.add(TextEdit::singleline(&mut self.wanted).hint_text("Search").desired_width(f32::INFINITY));
             ui.horizontal(|ui| {
                 let chosen = self.chosen;
