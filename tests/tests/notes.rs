@@ -61,7 +61,7 @@ const REPEATED: usize = 32;
 const APART: f64 = 0.35;
 
 /// Notes, and how recordings scatter that repeat such a stroke: level, dB, and centroid, octaves. `docs/playing.md` has their
-/// sources. None was found of a kick.
+/// sources. Those of a kick are of peaks and are not compared.
 const RECORDED: [(u8, Option<[f64; 2]>); 9] = [
     (36, None),
     (38, Some([0.84, 0.038])),
