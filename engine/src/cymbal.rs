@@ -129,10 +129,6 @@ impl Instrument for Cymbal {
         self.hand.set(strength);
     }
 
-    fn take_turn(&mut self, number: usize) {
-        self.hand.take_turn(number);
-    }
-
     fn advance_controls(&mut self, seconds: f64) {
         let moved = [&mut self.tuning, &mut self.muffling].map(|glide| glide.advance(seconds));
         self.stale |= moved.contains(&true);
@@ -140,7 +136,7 @@ impl Instrument for Cymbal {
     }
 
     fn follow_controls(&mut self) {
-        if !(self.hand.is_due() | std::mem::take(&mut self.stale)) {
+        if !(self.hand.has_moved() | std::mem::take(&mut self.stale)) {
             return;
         }
         let (tuning, muffling, hand) = (self.tuning.value(), self.muffling.value(), self.hand.follow());

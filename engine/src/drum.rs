@@ -35,7 +35,6 @@ use crate::rim::{Rim, RimPart};
 use crate::schema::SCHEMA;
 use crate::shapes::ShapeTable;
 use crate::surface::contacts::STRIKER_PLACES;
-use crate::surface::local_compliance::LocalHeadCompliance;
 use crate::surface::rim::AttachedRim;
 use crate::surface::wires::{PRELOAD, SnareWires};
 use crate::surface::{Surface, SurfaceParts};
@@ -374,9 +373,8 @@ impl Instrument for Drum {
         }
         self.follow_pressures(&place);
         let far = self.built.heads.resonant.as_ref().map(|head| head.film(&place));
-        let near =
-            LocalHeadCompliance { patch_grows: self.patch_grows, ..self.built.heads.batter.film(&place) };
-        self.surface.set_local_compliance(near);
+        let near = self.built.heads.batter.film(&place);
+        self.surface.set_local_compliance(if self.patch_grows { near } else { near.under_fixed_discs() });
         if let Some(shapes) = &self.far_shapes {
             self.surface.with(|wires: &mut SnareWires, site| wires.lay(far, shapes, site));
         }
@@ -392,10 +390,6 @@ impl Instrument for Drum {
 
     fn choke(&mut self, strength: f64) {
         self.controls.hand.set(strength);
-    }
-
-    fn take_turn(&mut self, number: usize) {
-        self.controls.hand.take_turn(number);
     }
 
     fn throw_wires(&mut self, on: bool) {
@@ -415,7 +409,7 @@ impl Instrument for Drum {
     }
 
     fn follow_controls(&mut self) {
-        if !(self.controls.hand.is_due() | std::mem::take(&mut self.stale.losses)) {
+        if !(self.controls.hand.has_moved() | std::mem::take(&mut self.stale.losses)) {
             return;
         }
         let place = self.built.heads.scale.place(self.controls.pitch.value());

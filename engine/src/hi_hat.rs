@@ -185,8 +185,9 @@ impl Instrument for HiHat {
         self.hand.set(strength);
     }
 
-    fn take_turn(&mut self, number: usize) {
-        self.hand.take_turn(number);
+    /// Rims that begin to rub do so within a block.
+    fn is_urgent(&self) -> bool {
+        (self.rubbing_now() - self.rubbing).abs() > RUBBING_STEP
     }
 
     fn advance_controls(&mut self, seconds: f64) {
@@ -196,11 +197,10 @@ impl Instrument for HiHat {
     }
 
     fn follow_controls(&mut self) {
-        let rubbing = self.rubbing_now();
-        if (rubbing - self.rubbing).abs() > RUBBING_STEP {
-            (self.rubbing, self.stale) = (rubbing, true);
+        if self.is_urgent() {
+            (self.rubbing, self.stale) = (self.rubbing_now(), true);
         }
-        if !(self.hand.is_due() | std::mem::take(&mut self.stale)) {
+        if !(self.hand.has_moved() | std::mem::take(&mut self.stale)) {
             return;
         }
         let tuning = self.tuning.value();

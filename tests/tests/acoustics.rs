@@ -198,6 +198,9 @@ fn steepest(sound: &[f32]) -> f64 {
     sound.windows(2).map(|pair| f64::from((pair[1] - pair[0]).abs())).fold(0.0, f64::max)
 }
 
+/// A step from one sample to the next that nobody hears, Pa: 92 dB under full scale.
+const INAUDIBLE: f64 = 5e-4;
+
 /// Tuning and muffling.
 #[derive(Debug, Clone, Copy)]
 struct Setting {
@@ -221,8 +224,8 @@ fn steepening(piece: &mut Piece, wait: f64, from: Setting, to: Setting) -> f64 {
         steepest(&sound)
     };
     let (moved, left) = (ring(to), ring(from));
-    // A snare of 360 Hz sleeps within half a second: what is silent has not become steeper.
-    if moved == 0.0 { f64::NEG_INFINITY } else { decibels(moved, left) }
+    // A snare of 360 Hz sleeps within half a second: what is inaudible has not become steeper.
+    if moved < INAUDIBLE { f64::NEG_INFINITY } else { decibels(moved, left) }
 }
 
 #[test]

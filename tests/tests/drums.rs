@@ -207,7 +207,7 @@ fn the_floor_tom_of_the_kit_glides_as_the_square_of_the_stroke() {
         assert!((3.1..4.6).contains(&(more / less)), "{less} and {more} cents");
     }
     // Recorded toms glide by 65 to 269 cents, by strokes of unknown speed.
-    assert!((45.0..80.0).contains(&hard), "{hard} cents");
+    assert!((60.0..110.0).contains(&hard), "{hard} cents");
 }
 
 #[test]
@@ -219,10 +219,10 @@ fn a_pillow_takes_6_db_off_a_kicks_boom() {
 
 /// The published figure is 10 dB, which the standard kick misses (docs/limits.md). This test holds what the kick has.
 #[test]
-fn a_plastic_beater_is_24_db_brighter_than_felt_where_10_are_published() {
+fn a_plastic_beater_is_16_db_brighter_than_felt_where_10_are_published() {
     let brighter = report::drums::plastic_db(&spec("kick"));
     println!("{brighter:.1} dB");
-    assert!((brighter - 23.7).abs() < 4.0, "{brighter}");
+    assert!((brighter - 16.1).abs() < 3.0, "{brighter}");
 }
 
 #[test]

@@ -73,7 +73,7 @@ impl TunedHead {
         let pairs = self.membrane.modes().iter().filter(reached);
         HighBandSpec {
             head: *self.membrane.spec(),
-            tensions: [self.tensions[0], self.tensions[MIDDLE]],
+            tensions: [self.tensions[0], self.tensions[MIDDLE], self.tensions[PITCHES - 1]],
             complete: pairs.map(|mode| if mode.m == 0 { 1 } else { 2 }).sum(),
             density,
             ear,
@@ -96,8 +96,9 @@ impl TunedHead {
             tension: now,
             density: bare + air,
             rigidity: spec.dented_rigidity(),
+            stretching: spec.material.youngs_modulus * spec.thickness,
             reached,
-            patch_grows: false,
+            patch_grows: true,
         }
     }
 

@@ -75,9 +75,10 @@ pub enum PitchOf {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum HeadContact {
-    /// The head wraps itself around a stick's tip, the farther the harder the stroke, and its stiffness spreads the force.
+    /// The head wraps itself around a stick's tip, the farther the harder the stroke, and resists being bent.
     Wraps,
-    /// Every stroke presses on the striker's own disc, whatever its force.
+    /// Every stroke presses on the striker's own disc, whatever its force, and nothing but tension resists it: as published
+    /// contacts have it.
     FixedDisc,
 }
 

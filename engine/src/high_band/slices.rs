@@ -7,6 +7,7 @@ use std::f64::consts::{PI, TAU};
 use crate::air_load::{DENSITY, SPEED_OF_SOUND};
 use crate::diffraction;
 use crate::diffraction::Outside;
+use crate::math::cubic::Stencil;
 use crate::math::trigonometry::sin_cos;
 use crate::membrane::MembraneSpec;
 use crate::modal::Mode;
@@ -45,8 +46,8 @@ pub struct Receiver {
 pub struct HighBandSpec {
     /// The head.
     pub head: MembraneSpec,
-    /// Lowest tension it will be asked for and the one at which slices are laid out, N/m.
-    pub tensions: [f64; 2],
+    /// Lowest tension it will be asked for, the one at which slices are laid out, and the highest, N/m.
+    pub tensions: [f64; 3],
     /// Modes (pairs as two) of the complete set, all below the slices.
     pub complete: usize,
     /// Slices in an octave.
@@ -149,7 +150,7 @@ fn cos_sin(angle: f64) -> [f64; 2] {
 
 /// Cuts the band.
 pub(super) fn slices(spec: &HighBandSpec) -> Vec<Slice> {
-    let [slackest, tension] = spec.tensions;
+    let [slackest, tension, _] = spec.tensions;
     let step = (1.0 / spec.density).exp2();
     let mut slices: Vec<Slice> = Vec::new();
     // Where the complete set ends: N(k) solved for k.
@@ -247,6 +248,42 @@ impl HighMuffling {
         let (pad, at) = self.pad;
         let under = if pad == 0.0 { 0.0 } else { 1.0 - libm::j0(2.0 * slice.zero * (1.0 - at)) };
         self.even + pad * under
+    }
+}
+
+/// Tensions at which modes are worked out. *Converged*: between, frequencies over two octaves of pitch are met within 1e-5.
+const TENSIONS: usize = 13;
+
+/// The modes of all slices over the range of tensions, worked out beforehand.
+pub(super) struct ModeTable {
+    /// Logarithms of the lowest and the highest tension.
+    range: [f64; 2],
+    /// `[slice][tension]`.
+    modes: Vec<[Mode; TENSIONS]>,
+}
+
+impl ModeTable {
+    /// Of slices, without muffling. Allocates.
+    pub(super) fn new(spec: &HighBandSpec, slices: &[Slice]) -> ModeTable {
+        let [low, _, high] = spec.tensions.map(f64::ln);
+        let at = |i: usize| (low + (high - low) * i as f64 / (TENSIONS - 1) as f64).exp();
+        let over = |slice: &Slice| std::array::from_fn(|i| mode(spec, slice, at(i)));
+        ModeTable { range: [low, high], modes: slices.iter().map(over).collect() }
+    }
+
+    /// Every slice's mode at a tension (N/m) within the range.
+    pub(super) fn at(&self, tension: f64) -> impl Iterator<Item = Mode> + '_ {
+        let [low, high] = self.range;
+        let share = if high > low { (tension.ln() - low) / (high - low) } else { 0.0 };
+        let stencil = Stencil::at(share * (TENSIONS - 1) as f64, TENSIONS);
+        self.modes.iter().map(move |modes| {
+            let between = |of: fn(&Mode) -> f64| stencil.blend(|i| of(&modes[i]));
+            Mode {
+                omega: between(|mode| mode.omega),
+                sigma: between(|mode| mode.sigma),
+                mass: between(|mode| mode.mass),
+            }
+        })
     }
 }
 

@@ -166,7 +166,8 @@ const fn pedal(number: u8, name: &'static str, foot: Foot) -> Note {
     action(number, name, Plays::Pedal("hi-hat", foot))
 }
 
-/// Every note that sounds. Places are *by ear*. Pedals are where drummers have them: firmly closed; open, so that a stroke
+/// Every note that sounds. Places are *by ear*; ordinary strokes on snare and toms land 4.5 cm from the middle of the head, large or
+/// small. Pedals are where drummers have them: firmly closed; open, so that a stroke
 /// makes the rims clash; resting on one side.
 const NOTES_PLAYED: [Note; 65] = [
     note(35, "Acoustic Bass Drum", "kick", (0.20, 0.0), FeltBeater),
@@ -174,9 +175,9 @@ const NOTES_PLAYED: [Note; 65] = [
     note(37, "Side Stick", "snare", (0.30, 0.0), CrossStick),
     note(38, "Acoustic Snare", "snare", (0.25, 0.3), Stick),
     note(40, "Electric Snare", "snare", (0.40, 0.3), RimShot),
-    note(41, "Low Floor Tom", "floor-tom", (0.25, -0.4), Stick),
+    note(41, "Low Floor Tom", "floor-tom", (0.15, -0.4), Stick),
     edge(42, "Closed Hi-Hat", 0.8),
-    note(43, "High Floor Tom", "floor-tom", (0.35, -0.4), Stick),
+    note(43, "High Floor Tom", "floor-tom", (0.22, -0.4), Stick),
     pedal(44, "Pedal Hi-Hat", Foot::Chick),
     note(45, "Low Tom", "floor-tom", (0.45, -0.4), Stick),
     edge(46, "Open Hi-Hat", 0.4),
