@@ -47,7 +47,8 @@
 //! ```
 //!
 //! and the dent is as deep as under a disc of `b_dent = 0.45 s`: 13 mm on a rack tom under a stroke of 3 m/s. Waves of wavenumber `k`
-//! have the tension at `r = 1 / k`, under the mean force of the contact, `2 / pi` of the largest.
+//! have the tension at `r = 1 / k` under the force that has built up when they have gone through a period, if the force rises
+//! as a quarter of a sine.
 //!
 //! Disc and tension are as they are from the first touch on. Beaters therefore keep their own discs: a head wraps around a ball of
 //! some centimetres only in the course of a long contact. A hard stroke meets a stiffer head than a soft one, and is shorter and
@@ -60,7 +61,7 @@
 //! Source: static deflections of membrane and stiff membrane under a point as in Timoshenko & Woinowsky-Krieger, Theory of
 //! Plates and Shells; the radii are derived here.
 
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use crate::contact::Tip;
 use crate::patch_factors::pressed_share;
@@ -96,6 +97,29 @@ const SPREAD: f64 = 1.441_856;
 /// First zero of `J_1`: a tip averages out shorter waves.
 const FINEST: f64 = 3.832;
 
+/// How a striker presses on a head.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Press {
+    /// Radius of the disc, m.
+    pub disc: f64,
+    /// Largest force, N, and the time in which it would be reached if it rose on as fast as at first, s.
+    pub largest: f64,
+    /// See `largest`.
+    pub rise: f64,
+}
+
+impl Press {
+    /// So softly that no film is stretched, on a disc of some radius, m.
+    pub const fn lightly(disc: f64) -> Press {
+        Press { disc, largest: 0.0, rise: 1.0 }
+    }
+
+    /// Force after a time (s), N: a quarter of a sine.
+    fn after(&self, time: f64) -> f64 {
+        self.largest * (time / self.rise).min(FRAC_PI_2).sin()
+    }
+}
+
 /// Smallest radius of a contact patch, m: of what a bead presses flat under a soft stroke. *Judgement*: no audible wave on a film is
 /// so short.
 const SMALLEST: f64 = 0.5e-3;
@@ -111,6 +135,17 @@ impl LocalHeadCompliance {
     /// flexural rigidity and is not stretched.
     pub fn under_fixed_discs(self) -> LocalHeadCompliance {
         LocalHeadCompliance { rigidity: 0.0, stretching: 0.0, patch_grows: false, ..self }
+    }
+
+    /// How a stroke at `speed` (m/s) presses.
+    ///
+    /// # Real-time
+    /// No allocation; some logarithms.
+    pub fn press(&self, striker: &StrikerSpec, speed: f64) -> Press {
+        let disc = self.patch(striker, speed);
+        let largest = self.largest_force(striker.mass, speed, disc);
+        // A mass on a spring: `F = v sqrt(k m)` after a quarter of the period `2 pi sqrt(m / k)`.
+        Press { disc, largest, rise: striker.mass * speed / largest.max(f64::MIN_POSITIVE) }
     }
 
     /// Radius of the contact patch of a stroke at `speed` (m/s), m.
@@ -163,18 +198,12 @@ impl LocalHeadCompliance {
         (2.0 * inertia / (self.tension + root)).sqrt()
     }
 
-    /// The bands above the set, at `place` (share of the radius) under a tip of some radius (m) that presses with some mean force (N), and
-    /// their number. Without `lossy` they do not decay.
+    /// The bands above the set, at `place` (share of the radius) under a tip, and their number. Without `lossy` they do not
+    /// decay.
     ///
     /// # Real-time
     /// No allocation; a few Bessel functions.
-    pub fn bands(
-        &self,
-        place: f64,
-        (tip, force): (f64, f64),
-        lossy: bool,
-        dt: f64,
-    ) -> ([Oscillator; BANDS], usize) {
+    pub fn bands(&self, place: f64, press: &Press, lossy: bool, dt: f64) -> ([Oscillator; BANDS], usize) {
         let mut bands = [Oscillator::free(1.0, dt); BANDS];
         let rim = (1.0 - place).max(0.0) * self.radius;
         let lowest = self.wavenumber(self.reached);
@@ -183,15 +212,16 @@ impl LocalHeadCompliance {
             let from = lowest * 2.0_f64.powf(0.5 * i as f64);
             let to = from * std::f64::consts::SQRT_2;
             let k = (from * to).sqrt();
-            if k * tip > FINEST {
+            if k * press.disc > FINEST {
                 break;
             }
-            let share = pressed_share(k * tip).powi(2) * (1.0 - libm::j0(2.0 * k * rim));
+            let share = pressed_share(k * press.disc).powi(2) * (1.0 - libm::j0(2.0 * k * rim));
             if share < 1e-4 {
                 continue;
             }
             let mass = 4.0 * PI * self.density / ((to * to - from * from) * share);
-            let [from, middle, to] = [from, k, to].map(|k| self.dented(force, k).omega(k));
+            let dented = |k| self.dented(press.after(TAU / self.omega(k)), k).omega(k);
+            let [from, middle, to] = [from, k, to].map(dented);
             let sigma = if lossy { 0.5 * (to - from) } else { 0.0 };
             bands[count] = Oscillator::sprung(mass, middle, sigma, dt);
             count += 1;
@@ -219,7 +249,7 @@ mod tests {
     #[test]
     fn the_bands_yield_as_much_as_the_modes_they_stand_for() {
         // Static: sum over all modes above of P^2 / (M omega^2).
-        let (bands, count) = HEAD.bands(0.3, (0.002, 0.0), false, 1.0);
+        let (bands, count) = HEAD.bands(0.3, &Press::lightly(0.002), false, 1.0);
         assert!(count >= 4);
         // A force held far longer than the periods leaves only the mean deflection. Sum it directly.
         let (mut exact, mut from) = (0.0, HEAD.wavenumber(HEAD.reached));
@@ -233,7 +263,7 @@ mod tests {
         }
         // Half-octave bands as single modes: within some percent of the integral.
         let dt = 1e-7;
-        let (fine, _) = HEAD.bands(0.3, (0.002, 0.0), true, dt);
+        let (fine, _) = HEAD.bands(0.3, &Press::lightly(0.002), true, dt);
         let mut total = 0.0;
         for mut band in fine.into_iter().take(count) {
             for _ in 0..20_000 {
@@ -283,7 +313,8 @@ mod tests {
     fn a_hard_stroke_meets_a_stiffer_head() {
         let head = LocalHeadCompliance { stretching: 1.6e6, ..HEAD };
         let yields = |force: f64| -> f64 {
-            let (bands, count) = head.bands(0.3, (0.002, force), false, 1e-4);
+            let press = Press { disc: 0.002, largest: force, rise: 1e-3 };
+            let (bands, count) = head.bands(0.3, &press, false, 1e-4);
             bands[..count].iter().map(Oscillator::compliance).sum()
         };
         let [soft, firm, hard] = [0.0, 10.0, 50.0].map(yields);
@@ -361,7 +392,7 @@ mod tests {
 
     #[test]
     fn a_broad_tip_and_the_rim_leave_nothing_to_yield() {
-        assert_eq!(HEAD.bands(0.3, (0.02, 0.0), true, 1e-5).1, 0);
-        assert_eq!(HEAD.bands(1.0, (0.002, 0.0), true, 1e-5).1, 0);
+        assert_eq!(HEAD.bands(0.3, &Press::lightly(0.02), true, 1e-5).1, 0);
+        assert_eq!(HEAD.bands(1.0, &Press::lightly(0.002), true, 1e-5).1, 0);
     }
 }

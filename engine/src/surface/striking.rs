@@ -4,7 +4,6 @@
 //! is removed.
 
 use std::any::Any;
-use std::f64::consts::FRAC_2_PI;
 
 use crate::contact::{ContactLaw, Tip};
 use crate::fitted;
@@ -16,6 +15,7 @@ use super::Surface;
 use super::attachment::Attachment;
 use super::contacts::{Contacts, MAX_STRIKERS, points_of};
 use super::exciter::{Ground, PARTS};
+use super::local_compliance::Press;
 use super::rim::AttachedRim;
 
 /// A striker farther away than this has left, m. *By ear*: no head comes up so far.
@@ -68,13 +68,14 @@ impl Surface {
         let tip = points_of(i).start;
         let point = &mut self.contacts.points[tip];
         point.arrive(Ground::Body, law, weights);
-        let patch = self.local_compliance.map_or(spec.patch, |head| head.patch(&spec, speed));
+        let lightly = Press::lightly(spec.patch);
+        let press = self.local_compliance.map_or(lightly, |head| head.press(&spec, speed));
+        let patch = press.disc;
         let disc = self.local_compliance.map_or(0.0, |head| patch / head.radius);
         self.body.shapes().fill_pressed(radius, strike.angle, disc, point.port.shape_mut());
         self.observers.put(tip, radius, strike.angle, patch);
         if let Some(head) = self.local_compliance {
-            let force = FRAC_2_PI * head.largest_force(spec.mass, speed, patch);
-            (point.bands, point.band_count) = head.bands(radius, (patch, force), !lossless, dt);
+            (point.bands, point.band_count) = head.bands(radius, &press, !lossless, dt);
         }
         point.origin = -self.body.modal().displacement_at(&point.port);
         for attachment in &mut self.attachments {

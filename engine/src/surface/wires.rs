@@ -39,7 +39,7 @@ use super::attachment::{Attachment, Site};
 use super::body::FreeStep;
 use super::contacts::{ATTACHED_POINTS, Contacts, owner, points_of};
 use super::exciter::{ContactPoint, Exciter, Ground, PARTS};
-use super::local_compliance::LocalHeadCompliance;
+use super::local_compliance::{LocalHeadCompliance, Press};
 use super::oscillator::Oscillator;
 
 /// Rows of strands.
@@ -325,7 +325,7 @@ impl Attachment for SnareWires {
             (point.compression, point.force) = (point.static_compression, point.preload);
             if let Some(head) = self.head {
                 (point.bands, point.band_count) =
-                    head.bands(x.hypot(y), (self.patch(), 0.0), !self.lossless, self.dt);
+                    head.bands(x.hypot(y), &Press::lightly(self.patch()), !self.lossless, self.dt);
             }
             point.origin = -site.body.modal().displacement_at(&point.port);
             point.stale = true;
