@@ -73,9 +73,8 @@ fn step_length<const N: usize>(
     [d, moved]: [&[f64; N]; 2],
 ) -> f64 {
     let slope = |share: f64| -> f64 {
-        let at = |i: usize| {
-            moved[i] * (forces[i] + share * change[i] - law.elastic(d[i] - share * moved[i]).0)
-        };
+        let at =
+            |i: usize| moved[i] * (forces[i] + share * change[i] - law.elastic(d[i] - share * moved[i]).0);
         (0..N).map(at).sum()
     };
     let least = SLOPE_LEFT * slope(0.0).abs();
@@ -126,11 +125,8 @@ mod tests {
 
     #[test]
     fn forces_are_found_however_much_softer_mounts_are_than_rims_and_from_any_estimate() {
-        let law = ContactLaw::new(
-            &Tip::Solid { material: Material::BRONZE, radius: 2e-3 },
-            &Material::BRONZE,
-            0.5,
-        );
+        let law =
+            ContactLaw::new(&Tip::Solid { material: Material::BRONZE, radius: 2e-3 }, &Material::BRONZE, 0.5);
         let mut random = fastrand::Rng::with_seed(1);
         for trial in 0..400 {
             let soft = |random: &mut fastrand::Rng| 10.0_f64.powf(-5.0 + 5.0 * random.f64());
