@@ -273,3 +273,36 @@ fn a_size_is_refused_below_its_field_and_not_elsewhere() {
     let [name, words, next] = [name, words, next].map(|place| place.expect("it is shown"));
     assert!(name.max.y < words.min.y && words.max.y < next.min.y, "{name:?} {words:?} {next:?}");
 }
+
+/// What the hosts' test does with the pointer, and so what it comes to.
+#[test]
+fn the_clicks_of_the_hosts_test_build_the_kit_that_it_expects() {
+    let clicks = include_str!("../../../../tests/tests/hosts/clicks.txt");
+    let mut window = Window::new();
+    window.snapshot.pieces.iter_mut().for_each(|piece| piece.ready = true);
+    window.frame(Vec::new());
+    for line in clicks.lines().filter(|line| !line.starts_with('#')) {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let numbers: Vec<f32> = words[1..].iter().map(|word| word.parse().unwrap()).collect();
+        match (words[0], &numbers[..]) {
+            ("click", &[x, y]) => window.click(pos2(x, y)),
+            ("drag", &[x, y, right, down]) => {
+                window.drag(pos2(x, y), vec2(right, down), PointerButton::Primary);
+            }
+            _ => panic!("{line}"),
+        }
+        window.obey();
+        window.frame(Vec::new());
+        window.frame(Vec::new());
+    }
+    let kit = window.kit();
+    let names: Vec<&str> = kit.pieces.iter().map(|piece| piece.name.as_str()).collect();
+    let expected = ["kick", "snare", "rack-tom", "floor-tom", "crash", "ride", "splash", "hi-hat", "kick-16x14"];
+    assert_eq!(names, expected, "{:?}", window.texts);
+    let drum = |name: &str| kit.find(name).unwrap().1.drum().unwrap();
+    let inches = |name: &str| (drum(name).diameter / 0.0254 * 10.0).round() / 10.0;
+    assert_eq!([inches("kick"), inches("rack-tom"), inches("kick-16x14")], [20.0, 13.0, 16.0]);
+    assert_eq!(drum("rack-tom").batter.plies, 1);
+    let splash = |kit: &KitSpec| kit.find("splash").unwrap().1.place.centre;
+    assert!(splash(&kit)[0] > splash(&KitSpec::standard())[0] + 0.02);
+}
