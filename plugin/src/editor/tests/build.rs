@@ -297,7 +297,8 @@ fn the_clicks_of_the_hosts_test_build_the_kit_that_it_expects() {
     }
     let kit = window.kit();
     let names: Vec<&str> = kit.pieces.iter().map(|piece| piece.name.as_str()).collect();
-    let expected = ["kick", "snare", "rack-tom", "floor-tom", "crash", "ride", "splash", "hi-hat", "kick-16x14"];
+    let expected =
+        ["kick", "snare", "rack-tom", "floor-tom", "crash", "ride", "splash", "hi-hat", "kick-16x14"];
     assert_eq!(names, expected, "{:?}", window.texts);
     let drum = |name: &str| kit.find(name).unwrap().1.drum().unwrap();
     let inches = |name: &str| (drum(name).diameter / 0.0254 * 10.0).round() / 10.0;
