@@ -25,6 +25,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::air_load::{DENSITY, SPEED_OF_SOUND};
 use crate::contact::Material;
+use crate::math::trigonometry::sin_cos;
 use crate::modal::Mode;
 use crate::numbers::{Numbers, Visitor};
 use crate::receiver::ReceiverPosition;
@@ -150,26 +151,32 @@ impl Cylinder {
         let wave = mode.mode.omega / SPEED_OF_SOUND;
         let [height, offset] = point.height_and_offset();
         let rate = POINTS / TAU;
-        let around = 16 + (rate * TAU * self.radius * wave) as usize + 4 * mode.n as usize;
+        let half = 8 + (0.5 * rate * TAU * self.radius * wave) as usize + 2 * mode.n as usize;
         let down = 4 + (rate * self.length * wave) as usize + 4 * mode.k as usize;
         let largest = if mode.n == 0 { SQRT_2 } else { 2.0 };
+        // Both halves around are alike. Square of the distance across, and the shape.
+        let places: Vec<[f64; 2]> = (0..half)
+            .map(|j| {
+                let theta = PI * (j as f64 + 0.5) / half as f64;
+                let across =
+                    offset * offset + self.radius * self.radius - 2.0 * offset * self.radius * theta.cos();
+                [across, (f64::from(mode.n) * theta).cos()]
+            })
+            .collect();
         let (mut re, mut im) = (0.0, 0.0);
         for i in 0..down {
             let share = (i as f64 + 0.5) / down as f64;
             let shape = largest * (f64::from(mode.k) * PI * share).sin();
             let above = height + share * self.length;
-            for j in 0..around {
-                let theta = TAU * (j as f64 + 0.5) / around as f64;
-                let across =
-                    offset * offset + self.radius * self.radius - 2.0 * offset * self.radius * theta.cos();
+            for [across, around] in &places {
                 let d = (above * above + across).sqrt();
-                let (sin, cos) = (wave * (point.distance - d)).sin_cos();
-                let part = shape * (f64::from(mode.n) * theta).cos() / d;
+                let (sin, cos) = sin_cos(wave * (point.distance - d));
+                let part = shape * around / d;
                 re += part * cos;
                 im += part * sin;
             }
         }
-        let scale = DENSITY / (4.0 * PI) * TAU * self.radius * self.length / (around * down) as f64;
+        let scale = DENSITY / (4.0 * PI) * TAU * self.radius * self.length / (half * down) as f64;
         [scale * re, scale * im]
     }
 }

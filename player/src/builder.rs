@@ -84,7 +84,7 @@ pub struct Builder {
     thread: Option<JoinHandle<()>>,
 }
 
-/// Shapes of the pieces' displacement fields, for the editor's end.
+/// Shapes of the pieces' displacement fields, and which pieces are being built, for the editor's end.
 #[derive(Clone)]
 pub struct Shapes {
     shared: Arc<Shared>,
@@ -98,6 +98,8 @@ struct Shared {
     latest: AtomicU32,
     queues: Arc<Queues>,
     shapes: Mutex<[Option<Arc<FieldShapes>>; SLOTS]>,
+    /// Slots whose pieces are being built, a bit each.
+    pending: AtomicU32,
     /// How long the audio thread waits for workers.
     deadline: Arc<dyn Deadline>,
 }
@@ -153,6 +155,7 @@ impl Builder {
             latest: AtomicU32::new(NO_ORDER),
             queues: Arc::new(Queues::new()),
             shapes: Mutex::default(),
+            pending: AtomicU32::new(0),
             deadline,
         };
         Builder { shared: Arc::new(shared), make, wanted, thread: None }
@@ -231,6 +234,11 @@ impl Shapes {
     pub fn of(&self, slot: Slot) -> Option<Arc<FieldShapes>> {
         lock(&self.shared.shapes)[slot.index()].clone()
     }
+
+    /// Whether the piece of a slot is being built at present, be it anew.
+    pub fn is_building(&self, slot: Slot) -> bool {
+        self.shared.pending.load(Ordering::Acquire) & bit(slot) != 0
+    }
 }
 
 impl Shared {
@@ -289,7 +297,9 @@ impl Shared {
         if job.changes_kit {
             self.send(job, Arrival::Setup(Setup::new(job.sample_rate, job.plan.kit().clone())));
         }
-        self.build_pieces(job, &job.to_build(), make)
+        let wanted = job.to_build();
+        self.pending.store(wanted.iter().fold(0, |bits, (slot, _)| bits | bit(*slot)), Ordering::Release);
+        self.build_pieces(job, &wanted, make)
     }
 
     /// Builds pieces on several threads and sends them in their order.
@@ -350,6 +360,7 @@ impl Shared {
     /// Passes a piece on, if it could be made and is still wanted.
     fn hand_over(&self, job: &Job, slot: Slot, made: Made) -> Result<(), String> {
         let (piece, shapes) = made?;
+        self.pending.fetch_and(!bit(slot), Ordering::AcqRel);
         if self.latest.load(Ordering::Acquire) == job.order {
             lock(&self.shapes)[slot.index()] = Some(shapes);
             self.send(job, Arrival::Piece(piece));
@@ -376,6 +387,7 @@ impl Shared {
     }
 
     fn end(&self, order: u32, failure: Option<String>) {
+        self.pending.store(0, Ordering::Release);
         let mut desk = lock(&self.desk);
         // An order given up counts as ended by the one that replaced it.
         if desk.order == order {
@@ -399,6 +411,10 @@ impl Job {
         let builds = slots.filter_map(|slot| Some((slot, self.plan.build(slot)?)));
         builds.filter(|(slot, build)| differs(*slot, build)).collect()
     }
+}
+
+fn bit(slot: Slot) -> u32 {
+    1 << slot.index()
 }
 
 /// Makes a piece and what is drawn of it, or says why not.

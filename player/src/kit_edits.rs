@@ -4,6 +4,7 @@
 //! refused leaves the document that there is untouched. A piece that goes is replaced by the last one, so that no other
 //! changes its slot, which is its output and its parameters.
 
+pub mod features;
 mod names;
 mod notes;
 pub mod sizes;

@@ -33,6 +33,8 @@ use overhear_player::strokes::Strokes;
 
 mod build;
 mod calibration;
+mod control;
+mod fader;
 mod field;
 mod gesture;
 mod history;
@@ -272,19 +274,29 @@ impl App {
         let mut snapshot = self.sources.viewer.latest();
         snapshot.late_buffers = self.sources.parameters.deadlines().late();
         let shapes = |slot: Slot| self.sources.shapes.of(slot);
+        let building = |slot: Slot| self.sources.shapes.is_building(slot);
         let mut set = |index: usize, gesture| {
             let Some(parameter) = self.sources.parameters.values().get(index) else { return };
             gesture_to_host(&gui.param_setter(), parameter, gesture);
         };
         let mut play = |stroke| self.sources.strokes.play(stroke);
         let (parameters, sound) = (&self.sources.parameters, self.sources.viewer.sound());
-        let inputs = Inputs { snapshot: &snapshot, past: &past, shapes: &shapes, parameters, sound };
+        let inputs = Inputs {
+            snapshot: &snapshot,
+            past: &past,
+            shapes: &shapes,
+            building: &building,
+            parameters,
+            sound,
+        };
         self.panels.show(ui, &inputs, &mut Hands { set: &mut set, play: &mut play });
         self.sources.parameters.set_view(self.panels.view());
         let now = ui.input(|input| input.time);
         let sounds = snapshot.pieces.iter().any(|piece| piece.peak > AUDIBLE);
-        let moves =
+        let played =
             (sounds || self.panels.moves_on(&snapshot, now)) && self.pulse.goes_on(snapshot.clock, now);
+        // What is built is told whether anything plays or not.
+        let moves = played || self.panels.waits(now) || Slot::ALL.into_iter().any(building);
         watch.drawn(seen, moves);
         // From frame to frame: what is painted after this function is in it.
         let taken = ThreadTime::now().as_duration();

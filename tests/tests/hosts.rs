@@ -6,6 +6,9 @@
 #[cfg(target_os = "linux")]
 #[path = "hosts/ardour.rs"]
 mod ardour;
+#[cfg(target_os = "linux")]
+#[path = "hosts/building.rs"]
+mod building;
 #[path = "hosts/description.rs"]
 mod description;
 #[cfg(target_os = "linux")]

@@ -97,7 +97,7 @@ fn drift(piece: &mut Piece, strike: &Strike) -> [f64; 2] {
 
 #[test]
 fn without_losses_linear_random_pieces_keep_their_energy() {
-    over_seeds(Chance::chosen(&[101, 102, 1008, 1009]), 15, random::piece, |spec, chance| {
+    over_seeds(Chance::chosen(&[101, 102, 1007, 1008, 1009]), 15, random::piece, |spec, chance| {
         let spec = spec.clone().lossless().linear();
         let mut piece = build(&spec, &BuildOptions::new(RATE));
         for _ in 0..3 {
@@ -113,7 +113,7 @@ fn without_losses_linear_random_pieces_keep_their_energy() {
 /// back: all three take energy, of drums up to a sixth (`OVERHEAR_SEED=1`, body 3; docs/limits.md).
 #[test]
 fn without_losses_random_pieces_that_stretch_gain_nothing() {
-    over_seeds(Chance::chosen(&[101, 102, 1008, 1009]), 15, random::piece, |spec, chance| {
+    over_seeds(Chance::chosen(&[101, 102, 1007, 1008, 1009]), 15, random::piece, |spec, chance| {
         let mut piece = build(&spec.clone().lossless(), &BuildOptions::new(RATE));
         for _ in 0..3 {
             set(&mut piece, chance, true);
@@ -126,8 +126,8 @@ fn without_losses_random_pieces_that_stretch_gain_nothing() {
 
 #[test]
 fn no_strike_leaves_a_random_piece_faster_than_it_came() {
-    // A few strokes on thin plates gain (`OVERHEAR_SEED=3`, body 11; docs/limits.md).
-    over_seeds(Chance::chosen(&[5, 6]), 15, random::piece, |spec, chance| {
+    // A few strokes on thin plates gain (docs/limits.md).
+    over_seeds(Chance::chosen(&[3, 5, 6]), 15, random::piece, |spec, chance| {
         let mut piece = build(spec, &BuildOptions::new(RATE));
         for _ in 0..6 {
             set(&mut piece, chance, false);

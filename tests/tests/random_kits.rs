@@ -75,7 +75,8 @@ fn strokes(document: &KitDocument, chance: &mut Chance) -> Vec<(Slot, Strike)> {
     drawn.collect()
 }
 
-fn play(document: &KitDocument, chance: &mut Chance) -> Result<f32, String> {
+/// Plays a kit; how long it takes to fall asleep, s.
+fn play(document: &KitDocument, chance: &mut Chance) -> Result<f64, String> {
     let mut kit = built(document)?;
     let [at_rest, _] = balance(&kit);
     let mut loudest = 0.0_f32;
@@ -114,7 +115,7 @@ fn play(document: &KitDocument, chance: &mut Chance) -> Result<f32, String> {
             return Err(format!("{:?} are awake after {waited:.0} s", awake.collect::<Vec<_>>()));
         }
     }
-    Ok(loudest)
+    Ok(waited)
 }
 
 /// Whether a kit is read back as it was written, and is written again in the same words.
@@ -134,11 +135,11 @@ fn asked(variable: &str) -> Option<usize> {
     number.map(|text| text.parse().unwrap_or_else(|_| panic!("{variable} is a number")))
 }
 
-/// What is wrong with a kit, or how long its text is.
-fn fault(document: &KitDocument, chance: &mut Chance) -> Result<usize, String> {
+/// What is wrong with a kit, or how long its text is and how long it takes to fall asleep, s.
+fn fault(document: &KitDocument, chance: &mut Chance) -> Result<(usize, f64), String> {
     let length = reopen(document)?;
     let played = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| play(document, chance)));
-    played.unwrap_or_else(|_| Err("it panicked".to_owned())).map(|_| length)
+    Ok((length, played.unwrap_or_else(|_| Err("it panicked".to_owned()))?))
 }
 
 #[test]
@@ -147,7 +148,7 @@ fn random_kits_can_be_built_played_and_stored() {
     let seeds = if sweep.is_some() { Chance::seeds(&[]) } else { Chance::chosen(&[SEED]) };
     let seed = *seeds.last().expect("a seed");
     let kits = asked("OVERHEAR_KIT").map_or(0..sweep.unwrap_or(KITS), |kit| kit..kit + 1);
-    let (mut pieces, mut largest, mut faults) = (0, 0, Vec::new());
+    let (mut pieces, mut largest, mut latest, mut faults) = (0, 0, (0, 0.0), Vec::new());
     for number in kits.clone() {
         // A sequence of its own for every kit, so that one can be repeated without those before it.
         let mut chance = Chance::new(seed.wrapping_mul(1_000_003).wrapping_add(number as u64));
@@ -156,7 +157,12 @@ fn random_kits_can_be_built_played_and_stored() {
         let document = random::kits::kit(&mut chance, count.min(SLOTS));
         pieces += document.kit.pieces.len();
         match fault(&document, &mut chance) {
-            Ok(length) => largest = largest.max(length),
+            Ok((length, slept)) => {
+                largest = largest.max(length);
+                if slept > latest.1 {
+                    latest = (number, slept);
+                }
+            }
             Err(fault) => {
                 println!("OVERHEAR_SEED={seed} OVERHEAR_KIT={number}: {fault}");
                 if kits.len() == 1 {
@@ -170,5 +176,6 @@ fn random_kits_can_be_built_played_and_stored() {
         }
     }
     println!("{} kits of {pieces} pieces, texts of up to {largest} bytes", kits.len());
+    println!("kit {} was the last to fall asleep, after {:.0} s", latest.0, latest.1);
     assert!(faults.is_empty(), "OVERHEAR_SEED={seed}, kits {faults:?}");
 }

@@ -216,10 +216,16 @@ pub(super) fn wave(head: &MembraneSpec, zero: f64, tension: f64) -> (f64, f64, f
 /// `k a` of the wave at an angular frequency.
 fn wavenumber(head: &MembraneSpec, omega: f64, tension: f64) -> f64 {
     let mut zero = omega * head.radius * (head.area_density() / tension).sqrt();
-    // Frequency goes as its first power where tension rules and as its second where stiffness does: between,
-    // each round leaves at most two fifths of the error.
     for _ in 0..20 {
-        zero *= (omega / wave(head, zero, tension).0).powf(0.7);
+        // Frequency goes as its first power where tension rules and as its second where stiffness does; what the air weighs changes
+        // that by some percent, so that each round gains a digit or more.
+        let stiff = head.flexural_rigidity() * (zero / head.radius).powi(2);
+        let power = (tension + stiff) / (tension + 2.0 * stiff);
+        let change = (omega / wave(head, zero, tension).0).powf(power);
+        zero *= change;
+        if (change - 1.0).abs() < 1e-9 {
+            break;
+        }
     }
     zero
 }

@@ -26,6 +26,7 @@
 use std::f64::consts::PI;
 
 use nalgebra::{Cholesky, DMatrix};
+use serde::{Deserialize, Serialize};
 
 use super::bent::Bent;
 use super::dome::Shell;
@@ -224,15 +225,17 @@ pub(super) fn shells(
 }
 
 /// Stress functions that stretch an uneven plate each by itself, as clamped modes do a uniform one.
+#[derive(Serialize, Deserialize)]
 pub struct StressModes {
     /// Nodal diameters.
     pub m: u32,
     /// Fourth power of the wave number that a uniform plate's would have, dimensionless, `[function]`, ascending.
     pub compliance: Vec<f64>,
-    /// Share of each polynomial, of unit mean square, `[polynomial][function]`.
-    mix: DMatrix<f64>,
+    /// Polynomials in use, and the share of each, of unit mean square, `[function][polynomial]`.
+    polynomials: usize,
+    mix: Vec<Vec<f64>>,
     /// `B_kp`, 1/m, `[function][flat]`.
-    pub doming: DMatrix<f64>,
+    pub doming: Vec<Vec<f64>>,
 }
 
 impl StressModes {
@@ -250,9 +253,10 @@ impl StressModes {
         let (flat, stress) = (section.flat(modes, tables), section.stress(m));
         let none = StressModes {
             m,
+            polynomials: stress.len(),
             compliance: Vec::new(),
-            mix: DMatrix::zeros(stress.len(), 0),
-            doming: DMatrix::zeros(0, flat.len()),
+            mix: Vec::new(),
+            doming: Vec::new(),
         };
         let square = section.means(m, stress.len(), |k, l, at| stress[k].value[at] * stress[l].value[at]);
         // By the inverse: the largest eigenvalues of it are the ones wanted, and the exact ones.
@@ -270,19 +274,21 @@ impl StressModes {
         let Some(mix) = lower.tr_solve_lower_triangular(&vectors) else { return none };
         let compliance = solved.values.iter().rev().take(count).map(|value| value.recip()).collect();
         let doming = mix.tr_mul(&section.doming(m, &stress, &flat));
-        StressModes { m, compliance, mix, doming }
+        let doming = doming.row_iter().map(|row| row.iter().copied().collect()).collect();
+        let mix = mix.column_iter().map(|column| column.iter().copied().collect()).collect();
+        StressModes { m, compliance, polynomials: stress.len(), mix, doming }
     }
 
     /// Radial shapes at `radii` (shares of the radius), `[function][r]`.
     pub fn shapes(&self, radii: &[f64]) -> Vec<Vec<f64>> {
-        let stress = stress_functions(self.m, self.mix.nrows(), radii);
-        let shape = |mix: nalgebra::DVectorView<f64>| {
+        let stress = stress_functions(self.m, self.polynomials, radii);
+        let shape = |mix: &Vec<f64>| {
             let mut sum = vec![0.0; radii.len()];
             for (share, bent) in mix.iter().zip(&stress) {
                 sum.iter_mut().zip(&bent.value).for_each(|(sum, value)| *sum += share * value);
             }
             sum
         };
-        self.mix.column_iter().map(shape).collect()
+        self.mix.iter().map(shape).collect()
     }
 }

@@ -14,15 +14,21 @@
 //!
 //! Source: Thomas, Touze, Chaigne, Int. J. Solids Struct. 42, 2005.
 
+use std::convert::Infallible;
+
+use crate::cache::{Cache, Shared};
 use crate::modal::simd::polar::SLOTS;
 use crate::plate::dome::curvature_overlap;
 use crate::plate::edges::clamped_modes;
 use crate::plate::radial::RadialMode;
 use crate::plate::thickness_taper::{Section, StressModes, stiffness_unit};
 use crate::plate::{PlateModes, PlateTables, ShellMode};
+use crate::schema::SCHEMA;
 
 /// Airy functions of one order, ascending by wave number, which may be none.
 pub struct AiryOrder {
+    /// Nodal diameters.
+    m: u32,
     /// `c_k`, J.
     pub stiffness: Vec<f64>,
     functions: Functions,
@@ -30,8 +36,12 @@ pub struct AiryOrder {
 
 enum Functions {
     Clamped(Vec<RadialMode>),
-    Uneven(StressModes),
+    /// Those of every order.
+    Uneven(Shared<Vec<StressModes>>),
 }
+
+/// Stress functions that have been worked out of late, `[order]`.
+static STRESSES: Cache<Vec<StressModes>> = Cache::new("stress", SCHEMA, 24);
 
 impl AiryOrder {
     /// Every Airy function with a wave number up to `limit` (dimensionless: times the radius), at most [`SLOTS`] of one order,
@@ -41,23 +51,17 @@ impl AiryOrder {
     /// If the tables do not reach the orders.
     pub fn all(plate: &PlateModes, tables: &PlateTables, highest: u32, limit: f64) -> Vec<AiryOrder> {
         let unit = stiffness_unit(&plate.spec);
-        let section = || {
-            let reach = plate.flat.iter().flatten().map(|flat| flat.root).fold(0.0, f64::max);
-            Section::new(&plate.spec, reach)
-        };
-        let section = (!plate.spec.is_even()).then(section);
-        let order = |m: u32| match &section {
+        let uneven = (!plate.spec.is_even()).then(|| stresses(plate, tables, highest, limit));
+        let order = |m: u32| match &uneven {
             None => {
                 let mut modes = clamped_modes(m, limit);
                 modes.truncate(SLOTS);
                 let stiffness = modes.iter().map(|mode| unit / mode.root.powi(4)).collect();
-                AiryOrder { stiffness, functions: Functions::Clamped(modes) }
+                AiryOrder { m, stiffness, functions: Functions::Clamped(modes) }
             }
-            Some(section) => {
-                let modes =
-                    StressModes::new(section, &plate.flat[m as usize], m, tables.order(m), (limit, SLOTS));
-                let stiffness = modes.compliance.iter().map(|compliance| unit / compliance).collect();
-                AiryOrder { stiffness, functions: Functions::Uneven(modes) }
+            Some(orders) => {
+                let stiffness = orders[m as usize].compliance.iter().map(|compliance| unit / compliance);
+                AiryOrder { m, stiffness: stiffness.collect(), functions: Functions::Uneven(orders.clone()) }
             }
         };
         (0..=highest).map(order).collect()
@@ -76,7 +80,7 @@ impl AiryOrder {
         };
         match &self.functions {
             Functions::Clamped(modes) => modes.iter().map(sample).collect(),
-            Functions::Uneven(modes) => modes.shapes(radii),
+            Functions::Uneven(orders) => orders[self.m as usize].shapes(radii),
         }
     }
 
@@ -91,9 +95,22 @@ impl AiryOrder {
             Functions::Clamped(modes) => {
                 modes.iter().map(|airy| scale * sum(&|_, flat| curvature_overlap(airy, flat))).collect()
             }
-            Functions::Uneven(modes) => {
-                (0..self.stiffness.len()).map(|k| sum(&|p, _| modes.doming[(k, p)])).collect()
+            Functions::Uneven(orders) => {
+                orders[self.m as usize].doming.iter().map(|row| sum(&|p, _| row[p])).collect()
             }
         }
     }
+}
+
+/// Stress functions of an uneven plate, `[order]`.
+fn stresses(plate: &PlateModes, tables: &PlateTables, highest: u32, limit: f64) -> Shared<Vec<StressModes>> {
+    let reach = plate.flat.iter().flatten().map(|flat| flat.root).fold(0.0, f64::max);
+    // The flat modes follow from the plate and from how far they reach.
+    let Ok(stresses) = STRESSES.get(&(plate.spec, reach, highest, limit), || {
+        let section = Section::new(&plate.spec, reach);
+        let order =
+            |m: u32| StressModes::new(&section, &plate.flat[m as usize], m, tables.order(m), (limit, SLOTS));
+        Ok::<_, Infallible>((0..=highest).map(order).collect())
+    });
+    stresses
 }

@@ -31,8 +31,20 @@ pub enum Size {
     LowerWeight,
     /// Rise of a cymbal's bow.
     Bow,
-    /// Thickness at the rim over that in the middle.
-    Taper,
+    /// Thickness of a cymbal at its rim.
+    Rim,
+    /// Across the bell of a cymbal, and its rise over the bow.
+    Bell,
+    /// See `Bell`.
+    BellRise,
+    /// Across what a china's upturned rim surrounds, and the rise of that rim.
+    Flange,
+    /// See `Flange`.
+    FlangeRise,
+    /// How uneven the hammer leaves a cymbal's thickness.
+    Hammering,
+    /// How unevenly the lugs stretch a head.
+    Unevenness,
     /// To the drummer's right, from the middle of the kit.
     Right,
     /// Over the floor.
@@ -47,8 +59,10 @@ enum Measure {
     Length,
     Volume,
     Mass,
+    Thickness,
     Pitch,
     Ratio,
+    Percent,
 }
 
 /// Units of lengths on screen.
@@ -72,7 +86,7 @@ pub struct Refusal {
 
 impl Size {
     /// All of them.
-    pub const ALL: [Size; 13] = [
+    pub const ALL: [Size; 19] = [
         Size::Diameter,
         Size::Depth,
         Size::Volume,
@@ -82,7 +96,13 @@ impl Size {
         Size::Weight,
         Size::LowerWeight,
         Size::Bow,
-        Size::Taper,
+        Size::Rim,
+        Size::Bell,
+        Size::BellRise,
+        Size::Flange,
+        Size::FlangeRise,
+        Size::Hammering,
+        Size::Unevenness,
         Size::Right,
         Size::Height,
         Size::Forward,
@@ -100,7 +120,13 @@ impl Size {
             Size::Weight => "Weight",
             Size::LowerWeight => "Lower weight",
             Size::Bow => "Bow",
-            Size::Taper => "Rim thickness",
+            Size::Rim => "Rim thickness",
+            Size::Bell => "Bell",
+            Size::BellRise => "Bell height",
+            Size::Flange => "Flat up to",
+            Size::FlangeRise => "Rim turns up",
+            Size::Hammering => "Hammering",
+            Size::Unevenness => "Uneven tension",
             Size::Right => "Right",
             Size::Height => "Height",
             Size::Forward => "Forward",
@@ -112,12 +138,14 @@ impl Size {
             Size::Volume => Measure::Volume,
             Size::Weight | Size::LowerWeight => Measure::Mass,
             Size::Pitch => Measure::Pitch,
-            Size::PitchRatio | Size::Taper => Measure::Ratio,
+            Size::PitchRatio => Measure::Ratio,
+            Size::Rim => Measure::Thickness,
+            Size::Hammering | Size::Unevenness => Measure::Percent,
             _ => Measure::Length,
         }
     }
 
-    /// The field of a kit file that it is, as the end of its path.
+    /// The field of a kit file that it is, as the end of its path; nothing where that is measured otherwise.
     fn field(self) -> &'static str {
         match self {
             Size::Diameter => "diameter_m",
@@ -128,7 +156,11 @@ impl Size {
             Size::Opening => "port_diameter_m",
             Size::Weight | Size::LowerWeight => "mass_kg",
             Size::Bow => "bow_m",
-            Size::Taper => "taper",
+            Size::Rim | Size::Bell | Size::Flange => "",
+            Size::BellRise => "bell.rise_m",
+            Size::FlangeRise => "flange.rise_m",
+            Size::Hammering => "hammering.rms",
+            Size::Unevenness => "tension_field.rms",
             Size::Right => "centre_m.x",
             Size::Height => "centre_m.y",
             Size::Forward => "centre_m.z",
@@ -154,6 +186,7 @@ impl Size {
             (Size::Pitch, InstrumentSpec::Drum(drum)) => Some(drum.pitch_hz),
             (Size::PitchRatio, InstrumentSpec::Drum(drum)) => drum.resonant.map(|head| head.pitch_ratio),
             (Size::Opening, InstrumentSpec::Drum(drum)) => drum.resonant.and_then(|head| head.port_diameter),
+            (Size::Unevenness, InstrumentSpec::Drum(drum)) => drum.tension_field.map(|field| field.rms),
             (_, InstrumentSpec::Cymbal(cymbal)) => self.of_cymbal(cymbal),
             (Size::LowerWeight, InstrumentSpec::HiHat(hat)) => Some(hat.bottom.mass),
             (_, InstrumentSpec::HiHat(hat)) => self.of_cymbal(&hat.top),
@@ -165,7 +198,12 @@ impl Size {
         match self {
             Size::Weight => Some(cymbal.mass),
             Size::Bow => Some(cymbal.bow),
-            Size::Taper => Some(cymbal.taper),
+            Size::Rim => Some(rim(cymbal)),
+            Size::Bell => cymbal.bell.map(|bell| 2.0 * bell.radius),
+            Size::BellRise => cymbal.bell.map(|bell| bell.rise),
+            Size::Flange => cymbal.flange.map(|flange| 2.0 * flange.radius),
+            Size::FlangeRise => cymbal.flange.map(|flange| flange.rise),
+            Size::Hammering => cymbal.hammering.map(|hammering| hammering.rms),
             _ => None,
         }
     }
@@ -183,7 +221,7 @@ impl Size {
             (Size::Diameter, InstrumentSpec::HiHat(hat)) => {
                 [&mut hat.top, &mut hat.bottom].into_iter().for_each(|cymbal| widen(cymbal, value));
             }
-            (Size::Bow | Size::Taper, InstrumentSpec::HiHat(hat)) => {
+            (Size::Bow | Size::Rim | Size::Bell | Size::BellRise, InstrumentSpec::HiHat(hat)) => {
                 [&mut hat.top, &mut hat.bottom].into_iter().for_each(|cymbal| self.set_cymbal(cymbal, value));
             }
             (_, InstrumentSpec::HiHat(hat)) => self.set_cymbal(&mut hat.top, value),
@@ -218,6 +256,7 @@ impl Size {
             }
             (Size::PitchRatio, _, Some(head)) => head.pitch_ratio = value,
             (Size::Opening, _, Some(head)) => head.port_diameter = Some(value),
+            (Size::Unevenness, ..) => drum.tension_field.iter_mut().for_each(|field| field.rms = value),
             _ => {}
         }
     }
@@ -227,7 +266,12 @@ impl Size {
             Size::Diameter => widen(cymbal, value),
             Size::Weight => cymbal.mass = value,
             Size::Bow => cymbal.bow = value,
-            Size::Taper => cymbal.taper = value,
+            Size::Rim => cymbal.taper = taper(cymbal, value),
+            Size::Bell => cymbal.bell.iter_mut().for_each(|bell| bell.radius = 0.5 * value),
+            Size::BellRise => cymbal.bell.iter_mut().for_each(|bell| bell.rise = value),
+            Size::Flange => cymbal.flange.iter_mut().for_each(|flange| flange.radius = 0.5 * value),
+            Size::FlangeRise => cymbal.flange.iter_mut().for_each(|flange| flange.rise = value),
+            Size::Hammering => cymbal.hammering.iter_mut().for_each(|hammering| hammering.rms = value),
             _ => {}
         }
     }
@@ -243,11 +287,13 @@ impl Size {
     /// The value that a text stands for, in SI units: a number, with or without a unit.
     pub fn parse(self, text: &str, units: Units) -> Option<f64> {
         let text = text.trim();
-        let end = text.find(|c: char| c.is_alphabetic() || c == '"').unwrap_or(text.len());
+        let end = text.find(|c: char| c.is_alphabetic() || "\"%".contains(c)).unwrap_or(text.len());
         let (number, unit) = text.split_at(end);
         let number: f64 = number.trim().replace(',', ".").parse().ok()?;
         let scale = match (self.measure(), unit.trim()) {
             (_, "") => self.unit(units).0,
+            (Measure::Percent, "%") => 1e-2,
+            (Measure::Thickness, "mm") => 1e-3,
             (Measure::Length, "in" | "\"") => INCH,
             (Measure::Length, "mm") | (Measure::Mass, "g") | (Measure::Volume, "l") => 1e-3,
             (Measure::Length, "cm") => 1e-2,
@@ -265,7 +311,9 @@ impl Size {
             (Measure::Volume, _) => (1e-3, "l", 1),
             (Measure::Mass, _) => (1e-3, "g", 0),
             (Measure::Pitch, _) => (1.0, "Hz", 1),
+            (Measure::Thickness, _) => (1e-3, "mm", 2),
             (Measure::Ratio, _) => (1.0, "", 3),
+            (Measure::Percent, _) => (1e-2, "%", 1),
         }
     }
 
@@ -281,6 +329,24 @@ impl Size {
 
 /// An inch, m.
 const INCH: f64 = 0.0254;
+
+/// Thickness of a cymbal at its rim, m. It falls evenly from the middle to the rim, so that the mean over the disc is the middle's
+/// by `(1 + 2 taper) / 3`.
+fn rim(cymbal: &CymbalSpec) -> f64 {
+    3.0 * cymbal.taper * mean_thickness(cymbal) / (1.0 + 2.0 * cymbal.taper)
+}
+
+/// The taper that gives a thickness at the rim, m, with the weight as it is.
+fn taper(cymbal: &CymbalSpec, rim: f64) -> f64 {
+    // As thick there as three halves of the mean it would be in rings only.
+    let share = (rim / (3.0 * mean_thickness(cymbal))).min(0.49);
+    share / (1.0 - 2.0 * share)
+}
+
+/// m.
+fn mean_thickness(cymbal: &CymbalSpec) -> f64 {
+    cymbal.mass / (cymbal.alloy.density * std::f64::consts::PI * (0.5 * cymbal.diameter).powi(2))
+}
 
 fn widen(cymbal: &mut CymbalSpec, diameter: f64) {
     let by = diameter / cymbal.diameter;

@@ -17,12 +17,12 @@ use egui::{Align, Button, Layout, Rect, Ui, UiBuilder, pos2, vec2};
 use overhear_engine::kit_spec::{KitSpec, PieceSpec};
 use overhear_engine::slot::Slot;
 use overhear_player::kit_document::KitDocument;
-use overhear_player::kit_edits::sizes::{Refusal, Size, Units, resize};
+use overhear_player::kit_edits::sizes::{Refusal, Units, resize};
 use overhear_player::kit_edits::{self, Edit, Origin};
 use overhear_player::library;
 use overhear_player::parameters::{SlotParameter, default_value, is_live, slot_index};
 
-use wish::Wish;
+use wish::{Answer, Wish};
 
 use super::gesture::{Gesture, put};
 use super::theme;
@@ -35,6 +35,9 @@ const LINE: f32 = 30.0;
 /// Space between panels, points.
 const GAP: f32 = 8.0;
 
+/// What can be done, while there is nothing to say.
+const HINT: &str = "Drag pieces on the floor, or the handles of a drum or cymbal; arrow keys move the piece that has the focus";
+
 /// The page of one window.
 pub struct Build {
     units: Units,
@@ -42,18 +45,16 @@ pub struct Build {
     floor: floor::Floor,
     drawing: drawing::Drawing,
     files: files::Files,
-    /// What the latest wish came to, and whether it was refused.
-    said: Option<(String, bool)>,
-    /// The nearest size that works where one was refused.
-    nearest: Option<(Size, f64)>,
+    /// What the latest wish came to.
+    said: Option<Answer>,
 }
 
 /// What the page is about.
 pub struct About<'a> {
     pub parameters: &'a HostParameters,
     pub document: &'a Arc<KitDocument>,
-    /// Whether the piece of each slot is built.
-    pub ready: &'a dyn Fn(Slot) -> bool,
+    /// Whether the piece of a slot is being built.
+    pub building: &'a dyn Fn(Slot) -> bool,
 }
 
 impl Build {
@@ -66,7 +67,6 @@ impl Build {
             drawing: drawing::Drawing::default(),
             files: files::Files::of(folder),
             said: None,
-            nearest: None,
         }
     }
 
@@ -87,7 +87,7 @@ impl Build {
         self.top(ui, top, kit, &mut wish);
         self.middle(ui, middle, (kit, piece), selected, &mut wish);
         let (line, files) = bottom.split_top_bottom_at_y(bottom.center().y);
-        self.line(ui, line, about, &mut wish);
+        self.line(ui, line, about);
         within(ui, files, |ui| self.files.show(ui, &mut wish));
         if let Some(wish) = wish {
             self.grant(wish, about, selected, set);
@@ -141,36 +141,31 @@ impl Build {
         self.list.show(ui, list.shrink(8.0), wish);
         self.floor.show(ui, floor, kit, selected, wish);
         self.drawing.show(ui, drawn, piece, (*selected, self.units), wish);
-        parts::show(ui, made.shrink(8.0), piece, (*selected, self.units), wish);
+        let said = self.said.as_ref();
+        parts::show(
+            ui,
+            made.shrink(8.0),
+            piece,
+            &parts::Seen { slot: *selected, units: self.units, said },
+            wish,
+        );
     }
 
-    /// What the latest wish came to.
-    fn line(&mut self, ui: &mut Ui, rect: Rect, about: &About<'_>, wish: &mut Option<Wish>) {
+    /// What the latest wish came to, unless it is said at its field, and what is being built.
+    fn line(&mut self, ui: &mut Ui, rect: Rect, about: &About<'_>) {
         let palette = theme::of(ui);
-        let building: Vec<&str> = about
-            .document
-            .kit
-            .slots()
-            .filter(|(slot, _)| !(about.ready)(*slot))
-            .map(|(_, piece)| piece.title.as_str())
-            .collect();
+        let pieces = about.document.kit.slots().filter(|(slot, _)| (about.building)(*slot));
+        let building: Vec<&str> = pieces.map(|(_, piece)| piece.title.as_str()).collect();
+        let building = (!building.is_empty()).then(|| format!("Building {}", building.join(", ")));
+        let said = self.said.as_ref().filter(|said| said.field.is_none());
+        let (text, colour) = match (said, &building) {
+            (Some(Answer { words, refused: true, .. }), _) => (words.as_str(), palette.over),
+            (_, Some(building)) => (building.as_str(), palette.accent),
+            (Some(Answer { words, .. }), None) => (words.as_str(), palette.text),
+            (None, None) => (HINT, palette.faint),
+        };
         within(ui, rect, |ui| {
-            if let Some((size, value)) = self.nearest {
-                let text = format!("Take {}", size.text(value, self.units));
-                if ui.button(text).clicked() {
-                    *wish = Some(Wish::Resize(size, value));
-                }
-            }
-            if let Some((text, refused)) = &self.said {
-                let colour = if *refused { palette.over } else { palette.text };
-                ui.add(egui::Label::new(egui::RichText::new(text).color(colour)).truncate())
-                    .on_hover_text(text);
-            } else if !building.is_empty() {
-                ui.colored_label(palette.accent, format!("Building {}", building.join(", ")));
-            } else {
-                let text = "Drag pieces on the floor, or the handles of a drum or cymbal; arrow keys move the piece that has the focus";
-                ui.add(egui::Label::new(egui::RichText::new(text).color(palette.faint)).truncate());
-            }
+            ui.add(egui::Label::new(egui::RichText::new(text).color(colour)).truncate()).on_hover_text(text);
         });
     }
 
@@ -183,26 +178,32 @@ impl Build {
         set: &mut dyn FnMut(usize, Gesture),
     ) {
         let document = &**about.document;
+        let field = wish.field();
         let done = match wish {
             Wish::SaveKit(name) => return self.told(self.files.save(&name, document)),
             Wish::SavePiece(name) => return self.told(self.files.save_piece(&name, document, *selected)),
             Wish::Resize(size, value) => {
                 let resized = resize(document, *selected, size, value, self.units);
-                resized.map_err(|Refusal { words, nearest }| (words, nearest.map(|nearest| (size, nearest))))
+                resized.map_err(|Refusal { words, nearest }| (words, nearest))
             }
             wish => self.edit(wish, document, *selected).map_err(|words| (words, None)),
         };
-        (self.said, self.nearest) = (None, None);
-        match done {
+        self.said = None;
+        let refused = match done {
             Ok(edit) => {
                 let about_slot = edit.about;
                 match take(edit, about.parameters, set) {
-                    Ok(()) => *selected = about_slot,
-                    Err(words) => self.said = Some((words, true)),
+                    Ok(()) => {
+                        *selected = about_slot;
+                        return;
+                    }
+                    Err(words) => (words, None),
                 }
             }
-            Err((words, nearest)) => (self.said, self.nearest) = (Some((words, true)), nearest),
-        }
+            Err(refused) => refused,
+        };
+        let (words, nearest) = refused;
+        self.said = Some(Answer { words, refused: true, field, nearest });
     }
 
     fn edit(&self, wish: Wish, document: &KitDocument, selected: Slot) -> Result<Edit, String> {
@@ -223,6 +224,12 @@ impl Build {
                 let fitted = part.fitted(piece, name)?;
                 plain(kit_edits::change(document, selected, |piece| *piece = fitted))
             }
+            Wish::Switch(feature, on) => {
+                plain(kit_edits::change(document, selected, |piece| feature.switch(piece, on)))
+            }
+            Wish::DrawAgain(feature) => {
+                plain(kit_edits::change(document, selected, |piece| feature.draw_again(piece)))
+            }
             Wish::Kit(name) => {
                 let kit = library::whole_kit(name).ok_or(format!("{name} is not in the library"))?;
                 let other = kit.document().map_err(|error| error.to_string())?;
@@ -235,11 +242,9 @@ impl Build {
     }
 
     fn told(&mut self, done: Result<String, String>) {
-        self.nearest = None;
-        self.said = Some(match done {
-            Ok(words) => (words, false),
-            Err(words) => (words, true),
-        });
+        let refused = done.is_err();
+        let words = done.unwrap_or_else(|words| words);
+        self.said = Some(Answer { words, refused, field: None, nearest: None });
     }
 }
 

@@ -2,7 +2,7 @@
 //! on the value to type one.
 
 use egui::text::LayoutJob;
-use egui::{Align, Align2, Color32, Id, Key, Pos2, Rect, Sense, Stroke, Ui, Vec2, pos2, vec2};
+use egui::{Align, Align2, Color32, Id, Key, Pos2, Rect, Response, Sense, Stroke, Ui, Vec2, pos2, vec2};
 use nice_plug::prelude::Param;
 
 use super::gesture::Gesture;
@@ -27,6 +27,25 @@ pub fn knob(ui: &mut Ui, rect: Rect, item: &Item<'_>, accent: Color32, set: &mut
     let dial = Rect::from_min_max(rect.min + vec2(0.0, LINE), rect.max - vec2(0.0, LINE));
     let radius = (dial.width().min(dial.height()) / 2.0 - 3.0).max(4.0);
     let hit = Rect::from_center_size(dial.center(), Vec2::splat(2.0 * radius + 6.0));
+    let (response, place) = hand(ui, hit, id, (item, TRAVEL), set);
+    let active = response.hovered() || response.dragged();
+    draw(ui, dial.center(), radius, [place, item.place(item.usual())], accent, active);
+    response.on_hover_ui(|ui| {
+        ui.label(tip(item));
+    });
+    label(ui, rect, item.parameter.label);
+    let value_rect = Rect::from_min_max(pos2(rect.min.x, rect.max.y - LINE), pos2(rect.max.x, rect.max.y));
+    value_text(ui, value_rect, id.with("value"), item, set);
+}
+
+/// What a hand does with a parameter in `hit`, which moves by a share of its travel per point dragged; gives the place where it is, 0 to 1.
+pub(super) fn hand(
+    ui: &Ui,
+    hit: Rect,
+    id: Id,
+    (item, travel): (&Item<'_>, f32),
+    set: &mut dyn FnMut(usize, Gesture),
+) -> (Response, f32) {
     let response = ui.interact(hit, id, Sense::click_and_drag());
     let mut place = item.value.unmodulated_normalized_value();
 
@@ -39,7 +58,7 @@ pub fn knob(ui: &mut Ui, rect: Rect, item: &Item<'_>, accent: Color32, set: &mut
     if response.dragged() {
         let fine = if ui.input(|input| input.modifiers.shift) { FINE } else { 1.0 };
         let held = ui.data(|data| data.get_temp(id)).unwrap_or(place);
-        place = (held - response.drag_delta().y * TRAVEL * fine).clamp(0.0, 1.0);
+        place = (held - response.drag_delta().y * travel * fine).clamp(0.0, 1.0);
         // Where the value ends the hand turns back at once.
         let (low, high) = item.limits();
         place = place.clamp(item.place(low), item.place(high));
@@ -55,24 +74,16 @@ pub fn knob(ui: &mut Ui, rect: Rect, item: &Item<'_>, accent: Color32, set: &mut
     if response.hovered() && !response.dragged() {
         let (wheel, fine) = ui.input(|input| (input.smooth_scroll_delta().y, input.modifiers.shift));
         if wheel != 0.0 {
-            let step = wheel * TRAVEL * if fine { FINE } else { 0.5 };
+            let step = wheel * travel * if fine { FINE } else { 0.5 };
             place = (place + step).clamp(0.0, 1.0);
             item.put(item.at(place), set);
         }
     }
-
-    let active = response.hovered() || response.dragged();
-    draw(ui, dial.center(), radius, [place, item.place(item.usual())], accent, active);
-    response.on_hover_ui(|ui| {
-        ui.label(tip(item));
-    });
-    label(ui, rect, item.parameter.label);
-    let value_rect = Rect::from_min_max(pos2(rect.min.x, rect.max.y - LINE), pos2(rect.max.x, rect.max.y));
-    value_text(ui, value_rect, id.with("value"), item, set);
+    (response, place)
 }
 
 /// The name above a knob; a long one small and on two lines.
-fn label(ui: &Ui, cell: Rect, text: &str) {
+pub(super) fn label(ui: &Ui, cell: Rect, text: &str) {
     let colour = theme::of(ui).faint;
     let painter = ui.painter();
     let one = painter.layout_no_wrap(text.to_owned(), theme::caption(), colour);
@@ -90,7 +101,7 @@ fn label(ui: &Ui, cell: Rect, text: &str) {
 }
 
 /// What a parameter is, its unit and range, and what hands can do.
-fn tip(item: &Item<'_>) -> String {
+pub(super) fn tip(item: &Item<'_>) -> String {
     let (group, label, choices) = (item.group, item.parameter.label, item.parameter.choices);
     let range = if choices.is_empty() {
         let (low, high) = item.limits();
@@ -134,7 +145,13 @@ fn at_place(place: f32) -> Vec2 {
 }
 
 /// The value with its unit; a click turns it into a field to type in.
-fn value_text(ui: &mut Ui, rect: Rect, id: Id, item: &Item<'_>, set: &mut dyn FnMut(usize, Gesture)) {
+pub(super) fn value_text(
+    ui: &mut Ui,
+    rect: Rect,
+    id: Id,
+    item: &Item<'_>,
+    set: &mut dyn FnMut(usize, Gesture),
+) {
     let palette = theme::of(ui);
     let Some(typed) = ui.data(|data| data.get_temp::<String>(id)) else {
         // Without modulation: what was set is what can be typed over.

@@ -1,9 +1,9 @@
-//! Rows of knobs: one for each parameter of a piece or a group.
+//! Rows of knobs, switches and lists: one for each parameter of a piece or a group.
 
 use egui::{Align2, Color32, Rect, Ui, pos2, vec2};
 
+use super::control;
 use super::gesture::Gesture;
-use super::knob;
 use super::theme;
 use super::values::{Item, Values};
 
@@ -33,7 +33,7 @@ pub fn panel(
     for (place, item) in items.iter().enumerate() {
         let at = pos2(inner.min.x + place as f32 * width, inner.min.y);
         let cell = Rect::from_min_size(at, vec2(width, CELL[1].min(inner.height())));
-        knob::knob(ui, cell, item, accent, set);
+        control::control(ui, cell, item, accent, set);
     }
 }
 
@@ -75,7 +75,7 @@ pub fn grid(
             let (column, row) = ((place % columns) as f32, (place / columns) as f32);
             let at = pos2(rect.min.x + column * CELL[0], top + row * CELL[1]);
             let cell = Rect::from_min_size(at, vec2(CELL[0], CELL[1] - 4.0));
-            knob::knob(ui, cell, item, palette.accent, set);
+            control::control(ui, cell, item, palette.accent, set);
         }
         top += CELL[1] * items.len().div_ceil(columns) as f32 + 4.0;
     }

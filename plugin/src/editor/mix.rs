@@ -6,6 +6,7 @@
 use egui::{Align2, Button, Color32, Rect, ScrollArea, Ui, UiBuilder, pos2, vec2};
 use overhear_engine::slot::{SLOTS, Slot};
 
+use super::fader;
 use super::gesture::Gesture;
 use super::knob;
 use super::levels::{self, Levels};
@@ -75,9 +76,9 @@ impl Mix {
             let accent = theme::of(ui).pieces[slot.index()];
             let rest = frame(ui, strip_at(rect, slot.index(), width), &piece.title, accent);
             let rest = self.switches(ui, rest, slot, values, set);
-            let rest = item_knob(ui, rest, values.of_slot(slot, SlotParameter::Level), accent, set);
             let rest = item_knob(ui, rest, values.of_slot(slot, SlotParameter::Pan), accent, set);
-            meters(ui, rest, &[shown.piece(slot)], accent);
+            let level = values.of_slot(slot, SlotParameter::Level);
+            fader_and_meters(ui, rest, level, &[shown.piece(slot)], (accent, accent), set);
         }
     }
 
@@ -182,9 +183,9 @@ fn main_strip(
     let rest = frame(ui, rect, "Main", palette.text);
     // As far down as the others' switches.
     let rest = Rect::from_min_max(rest.min, rest.max - vec2(0.0, 34.0));
-    let rest = item_knob(ui, rest, values.named("master_level"), palette.accent, set);
     let rest = Rect::from_min_max(rest.min, rest.max - vec2(0.0, KNOB));
-    meters(ui, rest, &shown.main(), palette.level);
+    let colours = (palette.accent, palette.level);
+    fader_and_meters(ui, rest, values.named("master_level"), &shown.main(), colours, set);
 }
 
 /// A strip's panel and name; gives what is left below.
@@ -214,6 +215,26 @@ fn item_knob(
         });
     }
     rest
+}
+
+/// A fader, and beside it the meters of what it lets through.
+fn fader_and_meters(
+    ui: &mut Ui,
+    rect: Rect,
+    item: Option<Item<'_>>,
+    shown: &[f32],
+    (accent, colour): (Color32, Color32),
+    set: &mut dyn FnMut(usize, Gesture),
+) {
+    let (tall, value) = rect.split_top_bottom_at_y(rect.max.y - 18.0);
+    let middle = tall.center().x;
+    if let Some(item) = item {
+        let way = Rect::from_x_y_ranges(middle - 34.0..=middle + 2.0, tall.y_range());
+        ui.scope_builder(UiBuilder::new().max_rect(rect).id_salt("mix"), |ui| {
+            fader::fader(ui, [way, value], &item, accent, set);
+        });
+    }
+    meters(ui, tall.translate(vec2(16.0, 0.0)), shown, colour);
 }
 
 /// Meters side by side, with the loudest as text above.

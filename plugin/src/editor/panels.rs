@@ -37,6 +37,9 @@ const GAP: f32 = 8.0;
 const HEADER: f32 = 34.0;
 const FOOTER: f32 = 24.0;
 
+/// Time in which the builder has noticed another kit, s: it looks ten times a second.
+const NOTICED: f64 = 0.3;
+
 /// Width of the list of pieces, points.
 const LIST: f32 = 168.0;
 
@@ -84,6 +87,8 @@ pub struct Inputs<'a> {
     pub past: &'a [KitSnapshot],
     /// A piece's mode shapes once it is built.
     pub shapes: &'a dyn Fn(Slot) -> Option<Arc<FieldShapes>>,
+    /// Whether the piece of a slot is being built at present.
+    pub building: &'a dyn Fn(Slot) -> bool,
     pub parameters: &'a HostParameters,
     /// What is heard.
     pub sound: &'a Sound,
@@ -125,6 +130,8 @@ pub struct Panels {
     latest: Latest,
     late: News,
     limited: News,
+    /// When a hand last changed the kit, s of the window's time.
+    changed: f64,
 }
 
 impl Panels {
@@ -155,6 +162,7 @@ impl Panels {
             latest: Latest::default(),
             late: News::default(),
             limited: News::default(),
+            changed: f64::NEG_INFINITY,
         }
     }
 
@@ -242,6 +250,7 @@ impl Panels {
         } else {
             self.history.built(document.clone(), built.clone());
             self.adopt(built, inputs);
+            self.changed = ui.input(|input| input.time);
         }
         self.footer(ui, footer, inputs, &mut undone);
         for (index, gesture) in undone {
@@ -276,8 +285,9 @@ impl Panels {
             Page::Midi => self.playing.show(ui, rect, inputs.parameters, document),
             Page::Settings => settings::show(ui, rect, values, &mut self.zoom, hands.set),
             Page::Build => {
-                let ready = |slot: Slot| inputs.snapshot.pieces[slot.index()].ready;
-                let about = About { parameters: inputs.parameters, document, ready: &ready };
+                let building =
+                    |slot: Slot| !inputs.snapshot.pieces[slot.index()].ready || (inputs.building)(slot);
+                let about = About { parameters: inputs.parameters, document, building: &building };
                 self.build.show(ui, rect, &about, &mut self.selected, hands.set);
             }
         }
@@ -305,6 +315,11 @@ impl Panels {
             self.physics.follow(now - age, &self.document.kit, snapshot, inputs.shapes);
         }
         self.physics.forget_before(now);
+    }
+
+    /// Whether the builder may not have noticed yet that the kit was changed; `now` in s.
+    pub fn waits(&self, now: f64) -> bool {
+        now - self.changed < NOTICED
     }
 
     /// Whether the next frame will look different though nothing new happens; `now` in s.

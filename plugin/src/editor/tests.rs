@@ -25,6 +25,8 @@ struct Window {
     parameters: HostParameters,
     shapes: Arc<FieldShapes>,
     snapshot: KitSnapshot,
+    /// The piece that is being built.
+    building: Option<Slot>,
     size: Vec2,
     time: f64,
     modifiers: Modifiers,
@@ -51,6 +53,7 @@ impl Window {
             parameters,
             shapes: Arc::new(dish()),
             snapshot: KitSnapshot::default(),
+            building: None,
             size: vec2(980.0, 640.0),
             time: 0.0,
             modifiers: Modifiers::NONE,
@@ -78,7 +81,9 @@ impl Window {
             let mut play = |stroke| strokes.push(stroke);
             let (parameters, sound) = (&self.parameters, &self.sound);
             let past = std::slice::from_ref(&self.snapshot);
-            let inputs = Inputs { snapshot: &self.snapshot, past, shapes: &shapes, parameters, sound };
+            let building = |slot: Slot| self.building == Some(slot);
+            let snapshot = &self.snapshot;
+            let inputs = Inputs { snapshot, past, shapes: &shapes, building: &building, parameters, sound };
             self.panels.show(ui, &inputs, &mut Hands { set: &mut set, play: &mut play });
         });
         output.textures_delta.clear();

@@ -28,7 +28,7 @@ const FIRST_KNOB: (i16, i16) = (235, 558);
 
 /// What the audio thread has met so far.
 #[derive(Default)]
-struct Met {
+pub struct Met {
     blocks: u64,
     /// Largest sample since it was last asked for.
     peak: f32,
@@ -36,7 +36,7 @@ struct Met {
 }
 
 /// Plays silence in about real time and takes note of what comes of the window, until it is told to stop.
-fn listen(processor: &mut Processor, met: &Mutex<Met>, stop: &AtomicBool) -> anyhow::Result<()> {
+pub fn listen(processor: &mut Processor, met: &Mutex<Met>, stop: &AtomicBool) -> anyhow::Result<()> {
     let mut sound = [[0.0; 256], [0.0; 256]];
     while !stop.load(Ordering::Acquire) {
         let [left, right] = &mut sound;
@@ -53,8 +53,8 @@ fn listen(processor: &mut Processor, met: &Mutex<Met>, stop: &AtomicBool) -> any
 }
 
 /// A hand with a pointer.
-struct Hand<'a> {
-    parent: &'a Parent,
+pub struct Hand<'a> {
+    pub parent: &'a Parent,
 }
 
 impl Hand<'_> {
@@ -65,15 +65,15 @@ impl Hand<'_> {
         thread::sleep(Duration::from_millis(20));
     }
 
-    fn move_to(&self, place: (i16, i16)) {
+    pub fn move_to(&self, place: (i16, i16)) {
         self.input(xproto::MOTION_NOTIFY_EVENT, 0, place);
     }
 
-    fn press(&self) {
+    pub fn press(&self) {
         self.input(xproto::BUTTON_PRESS_EVENT, 1, (0, 0));
     }
 
-    fn release(&self) {
+    pub fn release(&self) {
         self.input(xproto::BUTTON_RELEASE_EVENT, 1, (0, 0));
     }
 }

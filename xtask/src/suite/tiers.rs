@@ -12,7 +12,7 @@ pub enum Tier {
 }
 
 /// Every integration test of the workspace by its target: when it is run, and why then.
-pub const TARGETS: [(&str, Tier, &str); 35] = [
+pub const TARGETS: [(&str, Tier, &str); 36] = [
     ("acoustics", Tier::Quick, "figures of modes, computed rather than played"),
     ("automation", Tier::Whole, "plays the kit under every parameter"),
     ("command_line", Tier::Quick, "the program for users, in an empty folder"),
@@ -32,6 +32,7 @@ pub const TARGETS: [(&str, Tier, &str); 35] = [
     ("cache", Tier::Whole, "builds kits anew with harmed caches"),
     ("kit", Tier::Quick, "a kit as a document, played for moments"),
     ("library", Tier::Whole, "builds two whole kits"),
+    ("loudness", Tier::Whole, "plays the groove on twelve kits"),
     ("microphones", Tier::Quick, "one stroke at every microphone"),
     ("notes", Tier::Whole, "notes of every piece, many times"),
     ("passivity", Tier::Whole, "sweeps over descriptions and rates"),

@@ -69,6 +69,7 @@ impl Floor {
         painter.text(at, Align2::CENTER_CENTER, "Drummer", theme::small(), palette.faint);
         let at = pos2(rect.center().x, rect.min.y + 8.0);
         painter.text(at, Align2::CENTER_CENTER, "Audience", theme::small(), palette.faint);
+        let mut titles: Vec<(&str, Rect)> = Vec::new();
         let mut slots: Vec<(Slot, &PieceSpec)> = kit.slots().collect();
         // What hangs higher lies over what stands below.
         slots.sort_by(|(_, a), (_, b)| a.place.centre[1].total_cmp(&b.place.centre[1]));
@@ -110,17 +111,30 @@ impl Floor {
                 1.0
             };
             painter.add(Shape::convex_polygon(outline.clone(), fill, Stroke::new(width, accent)));
-            title(&painter, &piece.title, Rect::from_points(&outline), palette.text);
+            titles.push((&piece.title, Rect::from_points(&outline)));
             response.on_hover_text(format!("{}: drag it, or move it with the arrow keys", piece.title));
         }
+        titled(&painter, &titles, palette.text);
     }
 }
 
-/// A title where its piece is, as far as it fits.
-fn title(painter: &egui::Painter, title: &str, bounds: Rect, colour: Color32) {
-    let galley = painter.layout_no_wrap(title.to_owned(), theme::small(), colour);
-    if galley.size().x <= bounds.width() + 8.0 {
-        painter.galley(bounds.center() - 0.5 * galley.size(), galley, colour);
+/// Titles where their pieces are, as far as they fit and none lies on another: what hangs highest comes first.
+fn titled(painter: &egui::Painter, titles: &[(&str, Rect)], colour: Color32) {
+    let mut taken: Vec<Rect> = Vec::new();
+    for (title, bounds) in titles.iter().rev() {
+        let galley = painter.layout_no_wrap((*title).to_owned(), theme::small(), colour);
+        if galley.size().x > bounds.width() + 8.0 {
+            continue;
+        }
+        let free = 0.5 * (bounds.height() - galley.size().y).max(0.0);
+        let places = [0.0, 0.4, -0.4, 0.8, -0.8, 1.0, -1.0].map(|share| {
+            Rect::from_center_size(bounds.center() + egui::vec2(0.0, share * free), galley.size())
+        });
+        let place = places.into_iter().find(|place| !taken.iter().any(|other| other.intersects(*place)));
+        if let Some(place) = place {
+            painter.galley(place.min, galley, colour);
+            taken.push(place);
+        }
     }
 }
 

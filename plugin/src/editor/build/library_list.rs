@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use egui::{ComboBox, Rect, RichText, ScrollArea, TextEdit, Ui, UiBuilder};
+use egui::{ComboBox, Label, Rect, RichText, ScrollArea, Sense, TextEdit, Ui, UiBuilder};
 use overhear_player::library::{self, Instrument, WholeKit};
 
 use super::super::theme;
@@ -42,6 +42,7 @@ impl LibraryList {
     }
 
     fn rows(&mut self, ui: &mut Ui, wish: &mut Option<Wish>) {
+        ui.spacing_mut().item_spacing.y = 1.0;
         let palette = theme::of(ui);
         let words: Vec<String> = self.wanted.split_whitespace().map(str::to_lowercase).collect();
         let mut family = "";
@@ -52,9 +53,10 @@ impl LibraryList {
                 family = &instrument.family;
                 ui.colored_label(palette.accent, family);
             }
-            let text = RichText::new(instrument.name);
-            let row = ui.selectable_label(self.chosen == Some(instrument.name), text);
-            let row = row.on_hover_text(&instrument.about);
+            let row = ui.selectable_label(self.chosen == Some(instrument.name), instrument.name);
+            let about = RichText::new(&instrument.about).font(theme::small()).color(palette.faint);
+            let about = Label::new(about).truncate().selectable(false).sense(Sense::click());
+            let row = row.union(ui.add(about)).on_hover_text(&instrument.about);
             if row.clicked() {
                 self.chosen = Some(instrument.name);
             }

@@ -13,8 +13,12 @@ impl Window {
         window
     }
 
+    /// One with a kit that is built.
     fn here() -> Window {
-        Window::building(std::path::Path::new("no-such-folder"))
+        let mut window = Window::building(std::path::Path::new("no-such-folder"));
+        window.snapshot.pieces.iter_mut().for_each(|piece| piece.ready = true);
+        window.frame(Vec::new());
+        window
     }
 
     /// Looks an instrument up and chooses it.
@@ -161,6 +165,7 @@ fn sizes_are_typed_or_dragged_in_inches_and_millimetres_and_parts_come_from_list
 fn kits_and_pieces_are_saved_and_opened_again() {
     let folder = std::env::temp_dir().join(format!("overhear-build-{}", std::process::id()));
     let mut window = Window::building(&folder);
+    window.snapshot.pieces.iter_mut().for_each(|piece| piece.ready = true);
     let name = |window: &mut Window, old: &str, name: &str| {
         window.click_on(old);
         window.modifiers = Modifiers::COMMAND;
@@ -211,4 +216,94 @@ fn a_seventeenth_piece_is_refused_in_words() {
         window.panels.open(page);
         window.frame(Vec::new());
     }
+}
+
+#[test]
+fn what_is_being_built_is_told_until_it_is() {
+    let mut window = Window::here();
+    assert!(!window.says("Building"), "{:?}", window.texts);
+    window.building = Some(slot_of("crash"));
+    window.frame(Vec::new());
+    assert!(window.find("Building Crash").is_some(), "{:?}", window.texts);
+    window.building = None;
+    window.frame(Vec::new());
+    assert!(!window.says("Building"), "{:?}", window.texts);
+}
+
+#[test]
+fn bells_rims_hammering_and_uneven_lugs_are_switched_and_drawn_again() {
+    let mut window = Window::here();
+    window.click_on("Crash");
+    let crash = |window: &Window| match window.kit().find("crash").unwrap().1.instrument {
+        overhear_engine::kit_spec::InstrumentSpec::Cymbal(cymbal) => cymbal,
+        _ => unreachable!("a crash is a cymbal"),
+    };
+    let before = crash(&window);
+    // The box beside the name.
+    let switch = |window: &mut Window, name: &str| {
+        let (_, name) = window.texts.iter().find(|(text, _)| text == name).expect("a switch").clone();
+        window.click(pos2(name.min.x + 118.0, name.center().y));
+        window.frame(Vec::new());
+    };
+    switch(&mut window, "With a bell");
+    assert_eq!((crash(&window).bell, window.find("Bell height")), (None, None));
+    switch(&mut window, "With a bell");
+    assert_eq!(crash(&window), before);
+    switch(&mut window, "China rim");
+    assert!(crash(&window).flange.is_some() && window.find("Rim turns up").is_some());
+    window.click_on("Another one");
+    let seed = |cymbal: overhear_engine::cymbal::CymbalSpec| cymbal.hammering.unwrap().seed;
+    assert_eq!(seed(crash(&window)), seed(before) + 1);
+    window.click_on("Undo");
+    window.click_on("Undo");
+    assert_eq!(crash(&window), before);
+}
+
+#[test]
+fn a_size_is_refused_below_its_field_and_not_elsewhere() {
+    let mut window = Window::here();
+    window.click_on("Crash");
+    window.click_on("16 in");
+    window.modifiers = Modifiers::COMMAND;
+    window.key(Key::A);
+    window.modifiers = Modifiers::NONE;
+    window.enter("80");
+    let place = |text: &str| window.texts.iter().find(|(found, _)| found.contains(text)).map(|found| found.1);
+    let (name, words, next) = (place("Diameter"), place("accepted:"), place("Weight"));
+    let [name, words, next] = [name, words, next].map(|place| place.expect("it is shown"));
+    assert!(name.max.y < words.min.y && words.max.y < next.min.y, "{name:?} {words:?} {next:?}");
+}
+
+/// What the hosts' test does with the pointer, and so what it comes to.
+#[test]
+fn the_clicks_of_the_hosts_test_build_the_kit_that_it_expects() {
+    let clicks = include_str!("../../../../tests/tests/hosts/clicks.txt");
+    let mut window = Window::new();
+    window.snapshot.pieces.iter_mut().for_each(|piece| piece.ready = true);
+    window.frame(Vec::new());
+    for line in clicks.lines().filter(|line| !line.starts_with('#')) {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let numbers: Vec<f32> = words[1..].iter().map(|word| word.parse().unwrap()).collect();
+        match (words[0], &numbers[..]) {
+            ("click", &[x, y]) => window.click(pos2(x, y)),
+            ("drag", &[x, y, right, down]) => {
+                window.drag(pos2(x, y), vec2(right, down), PointerButton::Primary);
+            }
+            _ => panic!("{line}"),
+        }
+        window.obey();
+        window.frame(Vec::new());
+        window.frame(Vec::new());
+    }
+    let kit = window.kit();
+    let names: Vec<&str> = kit.pieces.iter().map(|piece| piece.name.as_str()).collect();
+    let expected =
+        ["kick", "snare", "rack-tom", "floor-tom", "crash", "ride", "splash", "hi-hat", "kick-16x14"];
+    assert_eq!(names, expected, "{:?}", window.texts);
+    let drum = |name: &str| kit.find(name).unwrap().1.drum().unwrap();
+    let inches = |name: &str| (drum(name).diameter / 0.0254 * 10.0).round() / 10.0;
+    assert_eq!([inches("kick"), inches("rack-tom"), inches("kick-16x14")], [20.0, 13.0, 16.0]);
+    assert_eq!(drum("rack-tom").batter.plies, 1);
+    let splash = |kit: &KitSpec| kit.find("splash").unwrap().1.place.centre;
+    assert!(splash(&kit)[0] > splash(&KitSpec::standard())[0] + 0.02);
 }
