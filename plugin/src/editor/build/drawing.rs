@@ -67,7 +67,8 @@ impl Drawing {
                 accent.gamma_multiply(0.25),
                 line,
             ));
-            painter.hline(body.x_range(), body.min.y, Stroke::new(4.0, theme::of(ui).film));
+            painter.hline(body.x_range(), body.min.y, Stroke::new(5.0, theme::of(ui).faint));
+            painter.hline(body.x_range(), body.min.y, Stroke::new(3.0, theme::of(ui).film));
         } else {
             painter.add(Shape::line(bow(body), Stroke::new(3.0, theme::of(ui).bronze)));
         }
