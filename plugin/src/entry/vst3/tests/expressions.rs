@@ -2,42 +2,9 @@
 
 use nice_plug::wrapper::vst3::vst3::Steinberg::Vst::{NoteExpressionValueEvent, PolyPressureEvent};
 
+use super::calls::Listed;
 use super::*;
 use crate::entry::clap::tests::expressions::{ALL, ID, Told, energy, expressed};
-
-/// Plain events.
-struct List(Vec<Event>);
-
-impl Class for List {
-    type Interfaces = (IEventList,);
-}
-
-impl IEventListTrait for List {
-    unsafe fn getEventCount(&self) -> int32 {
-        self.0.len() as int32
-    }
-
-    unsafe fn getEvent(&self, index: int32, event: *mut Event) -> tresult {
-        // SAFETY: the framework gives room for an event.
-        unsafe { *event = self.0[index as usize] };
-        kResultOk
-    }
-
-    unsafe fn addEvent(&self, _event: *mut Event) -> tresult {
-        kInvalidArgument
-    }
-}
-
-fn event(sample: u32, kind: u16, what: Event__type0) -> Event {
-    Event {
-        busIndex: 0,
-        sampleOffset: sample as i32,
-        ppqPosition: 0.0,
-        flags: 0,
-        r#type: kind,
-        __field0: what,
-    }
-}
 
 /// The same as the other format has it, by its place among [`ALL`].
 fn translated(place: usize, (_, value, sample): Told) -> Event {
@@ -66,7 +33,7 @@ fn every_expression_sounds_as_in_the_other_format() {
     for (place, told) in ALL.into_iter().enumerate() {
         let note = NoteOnEvent { channel: 9, pitch: 38, tuning: 0.0, velocity: 0.8, length: 0, noteId: ID };
         let note = event(0, EventTypes_::kNoteOnEvent as u16, Event__type0 { noteOn: note });
-        let list = ComWrapper::new(List(vec![note, translated(place, told)]));
+        let list = ComWrapper::new(Listed(vec![note, translated(place, told)]));
         let events = list.to_com_ptr::<IEventList>().unwrap();
         // Outputs that are left out are in the main one.
         let vst3 = played(&multi(), events.as_ptr(), 1, |_, _| {}).remove(0);
