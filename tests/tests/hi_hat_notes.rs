@@ -22,7 +22,7 @@ fn loudest_ms(sound: &[f32]) -> f64 {
 }
 
 #[test]
-fn a_struck_note_is_closed_or_open_in_5_ms_and_loud_within_8_as_often_as_recorded_ones() {
+fn a_struck_note_is_closed_or_open_in_5_ms_and_three_of_five_are_loudest_within_8() {
     println!(
         "loudest ms after the note, ms, at velocities {VELOCITIES:?}, and dB over the first {SOON_MS} ms"
     );
@@ -47,7 +47,7 @@ fn a_struck_note_is_closed_or_open_in_5_ms_and_loud_within_8_as_often_as_recorde
     let soon = times.iter().filter(|ms| **ms < SOON_MS).count();
     let median = times[times.len() / 2];
     println!("{soon} of {} are loudest within {SOON_MS} ms, half within {median:.1}", times.len());
-    // Recorded closed hi-hats: 72 %, half of them within 2 ms, quartiles 1.2 and 10.
+    // The goal is all. Recorded closed hi-hats: 72 % of all strokes, 60 % as the mean over nine sets.
     assert!(100 * soon >= 60 * times.len() && median < 4.0, "{soon} of {}, {median} ms", times.len());
 }
 
