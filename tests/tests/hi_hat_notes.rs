@@ -2,7 +2,7 @@
 
 use overhear_measure::report::hi_hat_notes::{
     Event::{Note, Pedal},
-    FOOT, Player, RATE, SOON_MS, STRUCK, VELOCITIES, after, case, energy, loudest,
+    FOOT, Player, RATE, SOON_MS, STRUCK, VELOCITIES, after, case, energy, loudest, strokes,
 };
 
 /// The samples from one time to another, s.
@@ -22,33 +22,60 @@ fn loudest_ms(sound: &[f32]) -> f64 {
 }
 
 #[test]
-fn a_struck_note_is_closed_or_open_in_5_ms_and_three_of_five_are_loudest_within_8() {
-    println!(
-        "loudest ms after the note, ms, at velocities {VELOCITIES:?}, and dB over the first {SOON_MS} ms"
-    );
-    let mut times = Vec::new();
+fn a_struck_note_is_closed_or_open_in_5_ms() {
     for (before, note) in STRUCK {
         let name = case((before, note));
-        let figures = VELOCITIES.map(|velocity| {
-            let (sound, rims) = after(before, note, velocity);
-            (loudest(&sound), rims.clamped)
-        });
-        println!("{name}: {:.2?}", figures.map(|(loudest, _)| loudest));
-        for (velocity, ((ms, over), clamped)) in VELOCITIES.into_iter().zip(figures) {
+        for velocity in VELOCITIES {
+            let clamped = after(before, note, velocity).1.clamped;
             let expected = if note == 42 { 24.0..101.0 } else { 0.0..1e-6 };
             assert!(expected.contains(&clamped), "{name} at {velocity}: clamped with {clamped} N after 5 ms");
-            // Rims that clatter, hats that rang and are closed, and open ones struck hard are about as loud for tens of
-            // milliseconds; which of them is loudest is then chance.
-            assert!(ms < 25.0 && over < 1.0, "{name} at {velocity}: loudest after {ms} ms, by {over} dB");
-            times.push(ms);
         }
     }
-    times.sort_by(f64::total_cmp);
-    let soon = times.iter().filter(|ms| **ms < SOON_MS).count();
-    let median = times[times.len() / 2];
-    println!("{soon} of {} are loudest within {SOON_MS} ms, half within {median:.1}", times.len());
-    // The goal is all. Recorded closed hi-hats: 72 % of all strokes, 60 % as the mean over nine sets.
-    assert!(100 * soon >= 60 * times.len() && median < 4.0, "{soon} of {}, {median} ms", times.len());
+}
+
+#[test]
+fn a_closed_note_sounds_the_same_whatever_rang_before() {
+    for velocity in VELOCITIES {
+        let (alone, _) = after(None, 42, velocity);
+        let mut opened = Player::new();
+        opened.play(Note(42), velocity);
+        opened.render(0.5);
+        opened.play(Pedal(0), velocity);
+        opened.render(0.2);
+        opened.play(Note(46), velocity);
+        opened.render(4.0);
+        opened.play(Note(42), velocity);
+        for (name, sound) in [("46", after(Some(Note(46)), 42, velocity).0), ("the pedal", opened.render(0.3))] {
+            let over = louder(between(&sound, 0.0005, 0.1), between(&alone, 0.0005, 0.1));
+            println!("{velocity}: after {name} {over:.3} dB");
+            // What the room still has of the open sound is heard as well.
+            assert!(over.abs() < 0.5, "{velocity}: after {name} {over} dB");
+        }
+    }
+}
+
+#[test]
+fn struck_notes_are_loudest_within_8_ms_as_often_as_recorded_ones_are() {
+    println!("loudest ms of the mean of nine strokes, dB over the first {SOON_MS} ms, single ones within them");
+    let (mut singles, mut means) = (Vec::new(), Vec::new());
+    // Others sound as 42 alone, or open from rest: rims that do not touch at first meet after 10 to 30 ms.
+    for (before, note) in [(None, 42), (Some(Note(42)), 42), (Some(Pedal(127)), 42), (Some(Note(42)), 46)] {
+        for velocity in VELOCITIES {
+            let (each, mean) = strokes(before, note, velocity);
+            let soon = each.iter().filter(|(ms, _)| *ms < SOON_MS).count();
+            println!("{} at {velocity}: {:.1} ms, {:.2} dB, {soon} of 9", case((before, note)), mean.0, mean.1);
+            singles.extend(each.iter().map(|(ms, _)| *ms));
+            means.push(mean);
+        }
+    }
+    singles.sort_by(f64::total_cmp);
+    let soon = singles.iter().filter(|ms| **ms < SOON_MS).count();
+    let median = singles[singles.len() / 2];
+    println!("{soon} of {} within {SOON_MS} ms, half within {median:.1}", singles.len());
+    // The goal is all. Recorded closed hi-hats: 65 to 73 %.
+    assert!(100 * soon >= 73 * singles.len() && median < 4.0, "{soon} of {}, {median} ms", singles.len());
+    let late = means.iter().filter(|(ms, _)| *ms >= SOON_MS).count();
+    assert!(late <= 2 && means.iter().all(|(_, over)| *over < 0.5), "{means:?}");
 }
 
 #[test]
