@@ -45,7 +45,9 @@ fn a_closed_note_sounds_the_same_whatever_rang_before() {
         opened.play(Note(46), velocity);
         opened.render(4.0);
         opened.play(Note(42), velocity);
-        for (name, sound) in [("46", after(Some(Note(46)), 42, velocity).0), ("the pedal", opened.render(0.3))] {
+        for (name, sound) in
+            [("46", after(Some(Note(46)), 42, velocity).0), ("the pedal", opened.render(0.3))]
+        {
             let over = louder(between(&sound, 0.0005, 0.1), between(&alone, 0.0005, 0.1));
             println!("{velocity}: after {name} {over:.3} dB");
             // What the room still has of the open sound is heard as well.
@@ -56,14 +58,21 @@ fn a_closed_note_sounds_the_same_whatever_rang_before() {
 
 #[test]
 fn struck_notes_are_loudest_within_8_ms_as_often_as_recorded_ones_are() {
-    println!("loudest ms of the mean of nine strokes, dB over the first {SOON_MS} ms, single ones within them");
+    println!(
+        "loudest ms of the mean of nine strokes, dB over the first {SOON_MS} ms, single ones within them"
+    );
     let (mut singles, mut means) = (Vec::new(), Vec::new());
     // Others sound as 42 alone, or open from rest: rims that do not touch at first meet after 10 to 30 ms.
     for (before, note) in [(None, 42), (Some(Note(42)), 42), (Some(Pedal(127)), 42), (Some(Note(42)), 46)] {
         for velocity in VELOCITIES {
             let (each, mean) = strokes(before, note, velocity);
             let soon = each.iter().filter(|(ms, _)| *ms < SOON_MS).count();
-            println!("{} at {velocity}: {:.1} ms, {:.2} dB, {soon} of 9", case((before, note)), mean.0, mean.1);
+            println!(
+                "{} at {velocity}: {:.1} ms, {:.2} dB, {soon} of 9",
+                case((before, note)),
+                mean.0,
+                mean.1
+            );
             singles.extend(each.iter().map(|(ms, _)| *ms));
             means.push(mean);
         }

@@ -35,12 +35,12 @@ impl Pair {
         self.engage(site.body.modal());
         let before = self.held();
         let touching = self.statics.depth.iter().sum::<f64>() / POINTS as f64;
-        let closes = self.clamped() == 0.0 && end > touching;
-        if closes {
+        let mut quiet = self.held_energy() + site.body.modal().energy() < STILL;
+        if !quiet && self.clamped() == 0.0 && end > touching {
             self.fading.take(&mut site, &mut self.lower);
+            quiet = true;
         }
         let top = site.body.modal();
-        let quiet = closes || self.held_energy() + top.energy() < STILL;
         self.pedal.arrival = None;
         self.pedal.foot.stop_for(end);
         self.rigid.iter_mut().for_each(|rigid| rigid.set_speed([0.0; 3]));

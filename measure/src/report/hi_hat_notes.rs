@@ -226,21 +226,29 @@ pub fn page() -> Result<Page> {
     }
     let head = &["note", "velocity 30", "60", "90", "120"];
     let is_struck = |index: usize| index < STRUCK.len();
-    sheet.table(head, played.iter().enumerate().map(|(index, played)| {
-        let mut row = vec![case(cases[index])];
-        row.extend(played.iter().map(|(_, (ms, over))| match *ms >= SOON_MS && is_struck(index) {
-            true => format!("{ms:.1} (+{over:.1} dB)"),
-            false => format!("{ms:.1}"),
-        }));
-        row
-    }));
-    sheet.table(head, played.iter().enumerate().map(|(index, played)| {
-        let mut row = vec![format!("{}, of nine within {SOON_MS} ms", case(cases[index]))];
-        row.extend(
-            played.iter().map(|(each, _)| each.iter().filter(|(ms, _)| *ms < SOON_MS).count().to_string()),
-        );
-        row
-    }));
+    sheet.table(
+        head,
+        played.iter().enumerate().map(|(index, played)| {
+            let mut row = vec![case(cases[index])];
+            row.extend(played.iter().map(|(_, (ms, over))| match *ms >= SOON_MS && is_struck(index) {
+                true => format!("{ms:.1} (+{over:.1} dB)"),
+                false => format!("{ms:.1}"),
+            }));
+            row
+        }),
+    );
+    sheet.table(
+        head,
+        played.iter().enumerate().map(|(index, played)| {
+            let mut row = vec![format!("{}, of nine within {SOON_MS} ms", case(cases[index]))];
+            row.extend(
+                played
+                    .iter()
+                    .map(|(each, _)| each.iter().filter(|(ms, _)| *ms < SOON_MS).count().to_string()),
+            );
+            row
+        }),
+    );
     let sounds: Vec<_> = cases.iter().map(|&case| (case, after(case.0, case.1, VELOCITIES[2]).0)).collect();
     let panel = |index: usize| {
         let (of, sound) = &sounds[index];

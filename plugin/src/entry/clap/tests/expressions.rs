@@ -94,6 +94,51 @@ fn every_expression_acts_while_the_note_sounds_and_by_its_id_alone() {
     assert!(moved > 3.0, "{moved} dB to the right");
 }
 
+/// Both sides' sum of half a second of the rack tom, with something told to its note.
+fn half_a_second(told: Option<Told>) -> Vec<f32> {
+    let instance = Instance::new(overhear_player::CLAP_ID);
+    let told = told
+        .map(|told| Sent { expression: clap_event_note_expression { key: 48, ..expression(told, false) } });
+    let stroke = Sent { note: clap_event_note { key: 48, ..note(0, ID) } };
+    let mut events: Vec<_> = [stroke].into_iter().chain(told).collect();
+    let mut sound = Vec::new();
+    for _ in 0..24_000 / FRAMES {
+        let ([left, right], _) = played(&instance, std::mem::take(&mut events));
+        sound.extend(left.iter().zip(&right).map(|(left, right)| left + right));
+    }
+    sound
+}
+
+/// Level of a sound from 50 ms on at a frequency, dB.
+fn level_at(sound: &[f32], hz: f64) -> f64 {
+    let turn = std::f64::consts::TAU * hz / 48e3;
+    let [re, im] = sound[2_400..].iter().enumerate().fold([0.0; 2], |[re, im], (at, x)| {
+        let phase = turn * at as f64;
+        [re + f64::from(*x) * phase.cos(), im + f64::from(*x) * phase.sin()]
+    });
+    20.0 * re.hypot(im).log10()
+}
+
+#[test]
+fn pressure_damps_tuning_bends_and_brightness_moves_the_stroke_outward() {
+    let [.., tuning, brightness, pressure] = ALL;
+    let plain = half_a_second(None);
+    let level = |sound: &[f32]| 10.0 * energy(sound, 4_800).log10();
+    let damped = level(&half_a_second(Some(pressure))) - level(&plain);
+    let loudest = |sound: &[f32]| {
+        let hz = (60..=400).map(f64::from);
+        hz.max_by(|a, b| level_at(sound, *a).total_cmp(&level_at(sound, *b))).unwrap()
+    };
+    let [low, high] = [loudest(&plain), loudest(&half_a_second(Some(tuning)))];
+    let semitones = 12.0 * (high / low).log2();
+    // The lowest mode hardly moves at the rim.
+    let outward = level_at(&half_a_second(Some(brightness)), low) - level_at(&plain, low);
+    println!("damped by {damped:.1} dB, {low} to {high} Hz, lowest mode {outward:.1} dB at the rim");
+    assert!(damped < -6.0, "{damped} dB after 100 ms under pressure");
+    assert!((4.0..8.0).contains(&semitones), "{low} to {high} Hz: {semitones} semitones");
+    assert!(outward < -3.0, "{outward} dB");
+}
+
 #[test]
 fn a_note_ends_with_the_next_stroke_on_its_piece_and_with_silence() {
     let instance = Instance::new(overhear_player::CLAP_ID);

@@ -30,6 +30,7 @@ fn translated(place: usize, (_, value, sample): Told) -> Event {
 
 #[test]
 fn every_expression_sounds_as_in_the_other_format() {
+    let plain = expressed(None, false);
     for (place, told) in ALL.into_iter().enumerate() {
         let note = NoteOnEvent { channel: 9, pitch: 38, tuning: 0.0, velocity: 0.8, length: 0, noteId: ID };
         let note = event(0, EventTypes_::kNoteOnEvent as u16, Event__type0 { noteOn: note });
@@ -42,6 +43,8 @@ fn every_expression_sounds_as_in_the_other_format() {
         for side in 0..CHANNELS {
             let (difference, whole) = (apart(&vst3[side], &clap[side]), energy(&clap[side], 0));
             assert!(difference <= 1e-4 * whole, "{told:?}: {difference} of {whole}");
+            let moved = apart(&plain[side], &clap[side]);
+            assert!(moved > 1e-3 * whole, "{told:?}: left out it would differ by {moved} of {whole} only");
         }
     }
 }
