@@ -20,7 +20,6 @@
 
 mod arriving;
 mod attached;
-mod fading;
 pub mod foot;
 pub mod half;
 pub mod pair;
@@ -281,7 +280,7 @@ impl Pedal for HiHat {
         }
         self.pedal = pedal;
         let rod = self.rod(pedal);
-        self.surface.with(|pair: &mut Pair, site| pair.arrive(rod, site));
+        self.surface.with(|pair: &mut Pair, site| pair.arrive(rod, site.body.modal()));
     }
 
     fn stamp(&mut self, speed: f64) {
