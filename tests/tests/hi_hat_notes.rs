@@ -34,6 +34,29 @@ fn a_struck_note_is_closed_or_open_in_5_ms() {
 }
 
 #[test]
+fn a_closed_note_sounds_the_same_whatever_rang_before() {
+    for velocity in VELOCITIES {
+        let (alone, _) = after(None, 42, velocity);
+        let mut opened = Player::new();
+        opened.play(Note(42), velocity);
+        opened.render(0.5);
+        opened.play(Pedal(0), velocity);
+        opened.render(0.2);
+        opened.play(Note(46), velocity);
+        opened.render(4.0);
+        opened.play(Note(42), velocity);
+        for (name, sound) in
+            [("46", after(Some(Note(46)), 42, velocity).0), ("the pedal", opened.render(0.3))]
+        {
+            let over = louder(between(&sound, 0.0005, 0.1), between(&alone, 0.0005, 0.1));
+            println!("{velocity}: after {name} {over:.3} dB");
+            // What the room still has of the open sound is heard as well.
+            assert!(over.abs() < 0.5, "{velocity}: after {name} {over} dB");
+        }
+    }
+}
+
+#[test]
 fn struck_notes_are_loudest_within_8_ms_as_often_as_recorded_ones_are() {
     println!(
         "loudest ms of the mean of nine strokes, dB over the first {SOON_MS} ms, single ones within them"

@@ -133,7 +133,10 @@ fn pressure_damps_tuning_bends_and_brightness_moves_the_stroke_outward() {
     let semitones = 12.0 * (high / low).log2();
     // The lowest mode hardly moves at the rim.
     let outward = level_at(&half_a_second(Some(brightness)), low) - level_at(&plain, low);
-    println!("damped by {damped:.1} dB, {low} to {high} Hz, lowest mode {outward:.1} dB at the rim");
+    let rim = level(&half_a_second(Some(brightness))) - level(&plain);
+    println!(
+        "the rim {rim} dB, damped by {damped:.1} dB, {low} to {high} Hz, lowest mode {outward:.1} dB at the rim"
+    );
     assert!(damped < -6.0, "{damped} dB after 100 ms under pressure");
     assert!((4.0..8.0).contains(&semitones), "{low} to {high} Hz: {semitones} semitones");
     assert!(outward < -3.0, "{outward} dB");
