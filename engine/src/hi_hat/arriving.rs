@@ -37,7 +37,7 @@ impl Pair {
         let touching = self.statics.depth.iter().sum::<f64>() / POINTS as f64;
         let mut quiet = self.held_energy() + site.body.modal().energy() < STILL;
         if !quiet && self.clamped() == 0.0 && end > touching {
-            self.fading.take(&mut site, &mut self.lower);
+            self.pedal.fading.take(&mut site, &mut self.lower);
             quiet = true;
         }
         let top = site.body.modal();

@@ -140,12 +140,12 @@ impl Attachment for Pair {
         let strikers = contacts.present().iter();
         let strikers = strikers.map(|&i| (i, contacts.point(i).force, contacts.coupling(i)));
         let mut heard = self.finish_sample(strikers, free.divisor);
-        add(&mut heard, self.fading.next());
+        add(&mut heard, self.pedal.fading.next());
         heard
     }
 
     fn ring(&mut self, mut out: [&mut [f32]; RECEIVERS], from: usize) {
-        self.fading.add_to(&mut out.each_mut().map(|out| &mut out[from..]));
+        self.pedal.fading.add_to(&mut out.each_mut().map(|out| &mut out[from..]));
         if !self.engaged {
             self.ring_apart(out, from);
         }
@@ -182,13 +182,13 @@ impl Attachment for Pair {
     }
 
     fn is_still(&self) -> bool {
-        self.still && !self.engaged && self.lower.modal.is_still() && self.fading.is_over()
+        self.still && !self.engaged && self.lower.modal.is_still() && self.pedal.fading.is_over()
     }
 
     /// With the pedal where it is to go.
     fn reset(&mut self, _contacts: &mut Contacts) {
         self.lower.modal.reset();
-        self.fading.reset();
+        self.pedal.fading.reset();
         self.come_to_rest();
         self.begin_count();
         self.carried = [0.0; 3];

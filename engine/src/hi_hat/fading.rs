@@ -12,7 +12,7 @@ use crate::surface::body::SoundingBody;
 const FADE: f64 = 2.5e-4;
 
 /// What is still heard of ringing that was taken.
-pub(super) struct Fading {
+pub(crate) struct Fading {
     /// Pressure at each receiver, Pa, `[sample]`.
     rows: [Vec<f32>; RECEIVERS],
     /// Samples of it that were heard.
@@ -21,7 +21,7 @@ pub(super) struct Fading {
 
 impl Fading {
     /// Nothing to be heard, a sample lasting `dt` s. Allocates.
-    pub(super) fn new(dt: f64) -> Fading {
+    pub(crate) fn new(dt: f64) -> Fading {
         let samples = (FADE / dt).round().max(1.0) as usize;
         Fading { rows: std::array::from_fn(|_| vec![0.0; samples]), at: samples }
     }
@@ -30,7 +30,7 @@ impl Fading {
     ///
     /// # Real-time
     /// Linear in the number of modes, at the cost of the samples of the fade.
-    pub(super) fn take(&mut self, site: &mut Site<'_>, lower: &mut SoundingBody) {
+    pub(crate) fn take(&mut self, site: &mut Site<'_>, lower: &mut SoundingBody) {
         let samples = self.rows[0].len();
         for row in &mut self.rows {
             row.rotate_left(self.at % samples);
@@ -56,7 +56,7 @@ impl Fading {
     }
 
     /// What is heard of it in the next sample, Pa.
-    pub(super) fn next(&mut self) -> Pressure {
+    pub(crate) fn next(&mut self) -> Pressure {
         if self.is_over() {
             return Pressure::default();
         }
@@ -65,7 +65,7 @@ impl Fading {
     }
 
     /// Adds what is heard of it to the next samples, Pa.
-    pub(super) fn add_to(&mut self, out: &mut [&mut [f32]; RECEIVERS]) {
+    pub(crate) fn add_to(&mut self, out: &mut [&mut [f32]; RECEIVERS]) {
         for sample in 0..out[0].len() {
             if self.is_over() {
                 return;
@@ -75,12 +75,12 @@ impl Fading {
     }
 
     /// Whether nothing is heard of it any more.
-    pub(super) fn is_over(&self) -> bool {
+    pub(crate) fn is_over(&self) -> bool {
         self.at == self.rows[0].len()
     }
 
     /// Is heard no more.
-    pub(super) fn reset(&mut self) {
+    pub(crate) fn reset(&mut self) {
         self.at = self.rows[0].len();
     }
 }

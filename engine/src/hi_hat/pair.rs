@@ -38,7 +38,6 @@ use crate::snapshot::RimSnapshot;
 use crate::surface::body::SoundingBody;
 use crate::surface::contacts::STRIKER_PLACES;
 
-use super::fading::Fading;
 use super::foot::Foot;
 use super::rigid::{Rigid, Weights};
 use super::rigid_sound::RigidSound;
@@ -81,8 +80,6 @@ pub struct Pair {
     pub(super) dynamics: Dynamics,
     pub(super) rims: RimState,
     pub(super) pedal: Pedal,
-    /// What is still heard of ringing that a foot has ended.
-    pub(super) fading: Fading,
     pub(super) strikers: [StrikerPlace; STRIKER_PLACES],
     /// Heave and tilts by which the upper cymbal was displaced together with the strikers at it, m.
     pub(super) carried: Weights,
@@ -111,8 +108,7 @@ impl Pair {
             statics: Statics::new(parts.depth),
             dynamics: Dynamics::new(parts.rigid_sounds),
             rims: RimState::new(parts.law, parts.lasting_loss, parts.depth),
-            pedal: Pedal::up(),
-            fading: Fading::new(1.0 / parts.sample_rate),
+            pedal: Pedal::up(1.0 / parts.sample_rate),
             strikers: [StrikerPlace::default(); STRIKER_PLACES],
             carried: [0.0; 3],
             still: true,

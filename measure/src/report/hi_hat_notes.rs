@@ -127,7 +127,7 @@ impl Default for Player {
     }
 }
 
-/// Sum of squares.
+/// Sum of squares, in units of full scale.
 pub fn energy(sound: &[f32]) -> f64 {
     sound.iter().map(|x| f64::from(x * x)).sum()
 }
