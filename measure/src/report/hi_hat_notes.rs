@@ -155,7 +155,7 @@ pub fn loudest(sound: &[f32]) -> (f64, f64) {
     greatest(&energies(sound))
 }
 
-/// Strokes of a [case](after) at velocities from 4 below to 4 above: [the loudest millisecond](loudest) of each, and of their mean.
+/// Strokes of a [case](after) from 4 below a velocity to 4 above: [the loudest millisecond](loudest) of each, and of their mean, ms and dB.
 ///
 /// Which of some milliseconds of noise is loudest is chance. The mean says where the sound is.
 pub fn strokes(before: Option<Event>, note: u8, velocity: u8) -> (Vec<(f64, f64)>, (f64, f64)) {
