@@ -20,6 +20,7 @@
 
 mod arriving;
 mod attached;
+mod fading;
 pub mod foot;
 pub mod half;
 pub mod pair;
@@ -280,7 +281,7 @@ impl Pedal for HiHat {
         }
         self.pedal = pedal;
         let rod = self.rod(pedal);
-        self.surface.with(|pair: &mut Pair, site| pair.arrive(rod, site.body.modal()));
+        self.surface.with(|pair: &mut Pair, site| pair.arrive(rod, site));
     }
 
     fn stamp(&mut self, speed: f64) {

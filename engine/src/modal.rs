@@ -281,12 +281,6 @@ impl ModalBody {
             && self.kernels.dot(&self.state.im, &self.state.im).is_finite()
     }
 
-    /// Scales displacements and velocities of all modes, by a share of 1.
-    pub fn scale(&mut self, share: f32) {
-        self.kernels.scale(&mut self.state.re, share);
-        self.kernels.scale(&mut self.state.im, share);
-    }
-
     /// Puts the body to rest.
     pub fn reset(&mut self) {
         self.state.re.fill(0.0);

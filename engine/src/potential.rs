@@ -217,13 +217,6 @@ impl NonlinearForce {
         self.schedule.weak = share;
     }
 
-    /// Follows a [scaling](ModalBody::scale) of the body's motion. To second order in the displacement this is the energy there;
-    /// the rest is corrected as drift.
-    pub fn scale(&mut self, share: f64) {
-        let energy = share * share * self.scalar.energy();
-        self.scalar.psi = self.scalar.psi.signum() * (2.0 * (energy + self.scalar.shift)).max(0.0).sqrt();
-    }
-
     /// Whether it acts; otherwise it rests.
     pub fn is_active(&self) -> bool {
         self.schedule.is_active()

@@ -11,6 +11,7 @@ pub mod drums;
 pub mod glide;
 pub mod heads;
 pub mod hi_hat;
+pub mod hi_hat_notes;
 pub mod kit;
 mod mechanisms;
 pub mod modal;
@@ -29,7 +30,7 @@ pub use page::{Claim, Page, Sheet};
 pub type Measure = fn() -> Result<Page>;
 
 /// Every page that depends on the sources alone, in reading order: its name and what measures it.
-pub const PAGES: [(&str, Measure); 14] = [
+pub const PAGES: [(&str, Measure); 15] = [
     ("modal", modal::page),
     ("contact", contact::page),
     ("heads", heads::page),
@@ -41,6 +42,7 @@ pub const PAGES: [(&str, Measure); 14] = [
     ("cymbal", cymbal::page),
     ("cascade", cascade::page),
     ("hi-hat", hi_hat::page),
+    ("hi-hat-notes", hi_hat_notes::page),
     ("radiation", radiation::page),
     ("kit", kit::page),
     ("realism", realism::page),

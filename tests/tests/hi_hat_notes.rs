@@ -1,92 +1,9 @@
 //! Notes of the hi-hat: a note names a finished sound, whatever the foot did before.
 
-use std::sync::{Arc, OnceLock};
-
-use overhear::building::{BuildPlan, Pace};
-use overhear::kit_document::KitDocument;
-use overhear::midi::assignments::Assignments;
-use overhear::midi_map::NoteTable;
-use overhear::parameters::find;
-use overhear::performer::{Performer, velocity_from_midi};
-use overhear_engine::kit_spec::KitSpec;
-use overhear_engine::piece::Piece;
-use overhear_engine::slot::Slot;
-use overhear_engine::snapshot::{KitSnapshot, RimSnapshot};
-
-const RATE: f64 = 44_100.0;
-const CHANNEL: u8 = 9;
-const SLOT: Slot = Slot::ALL[0];
-const VELOCITIES: [u8; 4] = [30, 60, 90, 120];
-
-/// The standard kit without all but its hi-hat.
-fn document() -> &'static KitDocument {
-    static DOCUMENT: OnceLock<KitDocument> = OnceLock::new();
-    DOCUMENT.get_or_init(|| {
-        let mut kit = KitSpec::standard();
-        kit.pieces.retain(|piece| piece.name == "hi-hat");
-        let notes = NoteTable::standard(&kit);
-        KitDocument { kit, notes }
-    })
-}
-
-/// What a player does.
-#[derive(Debug, Clone, Copy)]
-enum Event {
-    /// A note at the velocity of the case.
-    Note(u8),
-    /// Controller 4 at a value.
-    Pedal(u8),
-}
-use Event::{Note, Pedal};
-
-/// A hi-hat and who plays it.
-struct Player {
-    performer: Performer,
-}
-
-impl Player {
-    fn new() -> Player {
-        let document = document();
-        let mut performer = Performer::new(RATE, document, Arc::<Assignments>::default());
-        let value = |index| performer.parameter(index).unwrap_or_default();
-        let plan = BuildPlan::of(Arc::new(document.clone()), value, Pace::RealTime);
-        let build = plan.build(SLOT).expect("a hi-hat");
-        performer.install(Box::new(Piece::new(SLOT, &build, &plan.options(RATE)).expect("a valid hi-hat")));
-        // Even strokes: every case is of the speed and at the place that it is called by.
-        for name in ["humanize_position", "humanize_velocity"] {
-            performer.set_parameter(find(name, &document.kit).expect("a parameter"), 0.0);
-        }
-        Player { performer }
-    }
-
-    fn play(&mut self, event: Event, velocity: u8) {
-        match event {
-            Note(note) => {
-                let sounds = self.performer.note_on(note, velocity_from_midi(velocity), CHANNEL);
-                assert!(sounds, "note {note} is silent");
-            }
-            Pedal(value) => self.performer.control_change(4, f32::from(value) / 127.0, CHANNEL),
-        }
-    }
-
-    /// Left side of the close microphone.
-    fn render(&mut self, seconds: f64) -> Vec<f32> {
-        let samples = (seconds * RATE).round() as usize;
-        let [mut left, mut right, mut close, mut other] = [(); 4].map(|()| vec![0.0; samples]);
-        self.performer.render_outputs([&mut left, &mut right], &mut [[&mut close, &mut other]]);
-        close
-    }
-
-    fn rims(&mut self) -> RimSnapshot {
-        let mut snapshot = KitSnapshot::default();
-        self.performer.snapshot(&mut snapshot);
-        snapshot.pieces[SLOT.index()].rims
-    }
-}
-
-fn energy(sound: &[f32]) -> f64 {
-    sound.iter().map(|x| f64::from(x * x)).sum()
-}
+use overhear_measure::report::hi_hat_notes::{
+    Event::{Note, Pedal},
+    FOOT, Player, RATE, SOON_MS, STRUCK, VELOCITIES, after, case, energy, loudest, strokes,
+};
 
 /// The samples from one time to another, s.
 fn between(sound: &[f32], from: f64, to: f64) -> &[f32] {
@@ -101,67 +18,83 @@ fn louder(a: &[f32], b: &[f32]) -> f64 {
 
 /// Time at which the loudest millisecond begins, ms.
 fn loudest_ms(sound: &[f32]) -> f64 {
-    let energies = sound.windows((0.001 * RATE).round() as usize).map(energy).enumerate();
-    let (at, _) = energies.max_by(|a, b| a.1.total_cmp(&b.1)).expect("some sound");
-    1e3 * at as f64 / RATE
-}
-
-/// An eighth note at 240 a minute after what came before: the next note, for 0.3 s, and the rims 5 ms after it.
-fn after(before: Option<Event>, note: u8, velocity: u8) -> (Vec<f32>, RimSnapshot) {
-    let mut player = Player::new();
-    before.into_iter().for_each(|event| player.play(event, velocity));
-    player.render(0.125);
-    player.play(Note(note), velocity);
-    let mut sound = player.render(0.005);
-    let rims = player.rims();
-    sound.extend(player.render(0.295));
-    (sound, rims)
-}
-
-/// Loudest millisecond of a sound, and how much louder it is than the loudest of the first 8, dB.
-fn late(sound: &[f32]) -> (f64, f64) {
-    let window = (0.001 * RATE).round() as usize;
-    let loudest = |sound: &[f32]| sound.windows(window).map(energy).fold(0.0, f64::max);
-    let early = loudest(between(sound, 0.0, 0.009));
-    (loudest_ms(sound), 10.0 * (loudest(sound) / early).log10())
+    loudest(sound).0
 }
 
 #[test]
-fn a_struck_note_is_closed_or_open_in_5_ms_and_loud_within_8_whatever_the_pedal_did_before() {
-    let closed = [None, Some(Note(42)), Some(Note(46)), Some(Pedal(0)), Some(Pedal(64)), Some(Pedal(127))];
-    let cases = closed.map(|before| (before, 42)).into_iter().chain([(Some(Note(42)), 46)]);
-    println!(
-        "beginning of the loudest ms after the note, ms, at velocities {VELOCITIES:?}, and dB over the first 8 ms"
-    );
-    let mut late_ones = 0;
-    for (before, note) in cases {
-        let figures = VELOCITIES.map(|velocity| {
-            let (sound, rims) = after(before, note, velocity);
-            (late(&sound), rims.clamped)
-        });
-        println!("{note} after {before:?}: {:.2?}", figures.map(|(late, _)| late));
-        for (velocity, ((ms, over), clamped)) in VELOCITIES.into_iter().zip(figures) {
-            let case = format!("{note} after {before:?} at {velocity}");
+fn a_struck_note_is_closed_or_open_in_5_ms() {
+    for (before, note) in STRUCK {
+        let name = case((before, note));
+        for velocity in VELOCITIES {
+            let clamped = after(before, note, velocity).1.clamped;
             let expected = if note == 42 { 24.0..101.0 } else { 0.0..1e-6 };
-            assert!(expected.contains(&clamped), "{case}: clamped with {clamped} N after 5 ms");
-            // Rims that clatter, hats that rang and are closed, and open ones struck hard are about as loud for tens of
-            // milliseconds; which of them is loudest is then chance.
-            // The thud of a soft stroke may be loudest at once.
-            assert!(ms < 40.0 && over < 2.5, "{case}: loudest after {ms} ms, by {over} dB");
-            late_ones += u32::from(ms >= 8.0);
+            assert!(expected.contains(&clamped), "{name} at {velocity}: clamped with {clamped} N after 5 ms");
         }
     }
-    println!("{late_ones} of 28 are loudest after 8 ms");
-    assert!(late_ones <= 12, "{late_ones} are loudest after 8 ms");
+}
+
+#[test]
+fn a_closed_note_sounds_the_same_whatever_rang_before() {
+    for velocity in VELOCITIES {
+        let (alone, _) = after(None, 42, velocity);
+        let mut opened = Player::new();
+        opened.play(Note(42), velocity);
+        opened.render(0.5);
+        opened.play(Pedal(0), velocity);
+        opened.render(0.2);
+        opened.play(Note(46), velocity);
+        opened.render(4.0);
+        opened.play(Note(42), velocity);
+        for (name, sound) in
+            [("46", after(Some(Note(46)), 42, velocity).0), ("the pedal", opened.render(0.3))]
+        {
+            let over = louder(between(&sound, 0.0005, 0.1), between(&alone, 0.0005, 0.1));
+            println!("{velocity}: after {name} {over:.3} dB");
+            // What the room still has of the open sound is heard as well.
+            assert!(over.abs() < 0.5, "{velocity}: after {name} {over} dB");
+        }
+    }
+}
+
+#[test]
+fn struck_notes_are_loudest_within_8_ms_as_often_as_recorded_ones_are() {
+    println!(
+        "loudest ms of the mean of nine strokes, dB over the first {SOON_MS} ms, single ones within them"
+    );
+    let (mut singles, mut means) = (Vec::new(), Vec::new());
+    // Others sound as 42 alone, or open from rest: rims that do not touch at first meet after 10 to 30 ms.
+    for (before, note) in [(None, 42), (Some(Note(42)), 42), (Some(Pedal(127)), 42), (Some(Note(42)), 46)] {
+        for velocity in VELOCITIES {
+            let (each, mean) = strokes(before, note, velocity);
+            let soon = each.iter().filter(|(ms, _)| *ms < SOON_MS).count();
+            println!(
+                "{} at {velocity}: {:.1} ms, {:.2} dB, {soon} of 9",
+                case((before, note)),
+                mean.0,
+                mean.1
+            );
+            singles.extend(each.iter().map(|(ms, _)| *ms));
+            means.push(mean);
+        }
+    }
+    singles.sort_by(f64::total_cmp);
+    let soon = singles.iter().filter(|ms| **ms < SOON_MS).count();
+    let median = singles[singles.len() / 2];
+    println!("{soon} of {} within {SOON_MS} ms, half within {median:.1}", singles.len());
+    // The goal is all. Recorded closed hi-hats: 65 to 73 %.
+    assert!(100 * soon >= 73 * singles.len() && median < 4.0, "{soon} of {}, {median} ms", singles.len());
+    let late = means.iter().filter(|(ms, _)| *ms >= SOON_MS).count();
+    assert!(late <= 2 && means.iter().all(|(_, over)| *over < 0.5), "{means:?}");
 }
 
 #[test]
 fn a_foot_by_itself_takes_its_time() {
-    for (before, note) in [(None, 44), (Some(Note(46)), 44), (None, 97)] {
+    for (before, note) in FOOT {
+        let name = case((before, note));
         let figures = VELOCITIES.map(|velocity| loudest_ms(&after(before, note, velocity).0));
-        println!("{note} after {before:?}: {figures:.2?} ms");
+        println!("{name}: {figures:.2?} ms");
         let possible = 5.0..130.0;
-        assert!(figures.iter().all(|ms| possible.contains(ms)), "{note} after {before:?}: {figures:?} ms");
+        assert!(figures.iter().all(|ms| possible.contains(ms)), "{name}: {figures:?} ms");
     }
 }
 

@@ -3,20 +3,19 @@
 //! A note names a finished sound: "closed hi-hat" means cymbals that a foot has closed before the stick lands. Nothing announces
 //! the note, so the foot moves after it, faster than any foot.
 //!
-//! Model: through the air the rod and the upper cymbal are displaced at once, which no force resists and which makes no sound.
-//! The rest of the way, on which the rims touch, leads through static equilibria: over each step the rod, both cymbals as rigid
-//! bodies, and the static deflection of the shells move from one to the next. A landing at the speed of such a foot would
-//! be louder than the stroke; cymbals that are led have no momentum to land with. Cymbals at rest take the last equilibrium at
-//! once.
+//! Model: a foot that closes open cymbals in time takes their ringing before the stick lands. Both cymbals take the closed
+//! equilibrium at once and at rest, and what rang [fades](super::fading). A stroke is then that on cymbals that were closed.
 //!
-//! A foot that closes open cymbals in time takes most of their ringing before the stick lands. Here this is taken in a quarter
-//! of a millisecond: displacements and velocities of both shells fall together, as a sound that is faded. What is left strikes
-//! the rims, the bark of a hi-hat that is closed.
+//! A foot that opens, or presses closed cymbals harder, leads them through static equilibria: over each step the rod, both
+//! cymbals as rigid bodies, and the static deflection of the shells move from one to the next. A landing or a release at the
+//! speed of such a foot would be louder than the stroke; cymbals that are led have no momentum. Through the air, on the part of
+//! the way on which the rims do not touch, the rod and the upper cymbal are displaced at once, which no force resists and which
+//! makes no sound. Cymbals at rest take the last equilibrium at once.
 //!
-//! Energy: the change by the displacements is part of the [pedal's work](Pair::pedal_work). The fading only takes energy.
+//! Energy: the change by the displacements is part of the [pedal's work](Pair::pedal_work). What rang is only taken.
 //! Strikers are carried with the upper cymbal, so that its displacement changes no contact with them.
 
-use crate::modal::ModalBody;
+use crate::surface::attachment::Site;
 
 use super::pair::Pair;
 use super::pair::arrival::Arrival;
@@ -32,10 +31,16 @@ impl Pair {
     ///
     /// # Real-time
     /// Linear in the number of modes.
-    pub fn arrive(&mut self, end: f64, top: &ModalBody) {
-        self.engage(top);
-        let quiet = self.held_energy() + top.energy() < STILL;
+    pub fn arrive(&mut self, end: f64, mut site: Site<'_>) {
+        self.engage(site.body.modal());
         let before = self.held();
+        let touching = self.statics.depth.iter().sum::<f64>() / POINTS as f64;
+        let mut quiet = self.held_energy() + site.body.modal().energy() < STILL;
+        if !quiet && self.clamped() == 0.0 && end > touching {
+            self.pedal.fading.take(&mut site, &mut self.lower);
+            quiet = true;
+        }
+        let top = site.body.modal();
         self.pedal.arrival = None;
         self.pedal.foot.stop_for(end);
         self.rigid.iter_mut().for_each(|rigid| rigid.set_speed([0.0; 3]));
@@ -46,25 +51,7 @@ impl Pair {
             self.carried = std::array::from_fn(|i| self.carried[i] + to[i] - from[i]);
             self.engage(top);
         } else {
-            let touching = self.statics.depth.iter().sum::<f64>() / POINTS as f64;
-            let closes = self.clamped() == 0.0 && end > touching;
-            self.pedal.arrival = Some(Arrival::new(end, closes, self.dt));
-            if !closes {
-                self.set_out_for(end);
-            }
-        }
-        self.pedal.work += self.held() - before;
-    }
-
-    /// Follows the upper cymbal, of whose motion a sample's share was taken.
-    pub(super) fn follow_calm(&mut self, top: &ModalBody) {
-        let Some(arrival) = &mut self.pedal.arrival else { return };
-        arrival.calming -= 1;
-        let Arrival { end, share, calming, .. } = *arrival;
-        let before = self.held();
-        self.lower.modal.scale(share);
-        self.rims.compression = self.overlaps(top);
-        if calming == 0 {
+            self.pedal.arrival = Some(Arrival::new(end, self.dt));
             self.set_out_for(end);
         }
         self.pedal.work += self.held() - before;
@@ -112,9 +99,6 @@ impl Pair {
     /// Advances an arrival by a sample; false if there is none.
     pub(super) fn step_arrival(&mut self) -> bool {
         let Some(mut arrival) = self.pedal.arrival else { return false };
-        if arrival.calming > 0 {
-            return true;
-        }
         if arrival.left == 0 {
             self.begin_step(&mut arrival);
         }

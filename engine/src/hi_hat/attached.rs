@@ -5,7 +5,7 @@ use crate::contact::solver::{self, Coupling};
 use crate::modal::simd::MAX_RUN;
 use crate::modal::{InputVector, Pressure, RECEIVERS};
 use crate::surface::attachment::{Attachment, Site};
-use crate::surface::body::{FreeStep, StruckBody};
+use crate::surface::body::{FreeStep, StruckBody, add};
 use crate::surface::contacts::{Contacts, STRIKER_PLACES};
 
 use super::pair::Pair;
@@ -68,14 +68,6 @@ impl Attachment for Pair {
 
     fn begin_count(&mut self) {
         self.rims.begin_count();
-    }
-
-    fn calms(&mut self) -> Option<f32> {
-        self.pedal.arrival.and_then(|arrival| arrival.calms())
-    }
-
-    fn calmed(&mut self, body: &StruckBody) {
-        self.follow_calm(body.modal());
     }
 
     fn put(&mut self, point: usize, radius: f64, angle: f64) {
@@ -147,10 +139,13 @@ impl Attachment for Pair {
     fn finish(&mut self, contacts: &Contacts, free: &FreeStep) -> Pressure {
         let strikers = contacts.present().iter();
         let strikers = strikers.map(|&i| (i, contacts.point(i).force, contacts.coupling(i)));
-        self.finish_sample(strikers, free.divisor)
+        let mut heard = self.finish_sample(strikers, free.divisor);
+        add(&mut heard, self.pedal.fading.next());
+        heard
     }
 
-    fn ring(&mut self, out: [&mut [f32]; RECEIVERS], from: usize) {
+    fn ring(&mut self, mut out: [&mut [f32]; RECEIVERS], from: usize) {
+        self.pedal.fading.add_to(&mut out.each_mut().map(|out| &mut out[from..]));
         if !self.engaged {
             self.ring_apart(out, from);
         }
@@ -187,12 +182,13 @@ impl Attachment for Pair {
     }
 
     fn is_still(&self) -> bool {
-        self.still && !self.engaged && self.lower.modal.is_still()
+        self.still && !self.engaged && self.lower.modal.is_still() && self.pedal.fading.is_over()
     }
 
     /// With the pedal where it is to go.
     fn reset(&mut self, _contacts: &mut Contacts) {
         self.lower.modal.reset();
+        self.pedal.fading.reset();
         self.come_to_rest();
         self.begin_count();
         self.carried = [0.0; 3];

@@ -108,7 +108,7 @@ impl Pair {
             statics: Statics::new(parts.depth),
             dynamics: Dynamics::new(parts.rigid_sounds),
             rims: RimState::new(parts.law, parts.lasting_loss, parts.depth),
-            pedal: Pedal::up(),
+            pedal: Pedal::up(1.0 / parts.sample_rate),
             strikers: [StrikerPlace::default(); STRIKER_PLACES],
             carried: [0.0; 3],
             still: true,

@@ -253,7 +253,9 @@ impl Pair {
     /// cymbals have stepped for the first `stiff` samples already.
     pub(super) fn ring_apart(&mut self, mut out: [&mut [f32]; RECEIVERS], stiff: usize) {
         let samples = out[0].len();
-        for sample in stiff..samples {
+        // At rest the rims' forces hold them, which nothing solves then.
+        let moving = if self.still { samples } else { stiff };
+        for sample in moving..samples {
             self.step_rigid(0.0);
             let heard = self.hear_rigid();
             out.iter_mut().zip(heard).for_each(|(out, heard)| out[sample] += heard);

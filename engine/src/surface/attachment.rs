@@ -47,14 +47,6 @@ pub trait Attachment: Any + Send {
     /// Restarts its counts at a stroke.
     fn begin_count(&mut self) {}
 
-    /// Share of all motion that is to be left before the next sample, if it takes some away.
-    fn calms(&mut self) -> Option<f32> {
-        None
-    }
-
-    /// Follows what it took of the body's motion.
-    fn calmed(&mut self, _body: &StruckBody) {}
-
     /// Its body that contact points may press on ([`Ground::Attachment`](super::exciter::Ground::Attachment)).
     fn ground(&self) -> Option<&SoundingBody> {
         None

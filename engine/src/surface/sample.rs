@@ -74,7 +74,6 @@ impl Surface {
 
     /// Renders sample `sample` of a run with contacts, under the incident pressure of the run. Returns the pressure, Pa.
     pub(super) fn step(&mut self, sample: usize, incident: Option<IncidentPressure<'_>>) -> Pressure {
-        self.calm();
         let free = self.body.step(sample, incident);
         self.contacts.stiffen(&self.body, &free);
         for attachment in &mut self.attachments {
@@ -91,19 +90,6 @@ impl Surface {
         }
         let direct = self.push(sample, free.heard);
         self.finish(&free, direct)
-    }
-
-    /// Scales the body's motion by what an attachment leaves of it. Strikers move along: their compressions stay.
-    fn calm(&mut self) {
-        let Surface { body, contacts, attachments, .. } = self;
-        let Some((share, attachment)) =
-            attachments.iter_mut().find_map(|attachment| Some((attachment.calms()?, attachment)))
-        else {
-            return;
-        };
-        contacts.carry_by(body, |body| body.modal_mut().scale(share));
-        body.nonlinear_force_mut().into_iter().for_each(|force| force.scale(f64::from(share)));
-        attachment.calmed(body);
     }
 
     /// Prepares every contact from the displacements of body and exciters without forces.

@@ -1,5 +1,6 @@
 //! The pedal under a pair of cymbals: the foot, and the static equilibrium that follows its rod.
 
+use crate::hi_hat::fading::Fading;
 use crate::hi_hat::foot::Foot;
 
 use super::arrival::Arrival;
@@ -10,6 +11,8 @@ pub(crate) struct Pedal {
     pub(crate) foot: Foot,
     /// The way that a note has sent the foot on.
     pub(crate) arrival: Option<Arrival>,
+    /// What is still heard of ringing that it has ended.
+    pub(crate) fading: Fading,
     /// Present equilibrium, the one it moves to, and the samples left until then.
     pub(crate) rest: Rest,
     pub(crate) goal: Rest,
@@ -24,11 +27,12 @@ pub(crate) struct Pedal {
 }
 
 impl Pedal {
-    /// At rest, up.
-    pub(crate) fn up() -> Pedal {
+    /// At rest, up; a sample lasts `dt` s. Allocates.
+    pub(crate) fn up(dt: f64) -> Pedal {
         Pedal {
             foot: Foot::new(0.0),
             arrival: None,
+            fading: Fading::new(dt),
             rest: Rest::OPEN,
             goal: Rest::OPEN,
             way: 0,

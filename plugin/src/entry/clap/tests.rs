@@ -41,6 +41,17 @@ fn host() -> clap_host {
     }
 }
 
+/// What an event of the form `T` begins with.
+fn header<T>(type_: u16, time: u32) -> clap_event_header {
+    clap_event_header {
+        size: size_of::<T>() as u32,
+        time,
+        space_id: CLAP_CORE_EVENT_SPACE_ID,
+        type_,
+        flags: 0,
+    }
+}
+
 /// An active instance.
 pub(in crate::entry) struct Instance {
     plugin: *const clap_plugin,
@@ -63,13 +74,7 @@ impl Instance {
     /// One buffer with a stroke on the snare at its start, into these ports.
     fn strike(&mut self, ports: &mut [clap_audio_buffer]) -> clap_process_status {
         let note = clap_event_note {
-            header: clap_event_header {
-                size: size_of::<clap_event_note>() as u32,
-                time: 0,
-                space_id: CLAP_CORE_EVENT_SPACE_ID,
-                type_: CLAP_EVENT_NOTE_ON,
-                flags: 0,
-            },
+            header: header::<clap_event_note>(CLAP_EVENT_NOTE_ON, 0),
             note_id: -1,
             port_index: 0,
             channel: 9,

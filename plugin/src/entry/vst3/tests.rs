@@ -39,6 +39,18 @@ fn multi() -> Guard<OverhearMulti> {
     guard
 }
 
+/// An event of a kind at a sample.
+fn event(sample: u32, kind: u16, what: Event__type0) -> Event {
+    Event {
+        busIndex: 0,
+        sampleOffset: sample as i32,
+        ppqPosition: 0.0,
+        flags: 0,
+        r#type: kind,
+        __field0: what,
+    }
+}
+
 /// The stroke on the snare that the other format's tests play.
 struct Stroke;
 
@@ -55,14 +67,7 @@ impl IEventListTrait for Stroke {
         let note = NoteOnEvent { channel: 9, pitch: 38, tuning: 0.0, velocity: 0.8, length: 0, noteId: -1 };
         // SAFETY: the framework gives room for an event.
         unsafe {
-            *event = Event {
-                busIndex: 0,
-                sampleOffset: 0,
-                ppqPosition: 0.0,
-                flags: 0,
-                r#type: EventTypes_::kNoteOnEvent as u16,
-                __field0: Event__type0 { noteOn: note },
-            };
+            *event = self::event(0, EventTypes_::kNoteOnEvent as u16, Event__type0 { noteOn: note });
         }
         kResultOk
     }

@@ -9,27 +9,19 @@ use super::sweep::Sent;
 use super::*;
 use crate::entry::sweep::{buffer, written};
 
-fn header<T>(type_: u16) -> clap_event_header {
-    clap_event_header {
-        size: size_of::<T>() as u32,
-        time: 0,
-        space_id: CLAP_CORE_EVENT_SPACE_ID,
-        type_,
-        flags: 0,
+fn midi(data: [u8; 3]) -> Sent {
+    Sent {
+        midi: clap_event_midi { header: header::<clap_event_midi>(CLAP_EVENT_MIDI, 0), port_index: 0, data },
     }
 }
 
-fn midi(data: [u8; 3]) -> Sent {
-    Sent { midi: clap_event_midi { header: header::<clap_event_midi>(CLAP_EVENT_MIDI), port_index: 0, data } }
-}
-
 fn hollow(size: u32) -> Sent {
-    let header = header::<clap_event_midi_sysex>(CLAP_EVENT_MIDI_SYSEX);
+    let header = header::<clap_event_midi_sysex>(CLAP_EVENT_MIDI_SYSEX, 0);
     Sent { sysex: clap_event_midi_sysex { header, port_index: 0, buffer: ptr::null(), size } }
 }
 
 fn value(id: u32, value: f64) -> Sent {
-    let header = header::<clap_event_param_value>(CLAP_EVENT_PARAM_VALUE);
+    let header = header::<clap_event_param_value>(CLAP_EVENT_PARAM_VALUE, 0);
     let (cookie, note_id, port_index, channel, key) = (ptr::null_mut(), -1, -1, -1, -1);
     Sent {
         value: clap_event_param_value {
@@ -62,17 +54,18 @@ pub(super) unsafe extern "C" fn refuse(
     false
 }
 
-/// One buffer of so many samples with events.
-fn call(instance: &Instance, samples: usize, events: Vec<Sent>) -> (clap_process_status, Vec<f32>) {
+/// One buffer of so many samples with events; what the plugin sends goes to `output`.
+pub(super) fn process(
+    instance: &Instance,
+    samples: usize,
+    events: &Vec<Sent>,
+    output: &clap_output_events,
+) -> (clap_process_status, [Vec<f32>; CHANNELS]) {
     let mut sound = [buffer(samples), buffer(samples)];
     let mut table = sound.each_mut().map(|channel| channel.as_mut_ptr());
     let mut port = port(table.as_mut_ptr(), CHANNELS as u32);
-    let input = clap_input_events {
-        ctx: ptr::from_ref(&events).cast_mut().cast(),
-        size: Some(count),
-        get: Some(get),
-    };
-    let output = clap_output_events { ctx: ptr::null_mut(), try_push: Some(refuse) };
+    let input =
+        clap_input_events { ctx: ptr::from_ref(events).cast_mut().cast(), size: Some(count), get: Some(get) };
     let call = clap_process {
         steady_time: -1,
         frames_count: samples as u32,
@@ -82,12 +75,18 @@ fn call(instance: &Instance, samples: usize, events: Vec<Sent>) -> (clap_process
         audio_inputs_count: 0,
         audio_outputs_count: 1,
         in_events: &input,
-        out_events: &output,
+        out_events: output,
     };
-    // SAFETY: everything the call points to lives here.
+    // SAFETY: everything the call points to lives here or with the caller.
     let status = unsafe { (*instance.plugin).process.unwrap()(instance.plugin, &call) };
-    let sound = sound.map(|channel| written(channel, samples));
-    (status, sound.into_iter().next().unwrap())
+    (status, sound.map(|channel| written(channel, samples)))
+}
+
+/// The left side of one buffer, for a host that takes no events.
+fn call(instance: &Instance, samples: usize, events: Vec<Sent>) -> (clap_process_status, Vec<f32>) {
+    let output = clap_output_events { ctx: ptr::null_mut(), try_push: Some(refuse) };
+    let (status, [left, _]) = process(instance, samples, &events, &output);
+    (status, left)
 }
 
 fn instance() -> Instance {

@@ -6,6 +6,8 @@ use clap_sys::events::{
     CLAP_NOTE_EXPRESSION_VOLUME, clap_event_note_expression,
 };
 
+use super::calls::process;
+use super::sweep::Sent;
 use super::*;
 
 /// Sample of an expression that comes while the note sounds.
@@ -26,16 +28,6 @@ pub(in crate::entry) const ALL: [Told; 5] = [
     (CLAP_NOTE_EXPRESSION_PRESSURE, 1.0, LATER),
 ];
 
-fn header<T>(kind: u16, time: u32) -> clap_event_header {
-    clap_event_header {
-        size: size_of::<T>() as u32,
-        time,
-        space_id: CLAP_CORE_EVENT_SPACE_ID,
-        type_: kind,
-        flags: 0,
-    }
-}
-
 pub(super) fn note(time: u32, note_id: i32) -> clap_event_note {
     let header = header::<clap_event_note>(CLAP_EVENT_NOTE_ON, time);
     clap_event_note { header, note_id, port_index: 0, channel: 9, key: 38, velocity: 0.8 }
@@ -54,18 +46,7 @@ fn expression((expression_id, value, time): Told, by_id: bool) -> clap_event_not
 }
 
 /// Plays events in one buffer: both sides of the main output, and the ids of notes that the plugin says have ended.
-pub(super) fn played(
-    instance: &mut Instance,
-    events: &[*const clap_event_header],
-) -> ([Vec<f32>; CHANNELS], Vec<i32>) {
-    unsafe extern "C" fn size(list: *const clap_input_events) -> u32 {
-        // SAFETY: the list's context is the events.
-        unsafe { (&*(*list).ctx.cast::<Vec<*const clap_event_header>>()).len() as u32 }
-    }
-    unsafe extern "C" fn get(list: *const clap_input_events, index: u32) -> *const clap_event_header {
-        // SAFETY: as above.
-        unsafe { (&*(*list).ctx.cast::<Vec<*const clap_event_header>>())[index as usize] }
-    }
+pub(super) fn played(instance: &Instance, events: Vec<Sent>) -> ([Vec<f32>; CHANNELS], Vec<i32>) {
     unsafe extern "C" fn take(list: *const clap_output_events, event: *const clap_event_header) -> bool {
         // SAFETY: the list's context is where ids go; an event of a type is of its form.
         unsafe {
@@ -76,37 +57,17 @@ pub(super) fn played(
         }
         true
     }
-    let mut events = events.to_vec();
     let mut ended: Vec<i32> = Vec::with_capacity(64);
-    let mut sound = [vec![0.0_f32; FRAMES], vec![0.0_f32; FRAMES]];
-    let mut table = sound.each_mut().map(|channel| channel.as_mut_ptr());
-    let mut port = port(table.as_mut_ptr(), CHANNELS as u32);
-    let input = clap_input_events { ctx: (&raw mut events).cast(), size: Some(size), get: Some(get) };
     let output = clap_output_events { ctx: (&raw mut ended).cast(), try_push: Some(take) };
-    let call = clap_process {
-        steady_time: -1,
-        frames_count: FRAMES as u32,
-        transport: ptr::null(),
-        audio_inputs: ptr::null(),
-        audio_outputs: &mut port,
-        audio_inputs_count: 0,
-        audio_outputs_count: 1,
-        in_events: &input,
-        out_events: &output,
-    };
-    // SAFETY: everything the call points to lives here or with the caller.
-    unsafe { (*instance.plugin).process.unwrap()(instance.plugin, &call) };
+    let (_, sound) = process(instance, FRAMES, &events, &output);
     (sound, ended)
 }
 
 /// The main output of a note on the snare with something told to it, by its number or by its id.
 pub(in crate::entry) fn expressed(told: Option<Told>, by_id: bool) -> [Vec<f32>; CHANNELS] {
-    let (note, told) = (note(0, ID), told.map(|told| expression(told, by_id)));
-    let events: Vec<_> = [Some(&raw const note.header), told.as_ref().map(|told| &raw const told.header)]
-        .into_iter()
-        .flatten()
-        .collect();
-    played(&mut Instance::new(overhear_player::CLAP_ID), &events).0
+    let told = told.map(|told| Sent { expression: expression(told, by_id) });
+    let events = [Sent { note: note(0, ID) }].into_iter().chain(told).collect();
+    played(&Instance::new(overhear_player::CLAP_ID), events).0
 }
 
 /// Energy of a side from a sample on.
@@ -133,17 +94,65 @@ fn every_expression_acts_while_the_note_sounds_and_by_its_id_alone() {
     assert!(moved > 3.0, "{moved} dB to the right");
 }
 
+/// Both sides' sum of half a second of the rack tom, with something told to its note.
+fn half_a_second(told: Option<Told>) -> Vec<f32> {
+    let instance = Instance::new(overhear_player::CLAP_ID);
+    let told = told
+        .map(|told| Sent { expression: clap_event_note_expression { key: 48, ..expression(told, false) } });
+    let stroke = Sent { note: clap_event_note { key: 48, ..note(0, ID) } };
+    let mut events: Vec<_> = [stroke].into_iter().chain(told).collect();
+    let mut sound = Vec::new();
+    for _ in 0..24_000 / FRAMES {
+        let ([left, right], _) = played(&instance, std::mem::take(&mut events));
+        sound.extend(left.iter().zip(&right).map(|(left, right)| left + right));
+    }
+    sound
+}
+
+/// Level of a sound from 50 ms on at a frequency, dB.
+fn level_at(sound: &[f32], hz: f64) -> f64 {
+    let turn = std::f64::consts::TAU * hz / 48e3;
+    let [re, im] = sound[2_400..].iter().enumerate().fold([0.0; 2], |[re, im], (at, x)| {
+        let phase = turn * at as f64;
+        [re + f64::from(*x) * phase.cos(), im + f64::from(*x) * phase.sin()]
+    });
+    20.0 * re.hypot(im).log10()
+}
+
+#[test]
+fn pressure_damps_tuning_bends_and_brightness_moves_the_stroke_outward() {
+    let [.., tuning, brightness, pressure] = ALL;
+    let plain = half_a_second(None);
+    let level = |sound: &[f32]| 10.0 * energy(sound, 4_800).log10();
+    let damped = level(&half_a_second(Some(pressure))) - level(&plain);
+    let loudest = |sound: &[f32]| {
+        let hz = (60..=400).map(f64::from);
+        hz.max_by(|a, b| level_at(sound, *a).total_cmp(&level_at(sound, *b))).unwrap()
+    };
+    let [low, high] = [loudest(&plain), loudest(&half_a_second(Some(tuning)))];
+    let semitones = 12.0 * (high / low).log2();
+    // The lowest mode hardly moves at the rim.
+    let outward = level_at(&half_a_second(Some(brightness)), low) - level_at(&plain, low);
+    let rim = level(&half_a_second(Some(brightness))) - level(&plain);
+    println!(
+        "the rim {rim} dB, damped by {damped:.1} dB, {low} to {high} Hz, lowest mode {outward:.1} dB at the rim"
+    );
+    assert!(damped < -6.0, "{damped} dB after 100 ms under pressure");
+    assert!((4.0..8.0).contains(&semitones), "{low} to {high} Hz: {semitones} semitones");
+    assert!(outward < -3.0, "{outward} dB");
+}
+
 #[test]
 fn a_note_ends_with_the_next_stroke_on_its_piece_and_with_silence() {
-    let mut instance = Instance::new(overhear_player::CLAP_ID);
-    let (first, second) = (note(0, 1), note(256, 2));
-    let (_, ended) = played(&mut instance, &[&raw const first.header, &raw const second.header]);
+    let instance = Instance::new(overhear_player::CLAP_ID);
+    let [first, second] = [note(0, 1), note(256, 2)].map(|note| Sent { note });
+    let (_, ended) = played(&instance, vec![first, second]);
     assert_eq!(ended, [1]);
     let silent = clap_event_note { key: 39, note_id: 3, ..note(0, 3) };
-    assert_eq!(played(&mut instance, &[&raw const silent.header]).1, [3], "a note that plays nothing");
+    assert_eq!(played(&instance, vec![Sent { note: silent }]).1, [3], "a note that plays nothing");
     let mut ended = Vec::new();
     for _ in 0..12 * 48_000 / FRAMES {
-        ended.extend(played(&mut instance, &[]).1);
+        ended.extend(played(&instance, Vec::new()).1);
     }
     assert_eq!(ended, [2], "a snare is silent after some seconds");
 }

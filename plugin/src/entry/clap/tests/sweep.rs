@@ -29,16 +29,6 @@ pub(super) union Sent {
 /// Bytes of a message that lasts longer than any call.
 static BYTES: [u8; 6] = [0xF0, 0x7E, 0x7F, 0x09, 0x01, 0xF7];
 
-fn header<T>(type_: u16, time: u32) -> clap_event_header {
-    clap_event_header {
-        size: size_of::<T>() as u32,
-        time,
-        space_id: CLAP_CORE_EVENT_SPACE_ID,
-        type_,
-        flags: 0,
-    }
-}
-
 fn event(chance: &mut Chance, time: u32) -> Sent {
     let (channel, key, port_index) = (chance.channel(), chance.key(), chance.of(&[0, 0, 0, -1, 1]));
     let (note_id, cookie) = (chance.of(&[-1, -1, 0, 7]), ptr::null_mut());

@@ -82,14 +82,7 @@ impl IParameterChangesTrait for Changes {
 
 fn snare() -> Event {
     let note = NoteOnEvent { channel: 9, pitch: 38, tuning: 0.0, velocity: 0.8, length: 0, noteId: -1 };
-    Event {
-        busIndex: 0,
-        sampleOffset: 0,
-        ppqPosition: 0.0,
-        flags: 0,
-        r#type: EventTypes_::kNoteOnEvent as u16,
-        __field0: Event__type0 { noteOn: note },
-    }
+    event(0, EventTypes_::kNoteOnEvent as u16, Event__type0 { noteOn: note })
 }
 
 /// A system exclusive message of a size, without bytes.
