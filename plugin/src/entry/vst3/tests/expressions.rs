@@ -4,7 +4,7 @@ use nice_plug::wrapper::vst3::vst3::Steinberg::Vst::{NoteExpressionValueEvent, P
 
 use super::calls::Listed;
 use super::*;
-use crate::entry::clap::tests::expressions::{ALL, ID, Told, energy, expressed};
+use crate::entry::clap::tests::expressions::{ALL, ID, Told, expressed};
 
 /// The same as the other format has it, by its place among [`ALL`].
 fn translated(place: usize, (_, value, sample): Told) -> Event {
