@@ -55,12 +55,8 @@ impl LibraryList {
             }
             let row = ui.selectable_label(self.chosen == Some(instrument.name), instrument.name);
             let about = RichText::new(&instrument.about).font(theme::small()).color(palette.faint);
-            let about = Label::new(about).wrap().selectable(false).sense(Sense::click());
-            let about = ui.horizontal_top(|ui| {
-                ui.add_space(ui.spacing().button_padding.x);
-                ui.add(about)
-            });
-            let row = row.union(about.inner);
+            let about = Label::new(about).truncate().selectable(false).sense(Sense::click());
+            let row = row.union(ui.add(about)).on_hover_text(&instrument.about);
             if row.clicked() {
                 self.chosen = Some(instrument.name);
             }
