@@ -135,10 +135,15 @@ impl Instrument for Cymbal {
         self.hand.advance(seconds);
     }
 
+    fn has_moved(&self) -> bool {
+        self.stale || self.hand.has_moved()
+    }
+
     fn follow_controls(&mut self) {
-        if !(self.hand.has_moved() | std::mem::take(&mut self.stale)) {
+        if !self.has_moved() {
             return;
         }
+        self.stale = false;
         let (tuning, muffling, hand) = (self.tuning.value(), self.muffling.value(), self.hand.follow());
         let (modes, lossless) = (&self.modes, self.lossless);
         self.surface.retune(|k, _| {

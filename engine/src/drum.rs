@@ -408,10 +408,15 @@ impl Instrument for Drum {
         }
     }
 
+    fn has_moved(&self) -> bool {
+        self.stale.losses || self.controls.hand.has_moved()
+    }
+
     fn follow_controls(&mut self) {
-        if !(self.controls.hand.has_moved() | std::mem::take(&mut self.stale.losses)) {
+        if !self.has_moved() {
             return;
         }
+        self.stale.losses = false;
         let place = self.built.heads.scale.place(self.controls.pitch.value());
         if std::mem::take(&mut self.stale.pitch) {
             self.follow_pitch(&place);

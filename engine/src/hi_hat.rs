@@ -186,6 +186,10 @@ impl Instrument for HiHat {
         self.hand.set(strength);
     }
 
+    fn has_moved(&self) -> bool {
+        self.stale || self.hand.has_moved()
+    }
+
     /// Rims that begin to rub do so within a block.
     fn is_urgent(&self) -> bool {
         (self.rubbing_now() - self.rubbing).abs() > RUBBING_STEP
@@ -201,9 +205,10 @@ impl Instrument for HiHat {
         if self.is_urgent() {
             (self.rubbing, self.stale) = (self.rubbing_now(), true);
         }
-        if !(self.hand.has_moved() | std::mem::take(&mut self.stale)) {
+        if !self.has_moved() {
             return;
         }
+        self.stale = false;
         let tuning = self.tuning.value();
         let damping = Damping {
             muffling: self.muffling.value(),

@@ -43,6 +43,9 @@ pub trait Instrument: Send {
     /// Lets a hand take hold of it, from 0 (lets go) to 1 (firmly).
     fn choke(&mut self, _strength: f64) {}
 
+    /// Whether a control has moved since the modes followed.
+    fn has_moved(&self) -> bool;
+
     /// Whether the modes are to follow at once, not in their turn.
     fn is_urgent(&self) -> bool {
         false

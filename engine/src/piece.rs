@@ -34,9 +34,35 @@ const SILENT: f32 = 2e-4;
 const STILL: f64 = 1e-10;
 const DOZE: f64 = 0.05;
 
-/// Blocks from one time that the modes of a sleeping piece follow its controls to the next: a picture's time, and a multiple of
-/// [`FOLLOWED`].
+/// Blocks from one time that the modes of a sleeping piece follow its controls to the next: a picture's time.
 const LOOKED_AT: usize = 32;
+
+/// When the modes follow the controls.
+struct Turn {
+    /// Blocks until they do, and those at the beginning of a movement: the pieces of a kit take turns.
+    wait: usize,
+    first: usize,
+    /// Blocks asleep, modulo [`LOOKED_AT`], and its number in the kit.
+    slept: usize,
+}
+
+impl Turn {
+    fn of(slot: Slot) -> Turn {
+        let first = slot.index() % FOLLOWED;
+        Turn { wait: first, first, slept: slot.index() }
+    }
+
+    /// Whether they follow now; asked once a block, `moved` being whether a control has moved since they did.
+    fn is_due(&mut self, moved: bool) -> bool {
+        if !moved {
+            self.wait = self.first;
+            return false;
+        }
+        let due = self.wait == 0;
+        self.wait = if due { FOLLOWED - 1 } else { self.wait - 1 };
+        due
+    }
+}
 
 /// A built piece that can be struck and heard.
 pub struct Piece {
@@ -48,8 +74,7 @@ pub struct Piece {
     phase: usize,
     /// Samples since the controls were last let glide.
     unglided: usize,
-    /// Blocks begun, from the piece's number in the kit on, to tell whose turn it is to follow the controls; modulo [`LOOKED_AT`].
-    blocks: usize,
+    turn: Turn,
     /// Nothing moves and nothing is about: there is nothing to render.
     asleep: bool,
     quarantines: u32,
@@ -90,7 +115,7 @@ impl Piece {
             sample_rate: options.sample_rate,
             phase: 0,
             unglided: 0,
-            blocks: slot.index(),
+            turn: Turn::of(slot),
             asleep: true,
             quarantines: 0,
             placement: build.spec.placement(),
@@ -210,7 +235,8 @@ impl Piece {
 
     /// Asleep for another block: the modes follow the controls now and then, for whoever looks at them.
     fn sleep_on(&mut self) {
-        if self.blocks.is_multiple_of(LOOKED_AT) {
+        self.turn.slept = (self.turn.slept + 1) % LOOKED_AT;
+        if self.turn.slept == 0 {
             self.instrument.follow_controls();
         }
     }
@@ -218,6 +244,7 @@ impl Piece {
     /// Wakes, with the modes where the controls are.
     fn wake(&mut self) {
         if std::mem::take(&mut self.asleep) {
+            self.turn = Turn::of(self.slot);
             self.instrument.follow_controls();
         }
     }
@@ -230,12 +257,11 @@ impl Piece {
     /// Begins a block: follows controls, makes silence exact, catches values that are not finite.
     fn begin_block(&mut self) {
         self.glide();
-        self.blocks = (self.blocks + 1) % LOOKED_AT;
         if self.asleep {
             self.sleep_on();
             return;
         }
-        if self.blocks.is_multiple_of(FOLLOWED) || self.instrument.is_urgent() {
+        if self.turn.is_due(self.instrument.has_moved()) || self.instrument.is_urgent() {
             self.instrument.follow_controls();
         }
         if !self.instrument.surface_mut().settle() {
@@ -267,7 +293,7 @@ impl Piece {
         self.finish_controls();
         self.phase = 0;
         self.unglided = 0;
-        self.blocks = self.slot.index();
+        self.turn = Turn::of(self.slot);
     }
 
     /// What the latest stroke's contact measured.
@@ -358,5 +384,28 @@ impl Piece {
         for (mode, now) in into.modes.iter_mut().zip(body.modes()) {
             *mode = ModeSnapshot { omega: now.omega as f32, sigma: now.sigma as f32 };
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn modes_follow_in_turns_that_depend_on_nothing_before_a_movement() {
+        let turns = [0, 1, 5].map(|index| {
+            let mut turn = Turn::of(Slot::ALL[index]);
+            let mut due = |rest: usize| -> Vec<usize> {
+                (0..rest).for_each(|_| assert!(!turn.is_due(false)));
+                (0..50).filter(|_| turn.is_due(true)).collect()
+            };
+            let first = due(0);
+            assert!(first.windows(2).all(|pair| pair[1] - pair[0] == FOLLOWED), "{first:?}");
+            for rest in 1..10 {
+                assert_eq!(due(rest), first);
+            }
+            first[0]
+        });
+        assert_eq!(turns, [0, 1, 1]);
     }
 }
