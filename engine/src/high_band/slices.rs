@@ -283,7 +283,12 @@ impl ModeTable {
         let share = if high > low { (tension.ln() - low) / (high - low) } else { 0.0 };
         let stencil = Stencil::at(share * (TENSIONS - 1) as f64, TENSIONS);
         self.modes.iter().map(move |modes| {
-            let between = |of: fn(&Mode) -> f64| stencil.blend(|i| of(&modes[i]));
+            let between = |of: fn(&Mode) -> f64| {
+                let values: [f64; 4] = std::array::from_fn(|i| of(&modes[stencil.first + i]));
+                // Where a wave becomes as fast as sound, its losses have a peak that a cubic would undershoot about.
+                let [least, most] = [f64::min, f64::max].map(|of| values.into_iter().fold(values[0], of));
+                stencil.blend_all(values).clamp(least, most)
+            };
             Mode {
                 omega: between(|mode| mode.omega),
                 sigma: between(|mode| mode.sigma),
