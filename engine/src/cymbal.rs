@@ -129,21 +129,20 @@ impl Instrument for Cymbal {
         self.hand.set(strength);
     }
 
+    fn take_turn(&mut self, number: usize) {
+        self.hand.take_turn(number);
+    }
+
     fn advance_controls(&mut self, seconds: f64) {
         let moved = [&mut self.tuning, &mut self.muffling].map(|glide| glide.advance(seconds));
         self.stale |= moved.contains(&true);
         self.hand.advance(seconds);
     }
 
-    fn has_moved(&self) -> bool {
-        self.stale || self.hand.has_moved()
-    }
-
     fn follow_controls(&mut self) {
-        if !self.has_moved() {
+        if !(self.hand.is_due() | std::mem::take(&mut self.stale)) {
             return;
         }
-        self.stale = false;
         let (tuning, muffling, hand) = (self.tuning.value(), self.muffling.value(), self.hand.follow());
         let (modes, lossless) = (&self.modes, self.lossless);
         self.surface.retune(|k, _| {

@@ -392,6 +392,10 @@ impl Instrument for Drum {
         self.controls.hand.set(strength);
     }
 
+    fn take_turn(&mut self, number: usize) {
+        self.controls.hand.take_turn(number);
+    }
+
     fn throw_wires(&mut self, on: bool) {
         self.surface.with(|wires: &mut SnareWires, site| wires.throw(on, site));
     }
@@ -408,15 +412,10 @@ impl Instrument for Drum {
         }
     }
 
-    fn has_moved(&self) -> bool {
-        self.stale.losses || self.controls.hand.has_moved()
-    }
-
     fn follow_controls(&mut self) {
-        if !self.has_moved() {
+        if !(self.controls.hand.is_due() | std::mem::take(&mut self.stale.losses)) {
             return;
         }
-        self.stale.losses = false;
         let place = self.built.heads.scale.place(self.controls.pitch.value());
         if std::mem::take(&mut self.stale.pitch) {
             self.follow_pitch(&place);

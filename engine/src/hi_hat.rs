@@ -186,13 +186,8 @@ impl Instrument for HiHat {
         self.hand.set(strength);
     }
 
-    fn has_moved(&self) -> bool {
-        self.stale || self.hand.has_moved()
-    }
-
-    /// Rims that begin to rub do so within a block.
-    fn is_urgent(&self) -> bool {
-        (self.rubbing_now() - self.rubbing).abs() > RUBBING_STEP
+    fn take_turn(&mut self, number: usize) {
+        self.hand.take_turn(number);
     }
 
     fn advance_controls(&mut self, seconds: f64) {
@@ -202,13 +197,13 @@ impl Instrument for HiHat {
     }
 
     fn follow_controls(&mut self) {
-        if self.is_urgent() {
-            (self.rubbing, self.stale) = (self.rubbing_now(), true);
+        let rubbing = self.rubbing_now();
+        if (rubbing - self.rubbing).abs() > RUBBING_STEP {
+            (self.rubbing, self.stale) = (rubbing, true);
         }
-        if !self.has_moved() {
+        if !(self.hand.is_due() | std::mem::take(&mut self.stale)) {
             return;
         }
-        self.stale = false;
         let tuning = self.tuning.value();
         let damping = Damping {
             muffling: self.muffling.value(),
