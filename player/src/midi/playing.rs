@@ -323,7 +323,11 @@ impl Playing {
         let mut rng = Rng::with_seed(self.state.seed);
         let arm = Arm::new(limb, &mut rng);
         self.state.seed = rng.get_seed();
-        let (radius, angle) = arm.placed((aimed.clamp(0.0, 1.0), stroke.angle), self.style.position_spread);
+        // A hand that strays past a drum's rim lands on the head: on the very rim it does not move.
+        let farthest = if self.kind(stroke.slot) == Some(Kind::Drum) { reach(Kind::Drum).1 } else { 1.0 };
+        let (radius, angle) =
+            arm.placed((aimed.clamp(0.0, farthest), stroke.angle), self.style.position_spread);
+        let radius = radius.min(farthest);
         let strike = Strike {
             speed: speed * arm.uneven_speed(self.style.speed_spread),
             radius,

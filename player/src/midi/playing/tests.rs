@@ -169,6 +169,18 @@ fn unevenness_is_as_large_as_asked_and_repeats() {
 }
 
 #[test]
+fn a_hand_that_strays_does_not_leave_the_head() {
+    let mut playing = playing();
+    playing.style.position_spread = 0.05;
+    // All the way out, where the rim holds a head still.
+    for _ in 0..200 {
+        playing.aim(Some(1.0_f32));
+        let strike = playing.note_on(48, 1.0, 9).unwrap().strike;
+        assert!((0.8..=0.95).contains(&strike.radius), "{}", strike.radius);
+    }
+}
+
+#[test]
 fn hands_alternate_and_a_beater_keeps_its_place() {
     let mut playing = playing();
     let aimed = playing.note_on(36, 1.0, 9).unwrap().strike;

@@ -21,9 +21,7 @@ pub struct Drawing {
 #[derive(Debug, Clone, Copy)]
 struct Held {
     size: Size,
-    /// Where the hand is, m.
-    hand: f64,
-    /// What it comes to there, m.
+    /// What it comes to where the hand is, m.
     is: f64,
     /// Points for a metre.
     scale: f32,
@@ -104,10 +102,11 @@ impl Drawing {
         let hit = Rect::from_center_size(at, egui::Vec2::splat(2.0 * HANDLE + 4.0));
         let response = ui.interact(hit, id, Sense::click_and_drag());
         if response.drag_started() {
-            self.held = Some(Held { size, hand: value, is: value, scale });
+            self.held = Some(Held { size, is: value, scale });
         }
         if let Some(held) = self.held.as_mut().filter(|held| held.size == size && response.dragged()) {
-            let by = response.drag_delta();
+            // From where it was pressed: what a pointer moves before that counts as a drag is counted.
+            let by = response.total_drag_delta().unwrap_or_default();
             // Half of a diameter is on this side of the middle, and so is half of a depth.
             let moved = 2.0
                 * match size {
@@ -115,9 +114,9 @@ impl Drawing {
                     Size::Bow => -by.y,
                     _ => by.y,
                 };
-            held.hand += f64::from(moved / scale);
+            let hand = value + f64::from(moved / scale);
             let fine = ui.input(|input| input.modifiers.shift) || size == Size::Bow;
-            held.is = if fine { held.hand } else { size.snapped(held.hand, units) };
+            held.is = if fine { hand } else { size.snapped(hand, units) };
         }
         if response.drag_stopped()
             && let Some(held) = self.held.take()
