@@ -118,19 +118,15 @@ impl Instrument for Cymbal {
     }
 
     fn set_tuning(&mut self, ratio: f64) {
-        self.tuning.set(ratio);
+        self.stale |= self.tuning.set(ratio);
     }
 
     fn set_muffling(&mut self, amount: f64) {
-        self.muffling.set(amount);
+        self.stale |= self.muffling.set(amount);
     }
 
     fn choke(&mut self, strength: f64) {
         self.hand.set(strength);
-    }
-
-    fn take_turn(&mut self, number: usize) {
-        self.hand.take_turn(number);
     }
 
     fn advance_controls(&mut self, seconds: f64) {
@@ -139,10 +135,15 @@ impl Instrument for Cymbal {
         self.hand.advance(seconds);
     }
 
+    fn has_moved(&self) -> bool {
+        self.stale || self.hand.has_moved()
+    }
+
     fn follow_controls(&mut self) {
-        if !(self.hand.is_due() | std::mem::take(&mut self.stale)) {
+        if !self.has_moved() {
             return;
         }
+        self.stale = false;
         let (tuning, muffling, hand) = (self.tuning.value(), self.muffling.value(), self.hand.follow());
         let (modes, lossless) = (&self.modes, self.lossless);
         self.surface.retune(|k, _| {

@@ -381,19 +381,17 @@ impl Instrument for Drum {
     }
 
     fn set_tuning(&mut self, hz: f64) {
-        self.controls.pitch.set(hz);
+        let there = self.controls.pitch.set(hz);
+        self.stale.pitch |= there;
+        self.stale.losses |= there;
     }
 
     fn set_muffling(&mut self, amount: f64) {
-        self.controls.muffling.set(amount);
+        self.stale.losses |= self.controls.muffling.set(amount);
     }
 
     fn choke(&mut self, strength: f64) {
         self.controls.hand.set(strength);
-    }
-
-    fn take_turn(&mut self, number: usize) {
-        self.controls.hand.take_turn(number);
     }
 
     fn throw_wires(&mut self, on: bool) {
@@ -401,7 +399,9 @@ impl Instrument for Drum {
     }
 
     fn set_preload(&mut self, newtons: f64) {
-        self.controls.preload.set(newtons);
+        if self.controls.preload.set(newtons) {
+            self.follow_preload();
+        }
     }
 
     fn advance_controls(&mut self, seconds: f64) {
@@ -412,10 +412,15 @@ impl Instrument for Drum {
         }
     }
 
+    fn has_moved(&self) -> bool {
+        self.stale.losses || self.controls.hand.has_moved()
+    }
+
     fn follow_controls(&mut self) {
-        if !(self.controls.hand.is_due() | std::mem::take(&mut self.stale.losses)) {
+        if !self.has_moved() {
             return;
         }
+        self.stale.losses = false;
         let place = self.built.heads.scale.place(self.controls.pitch.value());
         if std::mem::take(&mut self.stale.pitch) {
             self.follow_pitch(&place);

@@ -37,11 +37,20 @@ impl Glide {
         self.value
     }
 
-    /// Asks for a value, in units of the caller; clamped to the range, a NaN is ignored.
-    pub fn set(&mut self, target: f64) {
-        if !target.is_nan() {
-            self.target = target.clamp(self.min, self.max);
+    /// Asks for a value, in units of the caller; clamped to the range, a NaN is ignored. It is there at once if it is as good as
+    /// there already; true if that changed the value.
+    pub fn set(&mut self, target: f64) -> bool {
+        if target.is_nan() {
+            return false;
         }
+        self.target = target.clamp(self.min, self.max);
+        self.is_close() && self.jump()
+    }
+
+    /// Whether it has as good as arrived.
+    fn is_close(&self) -> bool {
+        let close = (ARRIVED * self.target.abs().max(ARRIVED * self.max)).max(self.within);
+        (self.value - self.target).abs() < close && (self.lead - self.target).abs() < close
     }
 
     /// Goes there at once; true if that changed the value.
@@ -62,8 +71,7 @@ impl Glide {
         let (value, lead) = (self.value - self.target, self.lead - self.target);
         self.value = self.target + (value + lead * time) * left;
         self.lead = self.target + lead * left;
-        let close = (ARRIVED * self.target.abs().max(ARRIVED * self.max)).max(self.within);
-        if (self.value - self.target).abs() < close && (self.lead - self.target).abs() < close {
+        if self.is_close() {
             (self.value, self.lead) = (self.target, self.target);
         }
         true
@@ -87,6 +95,20 @@ mod tests {
         assert_eq!(whole.value(), 2.0);
         whole.set(f64::NAN);
         assert!(!whole.advance(1.0));
+    }
+
+    #[test]
+    fn what_differs_by_a_rounding_is_there_at_once() {
+        let mut glide = Glide::new(0.3, 0.0, 1.0);
+        assert!(!glide.set(0.3) && glide.set(f64::from(0.3_f32)));
+        assert_eq!(glide.value(), f64::from(0.3_f32));
+        assert!(!glide.advance(0.001));
+        // Nor if something else was asked for in between, but not while it moves.
+        assert!(!glide.set(0.5) && glide.set(0.3) && !glide.advance(0.001));
+        glide.set(0.5);
+        glide.advance(0.001);
+        let value = glide.value();
+        assert!(!glide.set(value) && glide.advance(0.001));
     }
 
     #[test]

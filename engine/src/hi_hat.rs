@@ -171,11 +171,11 @@ impl Instrument for HiHat {
     }
 
     fn set_tuning(&mut self, ratio: f64) {
-        self.tuning.set(ratio);
+        self.stale |= self.tuning.set(ratio);
     }
 
     fn set_muffling(&mut self, amount: f64) {
-        self.muffling.set(amount);
+        self.stale |= self.muffling.set(amount);
     }
 
     fn pedal_mut(&mut self) -> Option<&mut dyn Pedal> {
@@ -186,8 +186,13 @@ impl Instrument for HiHat {
         self.hand.set(strength);
     }
 
-    fn take_turn(&mut self, number: usize) {
-        self.hand.take_turn(number);
+    fn has_moved(&self) -> bool {
+        self.stale || self.hand.has_moved()
+    }
+
+    /// Rims that begin to rub do so within a block.
+    fn is_urgent(&self) -> bool {
+        (self.rubbing_now() - self.rubbing).abs() > RUBBING_STEP
     }
 
     fn advance_controls(&mut self, seconds: f64) {
@@ -197,13 +202,13 @@ impl Instrument for HiHat {
     }
 
     fn follow_controls(&mut self) {
-        let rubbing = self.rubbing_now();
-        if (rubbing - self.rubbing).abs() > RUBBING_STEP {
-            (self.rubbing, self.stale) = (rubbing, true);
+        if self.is_urgent() {
+            (self.rubbing, self.stale) = (self.rubbing_now(), true);
         }
-        if !(self.hand.is_due() | std::mem::take(&mut self.stale)) {
+        if !self.has_moved() {
             return;
         }
+        self.stale = false;
         let tuning = self.tuning.value();
         let damping = Damping {
             muffling: self.muffling.value(),

@@ -65,8 +65,8 @@ use crate::receiver::POINTS;
 
 pub use slices::{HighBandSpec, HighMuffling, Receiver, SLICES, SLICES_UNDER_WIRES};
 use slices::{
-    ModeTable, Slice, Waves, away, endless_sheet, loudness, rim_strip, slices, taken, tension_share, top_hz,
-    walk_rate,
+    Slice, SliceTable, TunedSlice, UnderPad, Waves, away, endless_sheet, rim_strip, slices, taken,
+    tension_share, top_hz, walk_rate,
 };
 use walk::Walk;
 
@@ -122,11 +122,12 @@ fn at_points(pressure: Pressure) -> [f32; POINTS] {
 
 /// What the slices last followed.
 struct Laid {
-    /// The modes at every tension, without muffling.
-    table: ModeTable,
+    /// The slices at every tension, without muffling.
+    table: SliceTable,
     /// N/m.
     tension: f64,
     muffling: HighMuffling,
+    under: UnderPad,
     /// The modes at that tension, without muffling.
     modes: Vec<Mode>,
     inaudible: InaudibleModes,
@@ -161,8 +162,8 @@ impl HighBand {
     /// The band at rest, at the tension it is laid out for. Allocates.
     pub fn new(spec: &HighBandSpec) -> HighBand {
         let slices = slices(spec);
-        let table = ModeTable::new(spec, &slices);
-        let modes: Vec<Mode> = table.at(spec.tensions[1]).collect();
+        let table = SliceTable::new(spec, &slices);
+        let modes: Vec<Mode> = table.at(spec.tensions[1]).map(|slice| slice.mode).collect();
         let count = modes.len();
         let place = |_| PointBand {
             port: InputVector::new(count),
@@ -184,6 +185,7 @@ impl HighBand {
                 table,
                 tension: 0.0,
                 muffling: HighMuffling::NONE,
+                under: UnderPad::new(count),
                 modes,
                 inaudible: InaudibleModes::new(count),
             },
@@ -216,10 +218,12 @@ impl HighBand {
         }
         self.laid.muffling = *muffling;
         let HighBand { spec, body, pickup, slices, smoothing, laid, .. } = self;
-        let held = |k: usize| if spec.lossless { 0.0 } else { muffling.sigma(&slices[k]) };
-        body.set_modes(|k, _| Mode { sigma: laid.modes[k].sigma + held(k), ..laid.modes[k] });
+        let Laid { under, modes, inaudible, .. } = laid;
+        let under = under.of(muffling, slices);
+        let held = |k: usize| if spec.lossless { 0.0 } else { muffling.sigma(under[k]) };
+        body.set_modes(|k, _| Mode { sigma: modes[k].sigma + held(k), ..modes[k] });
         body.tune(pickup);
-        body.update_thresholds(&mut laid.inaudible, pickup, 0, None);
+        body.update_thresholds(inaudible, pickup, 0, None);
         smoothing.step(before, body.listen(pickup));
         for place in &mut self.places {
             body.connect(&mut place.port);
@@ -233,12 +237,12 @@ impl HighBand {
         let Laid { table, modes, .. } = laid;
         laid.tension = tension;
         let top = top_hz(spec.sample_rate);
-        for (k, (slice, mode)) in slices.iter().zip(table.at(tension)).enumerate() {
+        for (k, (slice, TunedSlice { mode, loudness })) in slices.iter().zip(table.at(tension)).enumerate() {
             modes[k] = mode;
             glide[k] = (mode.omega * tension_share(spec, slice, tension) / (2.0 * tension)) as f32;
             walk.set(k, walk_rate(spec, slice, mode.omega));
             let fade = 1.0 - ((mode.omega / (TAU * top) - 1.0) / (FADE - 1.0)).clamp(0.0, 1.0);
-            let loud = fade * loudness(spec, slice, mode.omega) / slice.count.sqrt();
+            let loud = fade * loudness;
             for (receiver, ([cos, sin], gain)) in slice.heard.into_iter().zip(&*gains).enumerate() {
                 let loud = f64::from(*gain) * loud;
                 pickup.transfer_mut(receiver)[k] = [loud * cos, loud * sin];

@@ -43,8 +43,13 @@ pub trait Instrument: Send {
     /// Lets a hand take hold of it, from 0 (lets go) to 1 (firmly).
     fn choke(&mut self, _strength: f64) {}
 
-    /// Its number among the pieces of a kit, which share out in turns what need not be done in every block.
-    fn take_turn(&mut self, _number: usize) {}
+    /// Whether a control has moved since the modes followed.
+    fn has_moved(&self) -> bool;
+
+    /// Whether the modes are to follow at once, not in their turn.
+    fn is_urgent(&self) -> bool {
+        false
+    }
 
     /// Throws snare wires on or off.
     fn throw_wires(&mut self, _on: bool) {}

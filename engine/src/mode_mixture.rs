@@ -107,6 +107,7 @@ impl ModeMixture {
     ///
     /// # Real-time
     /// As [`apply`](Self::apply).
+    #[inline(always)]
     pub fn apply_rows<const N: usize>(&self, even: &[[f32; N]], mixed: &mut [[f32; N]]) {
         self.apply_some(even, mixed, 0..self.modes());
     }
@@ -115,6 +116,7 @@ impl ModeMixture {
     ///
     /// # Real-time
     /// As [`apply`](Self::apply).
+    #[inline(always)]
     pub fn apply_some<const N: usize>(&self, even: &[[f32; N]], mixed: &mut [[f32; N]], modes: Range<usize>) {
         let kept = modes.start.min(self.kept)..modes.end.min(self.kept);
         mixed[kept.clone()].copy_from_slice(&even[kept]);
@@ -122,12 +124,13 @@ impl ModeMixture {
         let (first, last) = (runs.start - self.kept, runs.end - self.kept);
         for (out, run) in mixed[runs].iter_mut().zip(&self.runs[first..last]) {
             let coefs = &self.coefs[run.start as usize..][..run.length as usize];
-            *out = [0.0; N];
+            let mut sum = [0.0; N];
             for (coef, row) in coefs.iter().zip(&even[run.first as usize..]) {
                 for i in 0..N {
-                    out[i] += coef * row[i];
+                    sum[i] += coef * row[i];
                 }
             }
+            *out = sum;
         }
     }
 }

@@ -7,7 +7,7 @@ pub use crate::mode::{Member, ModeInfo, ModeKind};
 
 use std::ops::RangeInclusive;
 
-use crate::block::BLOCK;
+use crate::block::{BLOCK, FOLLOWED};
 use crate::cymbal::Cymbal;
 use crate::drum::Drum;
 use crate::error::SpecError;
@@ -37,6 +37,33 @@ const DOZE: f64 = 0.05;
 /// Blocks from one time that the modes of a sleeping piece follow its controls to the next: a picture's time.
 const LOOKED_AT: usize = 32;
 
+/// When the modes follow the controls.
+struct Turn {
+    /// Blocks until they do, and those at the beginning of a movement: the pieces of a kit take turns.
+    wait: usize,
+    first: usize,
+    /// Blocks asleep, modulo [`LOOKED_AT`], and its number in the kit.
+    slept: usize,
+}
+
+impl Turn {
+    fn of(slot: Slot) -> Turn {
+        let first = slot.index() % FOLLOWED;
+        Turn { wait: first, first, slept: slot.index() }
+    }
+
+    /// Whether they follow now; asked once a block, `moved` being whether a control has moved since they did.
+    fn is_due(&mut self, moved: bool) -> bool {
+        if !moved {
+            self.wait = self.first;
+            return false;
+        }
+        let due = self.wait == 0;
+        self.wait = if due { FOLLOWED - 1 } else { self.wait - 1 };
+        due
+    }
+}
+
 /// A built piece that can be struck and heard.
 pub struct Piece {
     slot: Slot,
@@ -47,8 +74,7 @@ pub struct Piece {
     phase: usize,
     /// Samples since the controls were last let glide.
     unglided: usize,
-    /// Blocks asleep until the modes follow the controls.
-    slept: usize,
+    turn: Turn,
     /// Nothing moves and nothing is about: there is nothing to render.
     asleep: bool,
     quarantines: u32,
@@ -82,16 +108,14 @@ impl Piece {
             *SAMPLE_RATES.start(),
             *SAMPLE_RATES.end(),
         )?;
-        let mut instrument = self::build(&build.spec.instrument, &build.context(*options))?;
-        instrument.take_turn(slot.index());
         Ok(Piece {
             slot,
             kind: build.spec.instrument.kind(),
-            instrument,
+            instrument: self::build(&build.spec.instrument, &build.context(*options))?,
             sample_rate: options.sample_rate,
             phase: 0,
             unglided: 0,
-            slept: 0,
+            turn: Turn::of(slot),
             asleep: true,
             quarantines: 0,
             placement: build.spec.placement(),
@@ -211,17 +235,16 @@ impl Piece {
 
     /// Asleep for another block: the modes follow the controls now and then, for whoever looks at them.
     fn sleep_on(&mut self) {
-        // The pieces of a kit take turns.
-        if (self.slept + self.slot.index()).is_multiple_of(LOOKED_AT) {
+        self.turn.slept = (self.turn.slept + 1) % LOOKED_AT;
+        if self.turn.slept == 0 {
             self.instrument.follow_controls();
         }
-        self.slept = (self.slept + 1) % LOOKED_AT;
     }
 
     /// Wakes, with the modes where the controls are.
     fn wake(&mut self) {
         if std::mem::take(&mut self.asleep) {
-            self.slept = 0;
+            self.turn = Turn::of(self.slot);
             self.instrument.follow_controls();
         }
     }
@@ -238,7 +261,9 @@ impl Piece {
             self.sleep_on();
             return;
         }
-        self.instrument.follow_controls();
+        if self.turn.is_due(self.instrument.has_moved()) || self.instrument.is_urgent() {
+            self.instrument.follow_controls();
+        }
         if !self.instrument.surface_mut().settle() {
             self.quarantines = self.quarantines.saturating_add(1);
         }
@@ -268,7 +293,7 @@ impl Piece {
         self.finish_controls();
         self.phase = 0;
         self.unglided = 0;
-        self.slept = 0;
+        self.turn = Turn::of(self.slot);
     }
 
     /// What the latest stroke's contact measured.
@@ -359,5 +384,28 @@ impl Piece {
         for (mode, now) in into.modes.iter_mut().zip(body.modes()) {
             *mode = ModeSnapshot { omega: now.omega as f32, sigma: now.sigma as f32 };
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn modes_follow_in_turns_that_depend_on_nothing_before_a_movement() {
+        let turns = [0, 1, 5].map(|index| {
+            let mut turn = Turn::of(Slot::ALL[index]);
+            let mut due = |rest: usize| -> Vec<usize> {
+                (0..rest).for_each(|_| assert!(!turn.is_due(false)));
+                (0..50).filter(|_| turn.is_due(true)).collect()
+            };
+            let first = due(0);
+            assert!(first.windows(2).all(|pair| pair[1] - pair[0] == FOLLOWED), "{first:?}");
+            for rest in 1..10 {
+                assert_eq!(due(rest), first);
+            }
+            first[0]
+        });
+        assert_eq!(turns, [0, 1, 1]);
     }
 }

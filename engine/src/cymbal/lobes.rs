@@ -9,6 +9,7 @@
 
 use crate::cache::Shared;
 use crate::math::cubic::Stencil;
+use crate::modal::simd::Kernels;
 use crate::mode_mixture::ModeMixture;
 use crate::plate::free_disc::{DIRECTIONS, FarPattern};
 use crate::receiver::{POINTS, ReceiverPosition, Receivers};
@@ -16,6 +17,9 @@ use crate::shapes::ShapeIndex;
 use crate::surface::swing::Directivity;
 
 use super::sounding_plate::SoundingPlate;
+
+/// What differs from rest in what the points hear of a mode, point by point (real, imaginary), Pa s2/m; filled up to a vector.
+type Change = [f32; 8];
 
 /// Nodal diameters of any mode are fewer.
 const ORDERS: usize = 160;
@@ -58,6 +62,7 @@ impl Direction {
     }
 
     /// What a mode of that pattern shows of itself, Pa s2/m at a metre.
+    #[inline(always)]
     fn heard(&self, FarPattern(pattern): &FarPattern, lobe: &Lobe) -> [f32; 2] {
         let [cos, sin] = self.around[lobe.m as usize];
         let shown = self.cosine as f32 * (lobe.around[0] * cos + lobe.around[1] * sin);
@@ -85,13 +90,14 @@ struct LobeReceiver {
 
 /// The lobes of all modes.
 pub struct Lobes {
+    kernels: Kernels,
     plate: Shared<SoundingPlate>,
     mixture: Option<ModeMixture>,
     lobes: Vec<Lobe>,
     receivers: [LobeReceiver; POINTS],
-    /// `[plain mode]` and `[mode]`: what differs from rest, receiver by receiver, Pa s2/m.
-    plain: Vec<[f32; 2 * POINTS]>,
-    mixed: Vec<[f32; 2 * POINTS]>,
+    /// `[plain mode]` and `[mode]`.
+    plain: Vec<Change>,
+    mixed: Vec<Change>,
 }
 
 impl Lobes {
@@ -118,8 +124,8 @@ impl Lobes {
             rest: std::mem::take(&mut rest[at]),
             plain_at_rest: vec![[0.0; 2]; modes],
         });
-        let (plain, mixed) = (vec![[0.0; 2 * POINTS]; modes], vec![[0.0; 2 * POINTS]; modes]);
-        let mut all = Lobes { plate, mixture, lobes, receivers, plain, mixed };
+        let (plain, mixed) = (vec![Change::default(); modes], vec![Change::default(); modes]);
+        let mut all = Lobes { kernels: Kernels::detect(), plate, mixture, lobes, receivers, plain, mixed };
         all.turn([0.0; 2]);
         for receiver in &mut all.receivers {
             for (rest, lobe) in receiver.plain_at_rest.iter_mut().zip(&all.lobes) {
@@ -128,6 +134,31 @@ impl Lobes {
             }
         }
         all
+    }
+
+    /// A part of the work: the plain modes come first, then the mixed ones.
+    #[inline(always)]
+    fn work_on(&mut self, part: usize, parts: usize) {
+        let Lobes { plate, mixture, lobes, receivers, plain, mixed, .. } = self;
+        let half = parts.div_ceil(2);
+        let share = |part: usize, parts: usize| lobes.len() * part / parts..lobes.len() * (part + 1) / parts;
+        if part < half {
+            for k in share(part, half) {
+                let Some(shell) = lobes[k].shell else { continue };
+                let pattern = &plate.patterns[shell as usize];
+                for (receiver, change) in receivers.iter().zip(plain[k].as_chunks_mut::<2>().0) {
+                    let now = receiver.now.heard(pattern, &lobes[k]);
+                    let rest = receiver.plain_at_rest[k];
+                    *change = std::array::from_fn(|i| receiver.spread * (now[i] - rest[i]));
+                }
+            }
+        } else {
+            let range = share(part - half, parts - half);
+            match mixture {
+                Some(mixture) => mixture.apply_some(plain, mixed, range),
+                None => mixed[range.clone()].copy_from_slice(&plain[range]),
+            }
+        }
     }
 }
 
@@ -160,27 +191,11 @@ impl Directivity for Lobes {
     }
 
     fn work(&mut self, part: usize, parts: usize) {
-        let Lobes { plate, mixture, lobes, receivers, plain, mixed } = self;
-        // The plain modes first, then the mixed ones.
-        let half = parts.div_ceil(2);
-        let share = |part: usize, parts: usize| lobes.len() * part / parts..lobes.len() * (part + 1) / parts;
-        if part < half {
-            for k in share(part, half) {
-                let Some(shell) = lobes[k].shell else { continue };
-                let pattern = &plate.patterns[shell as usize];
-                for (receiver, change) in receivers.iter().zip(plain[k].as_chunks_mut::<2>().0) {
-                    let now = receiver.now.heard(pattern, &lobes[k]);
-                    let rest = receiver.plain_at_rest[k];
-                    *change = std::array::from_fn(|i| receiver.spread * (now[i] - rest[i]));
-                }
-            }
-        } else {
-            let range = share(part - half, parts - half);
-            match mixture {
-                Some(mixture) => mixture.apply_some(plain, mixed, range),
-                None => mixed[range.clone()].copy_from_slice(&plain[range]),
-            }
-        }
+        let kernels = self.kernels;
+        kernels.vectorized(
+            #[inline(always)]
+            || self.work_on(part, parts),
+        );
     }
 
     fn write_rest(&self, transfers: [&mut [[f64; 2]]; POINTS]) {

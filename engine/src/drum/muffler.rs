@@ -8,8 +8,9 @@ use super::heads::MIDDLE;
 use super::mixing::{self, EvenMode, MixedModes};
 use super::modes::DrumModes;
 use super::spec::DrumSpec;
-use super::tuned::{ModeAtPitch, PitchPosition};
+use super::tuned::{ModeAtPitch, PitchPosition, TunedMode};
 use crate::high_band::HighMuffling;
+use crate::math::cubic::Stencil;
 
 /// Places along the width of a ring that stand for it. *Derived*: a mode at 3 kHz has a wave and a half under one.
 const RING_PLACES: usize = 6;
@@ -34,8 +35,8 @@ pub enum MufflerCoefs {
         radius: f64,
         /// The dashpot that is at full amount, kg/s.
         dashpot: f64,
-        /// The batter's radial functions there, `[batter mode]`.
-        radial: Vec<f64>,
+        /// Shapes of the kept modes there, along their diameters.
+        kept: PadShapes,
         /// Squared shape of the mixed modes there, in the middle of the range of pitches.
         mixed: Vec<f64>,
     },
@@ -47,8 +48,8 @@ pub enum MufflerCoefs {
         dashpot: f64,
         /// Its middle, share of the radius.
         radius: f64,
-        /// The batter's radial functions under it, `[batter mode][place]`, at places of equal area.
-        radial: Vec<f64>,
+        /// Shapes of the kept modes under it, at places of equal area.
+        kept: PadShapes,
         /// Mean square of the mixed modes under it, in the middle of the range of pitches.
         mixed: Vec<f64>,
     },
@@ -59,6 +60,7 @@ impl MufflerCoefs {
     pub fn new(spec: &DrumSpec, drum: &DrumModes, mixed: Option<&MixedModes>) -> MufflerCoefs {
         let membrane = spec.membrane(&spec.batter);
         let even = mixing::even_modes(drum);
+        let kept = mixed.map_or(drum.modes.len(), |_| drum.kept);
         let middle = drum.heads.scale.place(drum.heads.scale.pitches()[MIDDLE]);
         let batter = |pair: usize, of: &dyn Fn(usize) -> f64| -> f64 {
             let (first, count) = drum.heads.batter.order(drum.modes[pair].m);
@@ -82,7 +84,8 @@ impl MufflerCoefs {
                     parts.map(|(part, share)| share * shape(part)).sum::<f64>().powi(2)
                 };
                 let mixed = of_mixed(mixed, square);
-                MufflerCoefs::Gel { sigma, radius, dashpot: 2.0 * film * sigma, radial, mixed }
+                let kept = PadShapes::new(drum, kept, &radial);
+                MufflerCoefs::Gel { sigma, radius, dashpot: 2.0 * film * sigma, kept, mixed }
             }
             Muffler::Ring { sigma, inner } => {
                 let film = membrane.area_density() * membrane.area();
@@ -101,7 +104,8 @@ impl MufflerCoefs {
                 let mixed =
                     of_mixed(mixed, |parts| parts.map(|(part, share)| share * share * mean(part)).sum());
                 let radius = 0.5 * (1.0 + inner);
-                MufflerCoefs::Ring { sigma, dashpot: 2.0 * film * sigma, radius, radial, mixed }
+                let kept = PadShapes::new(drum, kept, &radial);
+                MufflerCoefs::Ring { sigma, dashpot: 2.0 * film * sigma, radius, kept, mixed }
             }
         }
     }
@@ -128,25 +132,52 @@ impl MufflerCoefs {
                 let absorbed = sigma * square / (square + corner * corner);
                 absorbed * (rung.batter + rung.resonant) + flow * rung.flow
             }
-            (MufflerCoefs::Gel { dashpot, radial, .. }, None) => {
-                let tuned = &drum.modes[mode.pair];
-                let (first, count) = drum.heads.batter.order(tuned.m);
-                let shape: f64 = (0..count).map(|i| tuned.share(i, place) * radial[first + i]).sum();
-                dashpot * (shape * mode.gel_turn).powi(2) / (2.0 * rung.mass)
+            (MufflerCoefs::Gel { dashpot, kept, .. }, None) => {
+                let square = kept.mean_square(mode.pair, place.of(drum.modes[mode.pair].grid()));
+                dashpot * mode.gel_turn.powi(2) * square / (2.0 * rung.mass)
             }
-            (MufflerCoefs::Ring { dashpot, radial, .. }, None) => {
+            (MufflerCoefs::Ring { dashpot, kept, .. }, None) => {
                 let tuned = &drum.modes[mode.pair];
-                let (first, count) = drum.heads.batter.order(tuned.m);
-                let shape = |at: usize| -> f64 {
-                    let of = |i: usize| tuned.share(i, place) * radial[(first + i) * RING_PLACES + at];
-                    (0..count).map(of).sum()
-                };
                 // All the way around, a pair's square is half of its largest.
                 let around = if tuned.m == 0 { 1.0 } else { 0.5 };
-                let square = (0..RING_PLACES).map(|at| shape(at).powi(2)).sum::<f64>() / RING_PLACES as f64;
+                let square = kept.mean_square(mode.pair, place.of(tuned.grid()));
                 dashpot * around * square / (2.0 * rung.mass)
             }
         }
+    }
+}
+
+/// Shapes of modes on the batter head at some places along a radius, dimensionless.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PadShapes {
+    places: usize,
+    /// `[mode][pitch of its grid][place]`.
+    modes: Vec<Vec<f64>>,
+}
+
+impl PadShapes {
+    /// Of the first `count` modes of a drum; `radial` are the batter's radial functions, `[batter mode][place]`. Allocates.
+    fn new(drum: &DrumModes, count: usize, radial: &[f64]) -> PadShapes {
+        let places = radial.len() / drum.heads.batter.membrane.modes().len().max(1);
+        let shapes = |tuned: &TunedMode| -> Vec<f64> {
+            let (first, heads) = drum.heads.batter.order(tuned.m);
+            let shape = |pitch: usize, at: usize| {
+                (0..heads).map(|i| tuned.share_at(i, pitch) * radial[(first + i) * places + at]).sum()
+            };
+            let pitches = 0..tuned.grid().pitches().len();
+            pitches
+                .flat_map(|pitch| (0..places).map(move |at| (pitch, at)))
+                .map(|(i, at)| shape(i, at))
+                .collect()
+        };
+        PadShapes { places, modes: drum.modes[..count].iter().map(shapes).collect() }
+    }
+
+    /// Mean square of a mode over the places, between pitches of its grid.
+    fn mean_square(&self, mode: usize, between: &Stencil) -> f64 {
+        let (places, shapes) = (self.places, &self.modes[mode]);
+        let shape = |at: usize| between.blend(|pitch| shapes[pitch * places + at]);
+        (0..places).map(|at| shape(at).powi(2)).sum::<f64>() / places as f64
     }
 }
 

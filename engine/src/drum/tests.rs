@@ -13,18 +13,13 @@ fn a_hand_changes_losses_and_no_frequency() {
     let losses = |drum: &Drum| drum.surface.body().modes().iter().map(|mode| mode.sigma).sum::<f64>();
     let (before, open) = (retunings(&drum), losses(&drum));
     // As a player's pressure does: another firmness in every block.
-    let mut followed = 0;
     for block in 0..400 {
         drum.choke(f64::from(block) / 200.0);
-        let last = losses(&drum);
         drum.follow_controls();
-        followed += u32::from(losses(&drum) != last);
         drum.advance_controls(BLOCK as f64 / RATE);
     }
     assert_eq!(retunings(&drum), before);
     assert!(losses(&drum) > 1.5 * open, "{} {open}", losses(&drum));
-    // In turns with other pieces.
-    assert!((50..=400 / Grip::EVERY).contains(&followed), "{followed}");
     drum.choke(0.0);
     drum.finish_controls();
     assert_eq!(losses(&drum), open);

@@ -155,6 +155,11 @@ impl TunedMode {
         place.of(self.grid).blend(|pitch| f64::from(row[pitch]))
     }
 
+    /// The same at a pitch of its grid, by number.
+    pub fn share_at(&self, i: usize, pitch: usize) -> f64 {
+        f64::from(self.shares[i * self.entries.len() + pitch])
+    }
+
     /// Displacement of the air at an open end or in a port, per share.
     pub fn outlet(&self, place: &PitchPosition) -> f64 {
         place.of(self.grid).blend(|pitch| f64::from(self.outlet[pitch]))

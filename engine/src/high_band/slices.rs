@@ -249,50 +249,93 @@ impl HighMuffling {
         HighMuffling { even: self.even + sigma, ..self }
     }
 
-    /// Decay rate that it adds to a slice, 1/s.
-    pub(super) fn sigma(&self, slice: &Slice) -> f64 {
-        let (pad, at) = self.pad;
-        let under = if pad == 0.0 { 0.0 } else { 1.0 - libm::j0(2.0 * slice.zero * (1.0 - at)) };
-        self.even + pad * under
+    /// Decay rate that it adds to a slice of some square under its pad, 1/s.
+    pub(super) fn sigma(&self, under: f64) -> f64 {
+        self.even + self.pad.0 * under
+    }
+}
+
+/// Squares of the slices under a pad.
+pub(super) struct UnderPad {
+    /// Distance of the pad from the centre, share of the radius.
+    at: f64,
+    /// `[slice]`.
+    squares: Vec<f64>,
+}
+
+impl UnderPad {
+    /// Of so many slices, under no pad. Allocates.
+    pub(super) fn new(slices: usize) -> UnderPad {
+        UnderPad { at: f64::NAN, squares: vec![0.0; slices] }
+    }
+
+    /// The squares under the pad of a muffling, if it has one; it stays where it is while its amount changes.
+    pub(super) fn of(&mut self, muffling: &HighMuffling, slices: &[Slice]) -> &[f64] {
+        let (pad, at) = muffling.pad;
+        if pad != 0.0 && self.at != at {
+            self.at = at;
+            for (square, slice) in self.squares.iter_mut().zip(slices) {
+                *square = 1.0 - libm::j0(2.0 * slice.zero * (1.0 - at));
+            }
+        }
+        &self.squares
     }
 }
 
 /// Tensions at which modes are worked out. *Converged*: between, frequencies over two octaves of pitch are met within 1e-5.
 const TENSIONS: usize = 13;
 
-/// The modes of all slices over the range of tensions, worked out beforehand.
-pub(super) struct ModeTable {
+/// A slice at a tension, without muffling.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct TunedSlice {
+    pub(super) mode: Mode,
+    /// Pressure at the point over the acceleration of all its modes, Pa s2/m.
+    pub(super) loudness: f64,
+}
+
+impl TunedSlice {
+    fn new(spec: &HighBandSpec, slice: &Slice, tension: f64) -> TunedSlice {
+        let mode = mode(spec, slice, tension);
+        TunedSlice { mode, loudness: loudness(spec, slice, mode.omega) / slice.count.sqrt() }
+    }
+}
+
+/// All slices over the range of tensions, worked out beforehand.
+pub(super) struct SliceTable {
     /// Logarithms of the lowest and the highest tension.
     range: [f64; 2],
     /// `[slice][tension]`.
-    modes: Vec<[Mode; TENSIONS]>,
+    slices: Vec<[TunedSlice; TENSIONS]>,
 }
 
-impl ModeTable {
-    /// Of slices, without muffling. Allocates.
-    pub(super) fn new(spec: &HighBandSpec, slices: &[Slice]) -> ModeTable {
+impl SliceTable {
+    /// Of slices. Allocates.
+    pub(super) fn new(spec: &HighBandSpec, slices: &[Slice]) -> SliceTable {
         let [low, _, high] = spec.tensions.map(f64::ln);
         let at = |i: usize| (low + (high - low) * i as f64 / (TENSIONS - 1) as f64).exp();
-        let over = |slice: &Slice| std::array::from_fn(|i| mode(spec, slice, at(i)));
-        ModeTable { range: [low, high], modes: slices.iter().map(over).collect() }
+        let over = |slice: &Slice| std::array::from_fn(|i| TunedSlice::new(spec, slice, at(i)));
+        SliceTable { range: [low, high], slices: slices.iter().map(over).collect() }
     }
 
-    /// Every slice's mode at a tension (N/m) within the range.
-    pub(super) fn at(&self, tension: f64) -> impl Iterator<Item = Mode> + '_ {
+    /// Every slice at a tension (N/m) within the range.
+    pub(super) fn at(&self, tension: f64) -> impl Iterator<Item = TunedSlice> + '_ {
         let [low, high] = self.range;
         let share = if high > low { (tension.ln() - low) / (high - low) } else { 0.0 };
         let stencil = Stencil::at(share * (TENSIONS - 1) as f64, TENSIONS);
-        self.modes.iter().map(move |modes| {
-            let between = |of: fn(&Mode) -> f64| {
-                let values: [f64; 4] = std::array::from_fn(|i| of(&modes[stencil.first + i]));
+        self.slices.iter().map(move |slices| {
+            let between = |of: fn(&TunedSlice) -> f64| {
+                let values: [f64; 4] = std::array::from_fn(|i| of(&slices[stencil.first + i]));
                 // Where a wave becomes as fast as sound, its losses have a peak that a cubic would undershoot about.
                 let [least, most] = [f64::min, f64::max].map(|of| values.into_iter().fold(values[0], of));
                 stencil.blend_all(values).clamp(least, most)
             };
-            Mode {
-                omega: between(|mode| mode.omega),
-                sigma: between(|mode| mode.sigma),
-                mass: between(|mode| mode.mass),
+            TunedSlice {
+                mode: Mode {
+                    omega: between(|slice| slice.mode.omega),
+                    sigma: between(|slice| slice.mode.sigma),
+                    mass: between(|slice| slice.mode.mass),
+                },
+                loudness: between(|slice| slice.loudness),
             }
         })
     }

@@ -60,11 +60,13 @@ fn between_the_tensions_that_are_worked_out_modes_are_those_of_their_equation() 
     let (built, build) = rack_tom();
     let band = band(&built, &build);
     let [low, _, high] = band.spec.tensions;
-    let table = ModeTable::new(&band.spec, &band.slices);
+    let table = SliceTable::new(&band.spec, &band.slices);
     for share in [0.0, 0.03, 0.21, 0.47, 0.5, 0.81, 0.99, 1.0] {
         let tension = low * (high / low).powf(share);
-        for (slice, between) in band.slices.iter().zip(table.at(tension)) {
+        for (slice, TunedSlice { mode: between, loudness }) in band.slices.iter().zip(table.at(tension)) {
             let exact = mode(&band.spec, slice, tension);
+            let loud = slices::loudness(&band.spec, slice, exact.omega) / slice.count.sqrt();
+            assert!((loudness / loud - 1.0).abs() < 1e-3, "{share}: {loudness} {loud}");
             assert!((between.omega / exact.omega - 1.0).abs() < 1e-5, "{share}: {between:?} {exact:?}");
             assert!((between.sigma / exact.sigma - 1.0).abs() < 1e-3, "{share}: {between:?} {exact:?}");
             assert!((between.mass / exact.mass - 1.0).abs() < 1e-4, "{share}: {between:?} {exact:?}");

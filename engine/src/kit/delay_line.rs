@@ -9,6 +9,7 @@
 use crate::air_load::SPEED_OF_SOUND;
 use crate::block::BLOCK;
 use crate::layout::FARTHEST;
+use crate::modal::simd::Kernels;
 
 /// Samples that the polynomial goes through, and how many of them are newer than the sample next to its position.
 const TAPS: usize = 12;
@@ -24,6 +25,7 @@ pub(super) struct DelayLine {
     mask: usize,
     /// Samples of silence since the latest sound.
     silence: usize,
+    kernels: Kernels,
 }
 
 /// Samples repeated at the end: a tap reads in one stretch.
@@ -34,7 +36,12 @@ impl DelayLine {
     pub(super) fn new(sample_rate: f64) -> DelayLine {
         let longest = (sample_rate * FARTHEST / SPEED_OF_SOUND) as usize + 2 * REPEATED;
         let length = longest.next_power_of_two();
-        DelayLine { samples: vec![0.0; length + REPEATED].into(), mask: length - 1, silence: length }
+        DelayLine {
+            samples: vec![0.0; length + REPEATED].into(),
+            mask: length - 1,
+            silence: length,
+            kernels: Kernels::detect(),
+        }
     }
 
     /// Whether it holds silence only.
@@ -64,10 +71,15 @@ impl DelayLine {
     /// Adds the sound at a tap from a time on.
     pub(super) fn hear(&self, clock: u64, tap: &DelayTap, out: &mut [f32]) {
         let first = (clock as usize).wrapping_sub(tap.newest + tap.count - 1) & self.mask;
-        for (i, weight) in tap.weights[..tap.count].iter().enumerate() {
-            let past = &self.samples[first + i..][..out.len()];
-            out.iter_mut().zip(past).for_each(|(out, x)| *out += weight * x);
-        }
+        self.kernels.vectorized(
+            #[inline(always)]
+            || {
+                for (i, weight) in tap.weights[..tap.count].iter().enumerate() {
+                    let past = &self.samples[first + i..][..out.len()];
+                    out.iter_mut().zip(past).for_each(|(out, x)| *out += weight * x);
+                }
+            },
+        );
     }
 
     /// Silence again.

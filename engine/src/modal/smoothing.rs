@@ -1,14 +1,17 @@
-//! Steps and impulses of the sound where the modes change, spread over a block.
+//! Steps and impulses of the sound where the modes change, spread over some blocks.
 //!
 //! Modes that change keep their displacement and velocity. What is heard are their accelerations, which step: by twice the
-//! change of the frequency. The height of the step is added to the sound and taken back along a straight line within a block,
-//! so that a pitch that glides from block to block is heard without steps.
+//! change of the frequency. The height of the step is added to the sound and taken back along a straight line until the
+//! modes may change again, so that a pitch that glides in steps is heard without them.
 //!
 //! Limits: other pieces receive the smoothed sound too. What is added to it belongs to no mode. While a piece is retuned, the
 //! exchange of energy between pieces is not shown to be passive.
 
 use super::{Pressure, RECEIVERS};
-use crate::block::BLOCK;
+use crate::block::{BLOCK, FOLLOWED};
+
+/// Samples over which a step is taken back.
+const SPREAD: usize = FOLLOWED * BLOCK;
 
 /// What is still to be taken back.
 #[derive(Debug, Clone, Copy, Default)]
@@ -18,8 +21,9 @@ pub struct Smoothing {
     slope: Pressure,
     /// Pressure of impulses at each receiver, Pa, the same in every sample.
     held: Pressure,
-    /// Samples until nothing is left.
+    /// Samples until nothing is left of the steps, and of the impulses.
     left: usize,
+    held_left: usize,
 }
 
 impl Smoothing {
@@ -30,39 +34,43 @@ impl Smoothing {
         }
         for i in 0..RECEIVERS {
             self.added[i] += before[i] - after[i];
-            self.slope[i] = self.added[i] / BLOCK as f32;
+            self.slope[i] = self.added[i] / SPREAD as f32;
         }
-        self.left = BLOCK;
+        self.left = SPREAD;
     }
 
     /// Velocities have changed by impulses: their pressure at each receiver (Pa) is added throughout a block. Called at its
     /// beginning.
     pub fn hold(&mut self, impulse: Pressure) {
         self.held = impulse;
-        self.left = BLOCK;
+        self.held_left = BLOCK;
     }
 
     /// Whether nothing is left.
     pub fn is_over(&self) -> bool {
-        self.left == 0
+        self.left == 0 && self.held_left == 0
     }
 
     /// Adds what is left to the next samples.
     pub fn add_to(&mut self, out: &mut [&mut [f32]; RECEIVERS]) {
-        let samples = out[0].len().min(self.left);
-        if samples == 0 {
-            return;
-        }
-        let rows = self.added.iter_mut().zip(&self.slope).zip(&self.held);
-        for (out, ((added, slope), held)) in out.iter_mut().zip(rows) {
-            for out in &mut out[..samples] {
-                *out += *added + held;
-                *added -= slope;
+        let (stepped, held) = (out[0].len().min(self.left), out[0].len().min(self.held_left));
+        if stepped > 0 {
+            for (out, (added, slope)) in out.iter_mut().zip(self.added.iter_mut().zip(&self.slope)) {
+                for out in &mut out[..stepped] {
+                    *out += *added;
+                    *added -= slope;
+                }
+            }
+            self.left -= stepped;
+            if self.left == 0 {
+                (self.added, self.slope) = Default::default();
             }
         }
-        self.left -= samples;
-        if self.left == 0 {
-            (self.added, self.slope, self.held) = Default::default();
+        if held > 0 {
+            for (out, impulse) in out.iter_mut().zip(&self.held) {
+                out[..held].iter_mut().for_each(|out| *out += impulse);
+            }
+            self.held_left -= held;
         }
     }
 }
@@ -93,19 +101,19 @@ mod tests {
         let smoothed = |run: usize| {
             let mut smoothing = Smoothing::default();
             smoothing.step([1.0, 0.0, 0.0, 0.0], [0.0, 2.0, 0.0, 0.0]);
-            let mut rows = [[0.0_f32; 2 * BLOCK]; RECEIVERS];
-            for from in (0..2 * BLOCK).step_by(run) {
-                let to = (from + run).min(2 * BLOCK);
+            let mut rows = [[0.0_f32; 2 * SPREAD]; RECEIVERS];
+            for from in (0..2 * SPREAD).step_by(run) {
+                let to = (from + run).min(2 * SPREAD);
                 smoothing.add_to(&mut rows.each_mut().map(|row| &mut row[from..to]));
             }
             rows
         };
-        let rows = smoothed(2 * BLOCK);
-        for (i, (first, second)) in rows[0].iter().zip(&rows[1]).enumerate().take(BLOCK) {
-            let left = 1.0 - i as f32 / BLOCK as f32;
+        let rows = smoothed(2 * SPREAD);
+        for (i, (first, second)) in rows[0].iter().zip(&rows[1]).enumerate().take(SPREAD) {
+            let left = 1.0 - i as f32 / SPREAD as f32;
             assert!((first - left).abs() < 1e-5 && (second + 2.0 * left).abs() < 1e-5);
         }
-        assert!(rows.iter().all(|row| row[BLOCK..].iter().all(|&x| x == 0.0)));
+        assert!(rows.iter().all(|row| row[SPREAD..].iter().all(|&x| x == 0.0)));
         assert_eq!(smoothed(5), rows);
     }
 }
