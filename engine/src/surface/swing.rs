@@ -3,8 +3,11 @@
 //! Model: the body's rock is a motion of the body as a whole; its two modes give the tilt. What each mode shows of itself toward a
 //! receiver is that of the direction in which the receiver lies from the tilted body.
 //!
-//! Scheme: transfers are worked out once in a cycle of four blocks, a part in each block, for the tilt at its beginning. In the next
-//! cycle the weights go there in steps of eight samples.
+//! Scheme: transfers are worked out once in a cycle of some blocks, a part in each block, for the tilt at its beginning. In the next
+//! cycle the weights go there in steps of eight samples. A cycle lasts as long as the body, at the speed of the last one, needs for
+//! a small turn.
+
+use std::ops::RangeInclusive;
 
 use crate::block::BLOCK;
 use crate::modal::sway::Sway;
@@ -12,9 +15,13 @@ use crate::receiver::POINTS;
 
 use super::body::{SoundingBody, StruckBody};
 
-/// Blocks of a cycle. *Derived*: a crash turns by 3 rad/s at most, by 0.01 rad in a cycle, a splash by 0.04; lobes at 10 kHz are 0.1
-/// and 0.15 rad wide.
-const CYCLE: usize = 4;
+/// Turn in a cycle, rad. *Derived*: lobes at 10 kHz are 0.1 rad wide on a crash and 0.15 on a splash; between weights 0.02 rad apart a
+/// straight line is within 5 % of such a lobe.
+const TURN: f64 = 0.02;
+
+/// Blocks of a cycle, at least and at most. At least *derived*: a crash turns by 3 rad/s at most, by 0.01 rad in so many, a splash by 0.04.
+/// At most *judgement*: a swing that begins anew is heard 25 ms late.
+const CYCLE: RangeInclusive<usize> = 4..=16;
 
 /// Samples of a step of the weights. *Derived*: images at 5.5 kHz from a mode at 10 kHz lie 40 dB under it.
 const STEP: usize = 8;
@@ -43,6 +50,12 @@ pub trait Directivity: Send {
     fn write_rest(&self, transfers: [&mut [[f64; 2]]; POINTS]);
 }
 
+/// Blocks of a cycle in which a body turns by so much (rad) in a block.
+fn cycle_of(turn: f64) -> usize {
+    let (least, most) = CYCLE.into_inner();
+    ((TURN / turn.max(f64::MIN_POSITIVE)).min(most as f64) as usize).max(least)
+}
+
 /// The swing of a body.
 pub struct Swing {
     directivity: Box<dyn Directivity>,
@@ -53,8 +66,9 @@ pub struct Swing {
     sway: Sway,
     /// Tilt that the cycle works for.
     tilt: [f64; 2],
-    /// Block of the cycle, if one runs.
+    /// Block of the cycle, if one runs, and how many it has.
     block: Option<usize>,
+    cycle: usize,
     /// Samples into the present block.
     sample: usize,
     /// Whether the weights have left those of rest.
@@ -77,6 +91,7 @@ impl Swing {
             sway,
             tilt: [0.0; 2],
             block: None,
+            cycle: *CYCLE.start(),
             sample: 0,
             moved: false,
         }
@@ -94,30 +109,39 @@ impl Swing {
     pub fn begin_block(&mut self, body: &mut SoundingBody) {
         self.sample = 0;
         match self.block {
-            Some(block) if block + 1 < CYCLE => {
-                self.directivity.work(block + 1, CYCLE);
+            Some(block) if block + 1 < self.cycle => {
+                self.directivity.work(block + 1, self.cycle);
                 self.block = Some(block + 1);
             }
             Some(_) => {
+                let tilt = self.tilt(body);
+                self.cycle = cycle_of(self.turned_to(tilt) / self.cycle as f64);
                 let Swing { directivity, sway, .. } = self;
                 directivity.write(sway.transfers_mut());
                 body.modal.aim(sway, 0..body.modal.len());
-                body.modal.set_out(sway, &mut body.receiver, CYCLE * BLOCK / STEP);
+                body.modal.set_out(sway, &mut body.receiver, self.cycle * BLOCK / STEP);
                 self.moved = true;
-                self.begin_cycle(body);
+                self.begin_cycle(tilt);
             }
-            None => self.begin_cycle(body),
+            None => {
+                let tilt = self.tilt(body);
+                self.cycle = cycle_of(self.turned_to(tilt));
+                self.begin_cycle(tilt);
+            }
         }
     }
 
-    fn begin_cycle(&mut self, body: &SoundingBody) {
-        let tilt = self.tilt(body);
-        let turned = tilt.iter().zip(self.tilt).any(|(tilt, known)| (tilt - known).abs() > UNHEARD);
+    /// How far a tilt is from the one that is known, rad.
+    fn turned_to(&self, tilt: [f64; 2]) -> f64 {
+        tilt.iter().zip(self.tilt).map(|(tilt, known)| (tilt - known).abs()).fold(0.0, f64::max)
+    }
+
+    fn begin_cycle(&mut self, tilt: [f64; 2]) {
         self.block = None;
-        if turned {
+        if self.turned_to(tilt) > UNHEARD {
             self.tilt = tilt;
             self.directivity.turn(tilt);
-            self.directivity.work(0, CYCLE);
+            self.directivity.work(0, self.cycle);
             self.block = Some(0);
         }
     }
@@ -144,6 +168,7 @@ impl Swing {
     pub fn reset(&mut self, body: &mut SoundingBody) -> bool {
         self.sway.stop();
         (self.tilt, self.block, self.sample) = ([0.0; 2], None, 0);
+        self.cycle = *CYCLE.start();
         if !std::mem::take(&mut self.moved) {
             return false;
         }
@@ -152,5 +177,15 @@ impl Swing {
             body.receiver.transfer_mut(receiver).copy_from_slice(transfers);
         }
         true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cycle_lasts_until_the_body_has_turned_a_little() {
+        assert_eq!([0.0, 1e-9, 0.0021, 0.004, 0.1].map(cycle_of), [16, 16, 9, 5, 4]);
     }
 }
