@@ -35,6 +35,7 @@ use rayon::prelude::*;
 use crate::progress::Progress;
 use crate::{bad_input, settings};
 use limit::Limit;
+use measure::Cost;
 use report::Report;
 use workload::{Scene, Workload};
 
@@ -71,9 +72,11 @@ pub fn run(request: &Request) -> Result<Report> {
     for scene in scenes {
         let mut workload = Workload::new(scene, &document, request.rate)?;
         let (cost, lasted) = measure::runs(&mut workload, request.runs, &mut progress);
-        blocks.extend(scene.is_kit().then_some(lasted));
+        blocks.push((scene, lasted));
         costs.push((scene, cost));
     }
+    let widest = Kernels::detect().name();
+    let narrower = if request.simd.is_none() { narrower(request, &document)? } else { Vec::new() };
     let counts = if request.callgrind { callgrind::count(request, &document)? } else { Vec::new() };
     let report = Report::new(report::Measured {
         request,
@@ -81,13 +84,33 @@ pub fn run(request: &Request) -> Result<Report> {
         costs,
         blocks,
         builds,
-        simd: Kernels::detect().name(),
+        narrower,
+        simd: widest,
         counts,
     });
     Ok(match before {
         Some(before) => report.beside(before),
         None => report,
     })
+}
+
+/// The kit as it plays with the narrower instruction sets of this machine.
+fn narrower(request: &Request, document: &KitDocument) -> Result<Vec<(InstructionSet, Scene, Cost)>> {
+    let widest = InstructionSet::ALL.into_iter().rfind(|set| set.is_available());
+    let sets: Vec<_> = InstructionSet::ALL.into_iter().take_while(|&set| Some(set) != widest).collect();
+    let played = |scene: &Scene| scene.is_kit();
+    let scenes: Vec<_> = Scene::of_kit(document, request.quality).into_iter().filter(played).collect();
+    let mut progress = Progress::new("narrower", (sets.len() * scenes.len() * request.runs) as u64);
+    let mut costs = Vec::new();
+    for set in sets {
+        level::limit(set);
+        for &scene in &scenes {
+            let mut workload = Workload::new(scene, document, request.rate)?;
+            costs.push((set, scene, measure::runs(&mut workload, request.runs, &mut progress).0));
+        }
+    }
+    level::limit(InstructionSet::Avx512);
+    Ok(costs)
 }
 
 /// Everything that is measured: the kit's scenes, then each piece struck by itself.

@@ -5,6 +5,7 @@ use std::fmt;
 
 use overhear_engine::kit::BLOCK;
 use overhear_engine::kit_spec::{Kind, KitSpec};
+use overhear_engine::modal::simd::level::InstructionSet;
 use overhear_engine::piece::Quality;
 use serde::Serialize;
 
@@ -49,9 +50,14 @@ pub struct Report {
     block_share_percentiles: BTreeMap<&'static str, f64>,
     /// The same for a host's buffers of so many samples.
     buffers: BTreeMap<usize, BTreeMap<&'static str, f64>>,
+    /// The percentiles of scenes in which controls move, by scene.
+    moved_block_share_percentiles: BTreeMap<&'static str, BTreeMap<&'static str, f64>>,
     #[serde(flatten)]
     builds: Builds,
     simd: &'static str,
+    /// The kit as it plays with narrower instruction sets, by set and scene.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    narrower: BTreeMap<&'static str, BTreeMap<&'static str, Figure>>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     instructions: Vec<Count>,
     #[serde(skip)]
@@ -104,7 +110,8 @@ pub struct Measured<'a> {
     pub request: &'a Request,
     pub kit: &'a KitSpec,
     pub costs: Vec<(Scene, Cost)>,
-    pub blocks: Vec<Blocks>,
+    pub blocks: Vec<(Scene, Blocks)>,
+    pub narrower: Vec<(InstructionSet, Scene, Cost)>,
     pub builds: Builds,
     pub simd: &'static str,
     pub counts: Vec<Count>,
@@ -116,7 +123,7 @@ impl Report {
     /// # Panics
     /// If the kit's scenes are not among the costs.
     pub fn new(measured: Measured<'_>) -> Report {
-        let Measured { request, kit, costs, blocks, .. } = measured;
+        let Measured { request, kit, costs, blocks, narrower, .. } = measured;
         let find = |wanted: fn(&Scene) -> bool| {
             let found = costs.iter().find(|(scene, _)| wanted(scene));
             found.map(|&(_, cost)| Figure::from(cost))
@@ -142,10 +149,21 @@ impl Report {
         }
         let mut loops: Vec<f64> = costs.iter().map(|(_, cost)| cost.calibration_s).collect();
         loops.sort_by(f64::total_cmp);
-        let percentiles = |blocks_each: usize| {
-            let buffers = Buffers::of(&blocks, blocks_each, request.rate);
-            QUANTILES.map(|(name, q)| (name, buffers.within(q))).into()
-        };
+        let quantiles =
+            |buffers: &Buffers| BTreeMap::from(QUANTILES.map(|(name, q)| (name, buffers.within(q))));
+        let (played, others): (Vec<_>, Vec<_>) = blocks.into_iter().partition(|(scene, _)| scene.is_kit());
+        let played: Vec<Blocks> = played.into_iter().map(|(_, blocks)| blocks).collect();
+        let percentiles = |blocks_each: usize| quantiles(&Buffers::of(&played, blocks_each, request.rate));
+        let moved = others.into_iter().filter_map(|(scene, blocks)| {
+            let name = scene.moved_controls()?;
+            Some((name, quantiles(&Buffers::of(&[blocks], 1, request.rate))))
+        });
+        let moved_block_share_percentiles = moved.collect();
+        let mut by_set: BTreeMap<_, BTreeMap<_, _>> = BTreeMap::new();
+        for (set, scene, cost) in narrower {
+            let name = if matches!(scene, Scene::Groove(_)) { "groove" } else { "all-at-once" };
+            by_set.entry(set.name()).or_default().insert(name, Figure::from(cost));
+        }
         Report {
             calibration_s: loops[loops.len() / 2],
             runs: request.runs,
@@ -163,9 +181,11 @@ impl Report {
             }),
             idle: of(|scene| *scene == Scene::Idle),
             pieces,
-            worst_block_share: Buffers::of(&blocks, 1, request.rate).within(1.0),
+            worst_block_share: Buffers::of(&played, 1, request.rate).within(1.0),
             block_share_percentiles: percentiles(1),
             buffers: BUFFERS.map(|samples| (samples, percentiles(samples / BLOCK))).into(),
+            moved_block_share_percentiles,
+            narrower: by_set,
             builds: measured.builds,
             simd: measured.simd,
             instructions: measured.counts,
@@ -202,6 +222,9 @@ impl fmt::Display for Report {
         }
         self.row(f, "all-at-once", &self.all_at_once)?;
         self.row(f, "gliding", &self.gliding)?;
+        for (set, scenes) in &self.narrower {
+            scenes.iter().try_for_each(|(scene, figure)| self.row(f, &format!("{scene}, {set}"), figure))?;
+        }
         if let Some(ringing) = &self.cymbals_ringing {
             self.row(f, "cymbals ringing", ringing)?;
         }
@@ -233,6 +256,10 @@ impl fmt::Display for Report {
         {
             let shares = QUANTILES.map(|(name, _)| format!("{:>9.1}", 100.0 * percentiles[name])).concat();
             writeln!(f, "{samples:<20}{shares}")?;
+        }
+        for (scene, percentiles) in &self.moved_block_share_percentiles {
+            let shares = QUANTILES.map(|(name, _)| format!("{:>9.1}", 100.0 * percentiles[name])).concat();
+            writeln!(f, "{:<20}{shares}", format!("{BLOCK}, {scene}"))?;
         }
         let Builds {
             instance_s,
@@ -296,7 +323,10 @@ mod tests {
             request: &request,
             kit: &standard,
             costs: scenes.map(|scene| (scene, cost)).collect(),
-            blocks: vec![Blocks::default()],
+            blocks: [Scene::AllAtOnce(quality), Scene::Gliding(quality)]
+                .map(|it| (it, Blocks::default()))
+                .into(),
+            narrower: vec![(InstructionSet::Sse2, Scene::Groove(quality), cost)],
             builds: Builds::default(),
             simd: "avx2",
             counts: Vec::new(),
@@ -321,6 +351,8 @@ mod tests {
             assert!(json.get(key).is_some(), "{key}");
         }
         assert_eq!(json["groove"]["calibrations"], 0.6);
+        assert_eq!(json["narrower"]["sse2"]["groove"]["share"], 0.05);
+        assert_eq!(json["moved_block_share_percentiles"]["gliding"]["50"], 0.0);
         assert_eq!(json["cymbals_choked"]["over_ringing"], 1.0);
         assert_eq!(json["pieces"]["crash"]["tiers"].as_object().unwrap().len(), Quality::ALL.len());
         let before = compare::parse(&json.to_string()).unwrap();

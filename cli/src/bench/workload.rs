@@ -81,6 +81,15 @@ impl Scene {
         matches!(self, Scene::Groove(_) | Scene::AllAtOnce(_))
     }
 
+    /// Its name, if controls move in it.
+    pub fn moved_controls(self) -> Option<&'static str> {
+        match self {
+            Scene::Gliding(_) => Some("gliding"),
+            Scene::Choked(_) => Some("choked"),
+            _ => None,
+        }
+    }
+
     /// Name of the scene or of its piece.
     pub fn name(self, kit: &KitSpec) -> String {
         match self {

@@ -59,6 +59,14 @@ pub fn page() -> Result<Page> {
             met: Some(got < earlier),
         });
     }
+    let gliding = number(&report, &["gliding", "share"]);
+    sheet.claim(Claim::told(
+        "every tuning and muffling automated in every block",
+        PLAYED,
+        format!("{:.0} % of a core", 100.0 * gliding),
+        "no figure known",
+        GOAL,
+    ));
     let percent = |what: String, share: f64, most: f64| Claim {
         what,
         on: PLAYED,
@@ -108,6 +116,7 @@ pub fn page() -> Result<Page> {
         "6.5 cold, .2 warm",
         EARLIER,
     ));
+    sets(&mut sheet, &report);
     pieces(&mut sheet, &report)?;
     Ok(sheet.finish())
 }
@@ -129,6 +138,28 @@ fn number(report: &Value, path: &[&str]) -> f64 {
 
 fn text<'a>(report: &'a Value, key: &str) -> &'a str {
     report.get(key).and_then(Value::as_str).unwrap_or("")
+}
+
+/// The kit with each instruction set of the machine.
+fn sets(sheet: &mut Sheet, report: &Value) {
+    sheet.heading("Instruction sets");
+    sheet.text("The kit as it plays with each instruction set of this machine, calibrations (of a core).");
+    let cell = |figure: Option<&Value>| {
+        figure.map_or_else(String::new, |figure| {
+            let [calibrations, share] = ["calibrations", "share"].map(|key| number(figure, &[key]));
+            format!("{calibrations:.2} ({:.0} %)", 100.0 * share)
+        })
+    };
+    let none = serde_json::Map::new();
+    let narrower = report.get("narrower").and_then(Value::as_object).unwrap_or(&none);
+    // By name the sets come in another order.
+    let sets = ["sse2", "avx2"].into_iter().filter_map(|set| Some((set, narrower.get(set)?)));
+    let row = |(set, scenes): (&str, &Value)| {
+        vec![set.to_owned(), cell(scenes.get("groove")), cell(scenes.get("all-at-once"))]
+    };
+    let widest =
+        vec![text(report, "simd").to_owned(), cell(report.get("groove")), cell(report.get("all_at_once"))];
+    sheet.table(&["", "groove", "all at once"], sets.map(row).chain([widest]));
 }
 
 /// Every piece alone: a table and a plot, costs in calibrations.
@@ -157,6 +188,9 @@ fn pieces(sheet: &mut Sheet, report: &Value) -> Result<()> {
     let mut rows = vec![("32", report.get("block_share_percentiles"))];
     for size in ["64", "128", "256", "512"] {
         rows.push((size, report.get("buffers").and_then(|buffers| buffers.get(size))));
+    }
+    for (name, scene) in [("32, all controls glide", "gliding"), ("32, cymbals choked", "choked")] {
+        rows.push((name, report.get("moved_block_share_percentiles").and_then(|scenes| scenes.get(scene))));
     }
     let row = |(size, of): (&str, Option<&Value>)| {
         let share = |key: &&str| cell(100.0 * of.map_or(f64::NAN, |of| number(of, &[key])));
