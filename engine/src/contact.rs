@@ -32,6 +32,8 @@ pub mod force;
 pub mod solver;
 pub mod static_equilibrium;
 
+use std::ops::RangeInclusive;
+
 use serde::{Deserialize, Serialize};
 
 use crate::numbers::{Numbers, Visitor};
@@ -39,6 +41,10 @@ use crate::numbers::{Numbers, Visitor};
 /// Slowest approach that still sets the loss, m/s. Below it a touch is as lossy as at it; keeps
 /// `lambda` finite. *Derived*: far below any audible landing.
 const SLOWEST_APPROACH: f64 = 1e-3;
+
+/// Poisson's ratios of solids, and densities, kg/m3.
+const POISSON: RangeInclusive<f64> = 0.0..=0.495;
+const DENSITY: RangeInclusive<f64> = 100.0..=25_000.0;
 
 /// Elastic constants of a solid.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -57,12 +63,21 @@ pub struct Material {
 impl Numbers for Material {
     fn visit(&mut self, visitor: &mut dyn Visitor) {
         visitor.number("youngs_modulus_pa", &mut self.youngs_modulus, 1e6..=1e12);
-        visitor.number("poisson_ratio", &mut self.poisson_ratio, 0.0..=0.495);
-        visitor.number("density_kg_m3", &mut self.density, 100.0..=25_000.0);
+        visitor.number("poisson_ratio", &mut self.poisson_ratio, POISSON);
+        visitor.number("density_kg_m3", &mut self.density, DENSITY);
     }
 }
 
 impl Material {
+    /// Shows the numbers of the `material` of what the pull of a head hangs on: 1 GPa at least, as soft as plastics are.
+    pub fn visit_bearing(&mut self, visitor: &mut dyn Visitor) {
+        visitor.enter("material");
+        visitor.number("youngs_modulus_pa", &mut self.youngs_modulus, 1e9..=1e12);
+        visitor.number("poisson_ratio", &mut self.poisson_ratio, POISSON);
+        visitor.number("density_kg_m3", &mut self.density, DENSITY);
+        visitor.leave();
+    }
+
     const fn new(gigapascal: f64, poisson_ratio: f64, density: f64) -> Material {
         Material { youngs_modulus: gigapascal * 1e9, poisson_ratio, density }
     }

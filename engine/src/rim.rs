@@ -29,7 +29,7 @@ use crate::shell::Cylinder;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct HoopSpec {
-    /// What it is made of.
+    /// What it is made of, of at least 1 GPa.
     pub material: Material,
     /// Thickness of its wall, m, 0.0005 to 0.03.
     #[serde(rename = "wall_m")]
@@ -53,7 +53,7 @@ pub struct HoopSpec {
 
 impl Numbers for HoopSpec {
     fn visit(&mut self, visitor: &mut dyn Visitor) {
-        self.material.visit_part("material", visitor);
+        self.material.visit_bearing(visitor);
         visitor.number("wall_m", &mut self.wall, 5e-4..=0.03);
         visitor.number("height_m", &mut self.height, 0.01..=0.1);
         visitor.number("flange_m", &mut self.flange, 0.0..=0.05);

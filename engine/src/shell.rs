@@ -34,7 +34,7 @@ use crate::receiver::ReceiverPosition;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WallSpec {
-    /// What it is made of.
+    /// What it is made of, of at least 1 GPa.
     pub material: Material,
     /// Thickness, m, 0.0005 to 0.03.
     #[serde(rename = "thickness_m")]
@@ -45,7 +45,7 @@ pub struct WallSpec {
 
 impl Numbers for WallSpec {
     fn visit(&mut self, visitor: &mut dyn Visitor) {
-        self.material.visit_part("material", visitor);
+        self.material.visit_bearing(visitor);
         visitor.number("thickness_m", &mut self.thickness, 5e-4..=0.03);
         visitor.number("q", &mut self.q, 2.0..=1000.0);
     }

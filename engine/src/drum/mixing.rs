@@ -108,13 +108,14 @@ impl MixedModes {
         let pitches = Grid::Coarse.pitches().len();
         let row = &self.entries[k * pitches..][..pitches];
         let blend = |value: fn(&Entry) -> f32| stencil.blend(|i| f64::from(value(&row[i])));
+        let share = |value: fn(&Entry) -> f32| stencil.blend_shares(|i| f64::from(value(&row[i])));
         ModeAtPitch {
             omega: blend(|entry| entry.omega).exp(),
             sigma: blend(|entry| entry.sigma).exp(),
             mass: blend(|entry| entry.mass).exp(),
-            batter: blend(|entry| entry.batter),
-            resonant: blend(|entry| entry.resonant),
-            flow: blend(|entry| entry.flow),
+            batter: share(|entry| entry.batter),
+            resonant: share(|entry| entry.resonant),
+            flow: share(|entry| entry.flow),
         }
     }
 

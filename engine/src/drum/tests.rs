@@ -27,3 +27,22 @@ fn a_hand_changes_losses_and_no_frequency() {
     drum.finish_controls();
     assert!(retunings(&drum) > before);
 }
+
+#[test]
+fn a_pillow_takes_from_every_mode_at_every_pitch() {
+    let spec = reference::drum("kick");
+    let context = reference::standard("kick").context(BuildOptions::new(RATE));
+    let mut drum = Drum::new(&spec, &context).unwrap();
+    let [low, _, high] = spec.pitches();
+    let sigmas = |drum: &Drum| -> Vec<f64> { drum.surface.body().modes().iter().map(|mode| mode.sigma).collect() };
+    for step in 0..=60 {
+        drum.set_tuning(low * (high / low).powf(f64::from(step) / 60.0));
+        drum.set_muffling(0.0);
+        drum.finish_controls();
+        let open = sigmas(&drum);
+        drum.set_muffling(1.0);
+        drum.finish_controls();
+        let gains = sigmas(&drum).iter().zip(&open).filter(|(muffled, open)| muffled < open).count();
+        assert_eq!(gains, 0, "step {step}");
+    }
+}

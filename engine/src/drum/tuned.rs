@@ -3,7 +3,7 @@
 //! The drum's modes (see [`coupled`](super::coupled)) are solved at a few pitches when it is built. From pitch to
 //! pitch a mode is followed by its shape, not its rank: where a head's mode passes one of the air each
 //! keeps its own character. Between, everything is interpolated (cubic; frequencies, losses and masses
-//! in logarithms), which is what a rebuild at that pitch would give.
+//! in logarithms, shares of energy held between none and all), which is what a rebuild at that pitch would give.
 //!
 //! Shapes: each mode is a mixture of the heads' own modes of its order, scaled so that the squares of
 //! the shares add to one.
@@ -143,9 +143,9 @@ impl TunedMode {
             omega: place.blend(|i| row[i].omega).exp(),
             sigma: place.blend(|i| row[i].sigma).exp(),
             mass: place.blend(|i| row[i].mass).exp(),
-            batter: place.blend(|i| row[i].batter),
-            resonant: place.blend(|i| row[i].resonant),
-            flow: place.blend(|i| row[i].flow),
+            batter: place.blend_shares(|i| row[i].batter),
+            resonant: place.blend_shares(|i| row[i].resonant),
+            flow: place.blend_shares(|i| row[i].flow),
         }
     }
 

@@ -32,6 +32,12 @@ impl Stencil {
         self.blend_all(std::array::from_fn(|i| value(self.first + i)))
     }
 
+    /// The share between, `share(i)` being the table's, 0 to 1: a cubic through shares that change from one entry to the next
+    /// swings beyond them.
+    pub fn blend_shares(&self, share: impl Fn(usize) -> f64) -> f64 {
+        self.blend(share).clamp(0.0, 1.0)
+    }
+
     /// The value between, given the four.
     pub fn blend_all(&self, values: [f64; 4]) -> f64 {
         self.weights.iter().zip(values).map(|(weight, value)| weight * value).sum()
@@ -49,6 +55,11 @@ mod tests {
             let x = f64::from(i) / 10.0;
             assert!((Stencil::at(x, 10).blend(|i| cubic(i as f64)) - cubic(x)).abs() < 1e-12);
         }
+        // A share that is taken over at once.
+        let taken = |i: usize| if i < 2 { 0.0 } else { 1.0 };
+        assert!(Stencil::at(0.5, 4).blend(taken) < -0.05);
+        assert_eq!(Stencil::at(0.5, 4).blend_shares(taken), 0.0);
+        assert_eq!(Stencil::at(2.5, 4).blend_shares(taken), 1.0);
         assert_eq!(Stencil::at(-3.0, 4).blend(|i| i as f64), 0.0);
         assert_eq!(Stencil::at(9.0, 4).blend(|i| i as f64), 3.0);
     }

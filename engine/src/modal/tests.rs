@@ -264,3 +264,23 @@ fn the_energies_of_the_octaves_are_the_energy() {
         assert_eq!(octaves.iter().filter(|&&energy| energy > 0.0).count(), 1);
     }
 }
+
+#[test]
+fn a_mode_damped_past_critical_sounds_through_either_part_of_a_transfer_alike() {
+    let loudest = |transfer: [f64; 2], sigma: f64| {
+        let (mut body, input) = single(107.0, sigma, 0.15, 44_100.0);
+        let mut receiver = ReceiverWeights::new(vec![transfer]);
+        body.tune(&mut receiver);
+        (0..4410).fold(0.0_f32, |loudest, i| {
+            body.step();
+            if i < 40 {
+                body.push(&input, 50.0);
+            }
+            loudest.max(body.listen(&receiver)[0].abs())
+        })
+    };
+    for sigma in [3.0, 100.0, 600.0, 816.0, 3000.0] {
+        let [real, imaginary] = [[1.0, 0.0], [0.0, 1.0]].map(|transfer| loudest(transfer, sigma));
+        assert!((0.3..3.0).contains(&(imaginary / real)), "{sigma} 1/s: {imaginary} for {real}");
+    }
+}

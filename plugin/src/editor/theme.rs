@@ -10,7 +10,7 @@ pub struct Palette {
     pub background: Color32,
     /// Panels and rows.
     pub panel: Color32,
-    /// The row or knob under the pointer.
+    /// The row or knob under the pointer, and buttons, which stand on panels and on the background.
     pub hovered: Color32,
     /// The selected row, empty meters, knob tracks.
     pub raised: Color32,
@@ -103,7 +103,7 @@ pub static DARK: Palette = Palette {
 pub static LIGHT: Palette = Palette {
     background: rgb(0xECE9E4),
     panel: rgb(0xFAF8F5),
-    hovered: rgb(0xE9E5DE),
+    hovered: rgb(0xDFDAD1),
     raised: rgb(0xD3CDC4),
     text: rgb(0x23201D),
     faint: rgb(0x5C554D),
@@ -237,6 +237,18 @@ mod tests {
                     assert!(contrast >= 3.0, "{name}: {colour:?} has {contrast:.1}");
                 }
             }
+        }
+    }
+
+    /// Buttons have no outline.
+    #[test]
+    fn buttons_stand_out_from_what_they_are_on() {
+        for (name, palette) in [("dark", &DARK), ("light", &LIGHT)] {
+            for behind in [palette.background, palette.panel] {
+                let contrast = contrast(palette.hovered, behind);
+                assert!(contrast >= 1.12, "{name}: {contrast:.2}");
+            }
+            assert!(contrast(palette.text, palette.hovered) >= 4.5);
         }
     }
 

@@ -8,6 +8,7 @@ use overhear_engine::slot::Slot;
 use overhear_player::kit_document::KitDocument;
 use overhear_player::kit_file;
 
+use super::super::theme;
 use super::wish::Wish;
 
 /// Extension of the files.
@@ -30,6 +31,8 @@ impl Files {
     pub fn show(&mut self, ui: &mut Ui, wish: &mut Option<Wish>) {
         let width = (ui.available_width() - 330.0).clamp(120.0, 420.0);
         let field = TextEdit::singleline(&mut self.named).desired_width(width);
+        // It stands on what a field is filled with elsewhere.
+        let field = field.background_color(theme::of(ui).panel);
         ui.add(field.hint_text("Name of a kit file, or its path"));
         let named = self.named.trim().to_owned();
         for (text, tip, wanted) in [

@@ -118,23 +118,28 @@ impl Floor {
     }
 }
 
-/// Titles where their pieces are, as far as they fit and none lies on another: what hangs highest comes first.
+/// Where a title may lie on its piece, shares of the way from the middle to an edge: the nearest first.
+const ASIDE: [f32; 7] = [0.0, 0.4, -0.4, 0.8, -0.8, 1.0, -1.0];
+
+/// Titles where their pieces are, as far as they fit and none lies on another: what hangs highest comes first, and what is below that
+/// has its title where it is seen, if there is room.
 fn titled(painter: &egui::Painter, titles: &[(&str, Rect)], colour: Color32) {
-    let mut taken: Vec<Rect> = Vec::new();
+    let (mut taken, mut above): (Vec<Rect>, Vec<Rect>) = (Vec::new(), Vec::new());
     for (title, bounds) in titles.iter().rev() {
         let galley = painter.layout_no_wrap((*title).to_owned(), theme::small(), colour);
-        if galley.size().x > bounds.width() + 8.0 {
-            continue;
+        if galley.size().x <= bounds.width() + 8.0 {
+            let free = 0.5 * (bounds.size() - galley.size()).max(Vec2::ZERO);
+            let places = ASIDE.iter().flat_map(|x| ASIDE.map(|y| vec2(*x, y)));
+            let places = places
+                .map(|share| Rect::from_center_size(bounds.center() + share * free, galley.size()))
+                .filter(|place| !taken.iter().any(|other| other.intersects(*place)));
+            let seen = places.clone().find(|place| !above.iter().any(|other| other.intersects(*place)));
+            if let Some(place) = seen.or_else(|| places.clone().next()) {
+                painter.galley(place.min, galley, colour);
+                taken.push(place);
+            }
         }
-        let free = 0.5 * (bounds.height() - galley.size().y).max(0.0);
-        let places = [0.0, 0.4, -0.4, 0.8, -0.8, 1.0, -1.0].map(|share| {
-            Rect::from_center_size(bounds.center() + egui::vec2(0.0, share * free), galley.size())
-        });
-        let place = places.into_iter().find(|place| !taken.iter().any(|other| other.intersects(*place)));
-        if let Some(place) = place {
-            painter.galley(place.min, galley, colour);
-            taken.push(place);
-        }
+        above.push(*bounds);
     }
 }
 

@@ -50,13 +50,21 @@ impl LibraryList {
         for instrument in INSTRUMENTS.iter().filter(|instrument| fits(instrument, &words)) {
             found = true;
             if instrument.family != family {
+                if !family.is_empty() {
+                    ui.add_space(6.0);
+                }
                 family = &instrument.family;
                 ui.colored_label(palette.accent, family);
             }
             let row = ui.selectable_label(self.chosen == Some(instrument.name), instrument.name);
             let about = RichText::new(&instrument.about).font(theme::small()).color(palette.faint);
-            let about = Label::new(about).truncate().selectable(false).sense(Sense::click());
-            let row = row.union(ui.add(about)).on_hover_text(&instrument.about);
+            let about = Label::new(about).wrap().selectable(false).sense(Sense::click());
+            let indented = ui.horizontal(|ui| {
+                ui.spacing_mut().item_spacing.x = 0.0;
+                ui.add_space(ui.spacing().button_padding.x);
+                ui.add(about)
+            });
+            let row = row.union(indented.inner);
             if row.clicked() {
                 self.chosen = Some(instrument.name);
             }
