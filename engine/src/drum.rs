@@ -9,6 +9,7 @@ use std::f64::consts::TAU;
 pub mod body;
 pub mod coupled;
 pub mod heads;
+mod losses;
 pub mod mixing;
 pub mod mode_transfer;
 pub mod modes;
@@ -40,6 +41,7 @@ use crate::surface::wires::{PRELOAD, SnareWires};
 use crate::surface::{Surface, SurfaceParts};
 
 use body::{BodyMode, all_around, describe, long_wave, sampled};
+use losses::{Losses, palm};
 use mixing::MixedModes;
 use mode_transfer::{ModeTransfer, ModeTransfers};
 use modes::DrumModes;
@@ -88,43 +90,6 @@ struct Stale {
     losses: bool,
     /// The shapes.
     shapes: bool,
-}
-
-/// What the modes lose.
-struct Losses {
-    muffler: MufflerCoefs,
-    /// What a firm hand takes from a mode of the batter head alone, 1/s.
-    palm: f64,
-    /// What full muffling takes from each mode at the present pitch, 1/s, if that is known: nobody asks while it is off.
-    muffled: Vec<f64>,
-    is_known: bool,
-    lossless: bool,
-}
-
-/// Resistance of a palm that is pressed on a head, kg/s, spread over it. *Assumed*: no measurement is known. A film of 30 g by itself
-/// loses 67 1/s to it.
-const PALM: f64 = 4.0;
-
-/// Decay rate that a palm adds to a drum's batter head by itself, 1/s. *Derived*: half of the resistance over the film's mass.
-fn palm(spec: &DrumSpec) -> f64 {
-    let membrane = spec.membrane(&spec.batter);
-    0.5 * PALM / (membrane.area_density() * membrane.area())
-}
-
-impl Losses {
-    /// Works out what full muffling takes where the pitch is.
-    fn follow_pitch(
-        &mut self,
-        modes: &[BodyMode],
-        at_pitch: &[ModeAtPitch],
-        built: &DrumModes,
-        place: &PitchPosition,
-    ) {
-        self.is_known = true;
-        for (muffled, mode) in self.muffled.iter_mut().zip(modes) {
-            *muffled = self.muffler.sigma(mode, &at_pitch[mode.row], built, place);
-        }
-    }
 }
 
 /// What becomes of the modes of even heads.
@@ -294,6 +259,21 @@ impl Drum {
         self.at_pitch.iter_mut().zip(now).for_each(|(row, now)| *row = now);
     }
 
+    /// Brings the heads' shares in the modes to where the pitch is.
+    #[inline(always)]
+    fn follow_shares(&mut self, place: &PitchPosition) {
+        let mut simple = 0;
+        for tuned in &self.built.modes {
+            let (_, near) = self.built.heads.batter.order(tuned.m);
+            // Members of a pair share their weights.
+            tuned.write_shares(0, place, self.surface.shapes_mut().weights_mut(simple));
+            if let Some(far) = &mut self.far_shapes {
+                tuned.write_shares(near, place, far.weights_mut(simple));
+            }
+            simple += if tuned.m == 0 { 1 } else { 2 };
+        }
+    }
+
     /// Brings what is heard of the modes to where the pitch is.
     fn follow_pressures(&mut self, place: &PitchPosition) {
         let Drum { surface, hearing, built, mixing, controls, scales, at_pitch, .. } = self;
@@ -321,7 +301,10 @@ impl Drum {
             }
             rest.copy_from_slice(&[volume, share].map(|value| value as f32));
         }
-        mixed.mixture.apply_rows(even, heard);
+        surface.body().kernels().vectorized(
+            #[inline(always)]
+            || mixed.mixture.apply_rows(even, heard),
+        );
         let kept = mixed.mixture.kept();
         for ((heard, now), part) in
             heard[kept..].iter_mut().zip(&at_pitch[built.kept..]).zip(&mixed.without_diameters)
@@ -357,20 +340,11 @@ impl Instrument for Drum {
             return;
         }
         let place = self.built.heads.scale.place(self.controls.pitch.value());
-        let mut simple = 0;
-        for tuned in &self.built.modes {
-            let (_, near) = self.built.heads.batter.order(tuned.m);
-            // Members of a pair share their weights.
-            let row = self.surface.shapes_mut().weights_mut(simple);
-            row.iter_mut().enumerate().for_each(|(i, weight)| *weight = tuned.share(i, &place) as f32);
-            if let Some(far) = &mut self.far_shapes {
-                let row = far.weights_mut(simple);
-                row.iter_mut()
-                    .enumerate()
-                    .for_each(|(i, weight)| *weight = tuned.share(near + i, &place) as f32);
-            }
-            simple += if tuned.m == 0 { 1 } else { 2 };
-        }
+        let kernels = self.surface.body().kernels();
+        kernels.vectorized(
+            #[inline(always)]
+            || self.follow_shares(&place),
+        );
         self.follow_pressures(&place);
         let far = self.built.heads.resonant.as_ref().map(|head| head.film(&place));
         let near = self.built.heads.batter.film(&place);

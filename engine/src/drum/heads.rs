@@ -113,8 +113,9 @@ impl TunedHead {
 
     /// First mode of order `m`, and how many there are.
     pub fn order(&self, m: u32) -> (usize, usize) {
-        let first = self.membrane.modes().iter().position(|mode| mode.m == m).unwrap_or(0);
-        (first, self.membrane.modes().iter().filter(|mode| mode.m == m).count())
+        let modes = self.membrane.modes();
+        let [first, end] = [m, m + 1].map(|m| modes.partition_point(|mode| mode.m < m));
+        if first == end { (0, 0) } else { (first, end - first) }
     }
 }
 

@@ -66,7 +66,7 @@ pub struct TunedMode {
     entries: Vec<Entry>,
     /// `[pitch of the grid]`: the air at an open end or in a port, over the head modes as the shares are.
     outlet: Vec<f32>,
-    /// `[head mode][pitch of the grid]`: shares of the heads' modes of this order, batter first.
+    /// `[pitch of the grid][head mode]`: shares of the heads' modes of this order, batter first.
     shares: Vec<f32>,
 }
 
@@ -151,13 +151,23 @@ impl TunedMode {
 
     /// Share of the order's head mode `i`, batter's first.
     pub fn share(&self, i: usize, place: &PitchPosition) -> f64 {
-        let row = &self.shares[i * self.entries.len()..];
-        place.of(self.grid).blend(|pitch| f64::from(row[pitch]))
+        place.of(self.grid).blend(|pitch| self.share_at(i, pitch))
     }
 
-    /// The same at a pitch of its grid, by number.
+    /// Shares (dimensionless) of the order's head modes from `first` on, as many as there are places. To be called where it is vectorized.
+    #[inline(always)]
+    pub fn write_shares(&self, first: usize, place: &PitchPosition, out: &mut [f32]) {
+        let (stencil, heads, count) = (place.of(self.grid), self.heads(), out.len());
+        let rows: [&[f32]; 4] =
+            std::array::from_fn(|p| &self.shares[(stencil.first + p) * heads + first..][..count]);
+        for i in 0..count {
+            out[i] = stencil.blend_all(rows.map(|row| f64::from(row[i]))) as f32;
+        }
+    }
+
+    /// Share of the order's head mode `i` at a pitch of its grid, by number, dimensionless.
     pub fn share_at(&self, i: usize, pitch: usize) -> f64 {
-        f64::from(self.shares[i * self.entries.len() + pitch])
+        f64::from(self.shares[pitch * self.heads() + i])
     }
 
     /// Displacement of the air at an open end or in a port, per share.
@@ -216,8 +226,8 @@ pub fn follow(
                 flow: mode.flow,
             };
             outlet[pitch] = (sign * mode.outlet / size) as f32;
-            for (row, x) in shares.chunks_exact_mut(pitches).zip(&mode.vector) {
-                row[pitch] = (sign * x / size) as f32;
+            for (share, x) in shares[pitch * heads..][..heads].iter_mut().zip(&mode.vector) {
+                *share = (sign * x / size) as f32;
             }
         }
         let k = path[reference].0;

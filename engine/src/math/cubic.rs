@@ -39,6 +39,7 @@ impl Stencil {
     }
 
     /// The value between, given the four.
+    #[inline(always)]
     pub fn blend_all(&self, values: [f64; 4]) -> f64 {
         self.weights.iter().zip(values).map(|(weight, value)| weight * value).sum()
     }

@@ -103,9 +103,9 @@ const FINEST: f64 = 3.832;
 pub struct Press {
     /// Radius of the disc, m.
     pub disc: f64,
-    /// Largest force, N, and the time in which it would be reached if it rose on as fast as at first, s.
+    /// Largest force, N.
     pub largest: f64,
-    /// See `largest`.
+    /// Time in which that would be reached if the force rose on as fast as at first, s.
     pub rise: f64,
 }
 
