@@ -39,7 +39,8 @@ fn a_pillow_takes_from_every_mode_at_every_pitch() {
     let context = reference::standard("kick").context(BuildOptions::new(RATE));
     let mut drum = Drum::new(&spec, &context).unwrap();
     let [low, _, high] = spec.pitches();
-    let sigmas = |drum: &Drum| -> Vec<f64> { drum.surface.body().modes().iter().map(|mode| mode.sigma).collect() };
+    let sigmas =
+        |drum: &Drum| -> Vec<f64> { drum.surface.body().modes().iter().map(|mode| mode.sigma).collect() };
     for step in 0..=60 {
         drum.set_tuning(low * (high / low).powf(f64::from(step) / 60.0));
         drum.set_muffling(0.0);
