@@ -77,13 +77,17 @@ pub fn document() -> String {
          `cargo xtask docs` writes this page from the files in `player/library/`; do not edit it.\n\n\
          A kit file takes an instrument over with `like = \"NAME\"`, as a new piece or in the place of one of the standard kit; \
          `--kit NAME` plays a whole kit, and `overhear kit new mine.toml --from NAME` begins a file with one. \
-         See [kit files](kit-files.md).\n\n## Whole kits\n\nThe beginning of the groove on each, as `cargo xtask demo --all-kits` plays it.\n\n\
-         | name | | listen | |\n|---|---|---|---|\n",
+         See [kit files](kit-files.md).\n\n## Whole kits\n\nThe beginning of the groove on each, and the loudness (LUFS) and the peak (dBFS) of the \
+         whole of it, as `cargo xtask demo --all-kits` plays and measures it.\n\n\
+         | name | | listen | | loudness | peak |\n|---|---|---|---|---|---|\n",
     );
     for kit in kits() {
         let (name, about) = (kit.name, &kit.about);
+        let [loudness, peak] = kit
+            .measured()
+            .map_or([const { String::new() }; 2], |measured| measured.map(|it| format!("{it:.1}")));
         page.push_str(&format!(
-            "| `{name}` | {about} | [{name}.mp3](sounds/kits/{name}.mp3) | [picture](pictures/kits/{name}.png) |\n"
+            "| `{name}` | {about} | [{name}.mp3](sounds/kits/{name}.mp3) | [picture](pictures/kits/{name}.png) | {loudness} | {peak} |\n"
         ));
     }
     let mut family = String::new();
@@ -132,7 +136,18 @@ impl Instrument {
     }
 }
 
+/// What `cargo xtask demo --all-kits` measured of the groove on every whole kit.
+const LOUDNESS: &str = include_str!("../library/loudness.toml");
+
 impl WholeKit {
+    /// How loud the groove is on it (LUFS), and its peak (dBFS), as last measured.
+    pub fn measured(&self) -> Option<[f64; 2]> {
+        let table: Table = LOUDNESS.parse().ok()?;
+        let kit = table.get(self.name)?;
+        let figure = |name: &str| kit.get(name).and_then(toml::Value::as_float);
+        Some([figure("lufs")?, figure("peak_dbfs")?])
+    }
+
     /// The kit.
     ///
     /// # Errors

@@ -21,18 +21,21 @@ const SECONDS: f64 = 26.0;
 /// Fade at its end, s.
 const FADE: f64 = 1.5;
 
+/// What the figures begin with.
+const TABLE: &str = "# `cargo xtask demo --all-kits` writes this: of the whole groove, bounced.\n";
+
 /// Farthest that two kits may be apart in loudness, LU.
 const APART: f64 = 2.0;
 
 /// Plays the groove on every whole kit of the library, bounced; prints the loudness and the peak of the whole, and writes the
-/// beginning as `NAME.wav` and its spectrogram as `NAME.png` into `folder`.
+/// beginning as `NAME.wav` and its spectrogram as `NAME.png` into `folder`, the figures as `loudness.toml`.
 ///
 /// # Errors
 /// If a kit does not sound as it must, is clipped, or is more than 2 LU from another in loudness.
 pub fn run(folder: &Path) -> Result<()> {
     let song = Song::read(&workspace::root().join("assets/groove.mid"))?;
     let _folder = Folder::new(folder)?;
-    let (mut clipped, mut loudnesses) = (Vec::new(), Vec::new());
+    let (mut clipped, mut loudnesses, mut table) = (Vec::new(), Vec::new(), String::from(TABLE));
     for kit in library::kits() {
         let mut style = style(Source::Engine);
         style.kit = kit.document().with_context(|| format!("the kit `{}`", kit.name))?;
@@ -42,6 +45,8 @@ pub fn run(folder: &Path) -> Result<()> {
         let loudness = analysis::loudness_lufs([&left, &right], RATE);
         let loudness = loudness.with_context(|| format!("`{}` is silent", kit.name))?;
         println!("{}: {loudness:.1} LUFS, {}", kit.name, decibels(played.peak));
+        let peak = 20.0 * played.peak.log10();
+        table.push_str(&format!("{} = {{ lufs = {loudness:.1}, peak_dbfs = {peak:.1} }}\n", kit.name));
         loudnesses.push(loudness);
         if played.peak > 1.0 {
             clipped.push(kit.name);
@@ -60,6 +65,7 @@ pub fn run(folder: &Path) -> Result<()> {
         let drawn = picture::spectrograms(&[(kit.name.to_owned(), &mono)], f64::from(RATE))?;
         output::write(&folder.join(format!("{}.png", kit.name)), &drawn)?;
     }
+    output::write(&folder.join("loudness.toml"), table.as_bytes())?;
     ensure!(clipped.is_empty(), "clipped: {}", clipped.join(", "));
     let apart = loudnesses.iter().fold(f64::NEG_INFINITY, |most, &it| most.max(it))
         - loudnesses.iter().fold(f64::INFINITY, |least, &it| least.min(it));
