@@ -211,6 +211,11 @@ impl Builder {
         }
     }
 
+    /// Whether pieces are being built that are not on their way yet.
+    pub fn is_building(&self) -> bool {
+        self.shared.pending.load(Ordering::Acquire) != 0
+    }
+
     /// Shapes of the built pieces, for the editor.
     pub fn shapes(&self) -> Shapes {
         Shapes { shared: self.shared.clone() }
@@ -294,11 +299,12 @@ impl Shared {
         for slot in Slot::ALL.into_iter().filter(|&slot| kit.piece(slot).is_none()) {
             lock(&self.shapes)[slot.index()] = None;
         }
+        let wanted = job.to_build();
+        // Before the setup: a performer that is at the kit already must not be taken for one that has its pieces.
+        self.pending.store(wanted.iter().fold(0, |bits, (slot, _)| bits | bit(*slot)), Ordering::Release);
         if job.changes_kit {
             self.send(job, Arrival::Setup(Setup::new(job.sample_rate, job.plan.kit().clone())));
         }
-        let wanted = job.to_build();
-        self.pending.store(wanted.iter().fold(0, |bits, (slot, _)| bits | bit(*slot)), Ordering::Release);
         self.build_pieces(job, &wanted, make)
     }
 
@@ -360,11 +366,11 @@ impl Shared {
     /// Passes a piece on, if it could be made and is still wanted.
     fn hand_over(&self, job: &Job, slot: Slot, made: Made) -> Result<(), String> {
         let (piece, shapes) = made?;
-        self.pending.fetch_and(!bit(slot), Ordering::AcqRel);
         if self.latest.load(Ordering::Acquire) == job.order {
             lock(&self.shapes)[slot.index()] = Some(shapes);
             self.send(job, Arrival::Piece(piece));
         }
+        self.pending.fetch_and(!bit(slot), Ordering::AcqRel);
         Ok(())
     }
 

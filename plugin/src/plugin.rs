@@ -258,8 +258,9 @@ impl<O: Outputs> Instrument<O> {
         };
         // A kit that plays is replaced piece by piece while it plays on. A bounce gets what it asks for from its start,
         // and so does who plays after it: a kit made for bouncing may be too dear to be played. Nor does another kit begin
-        // with what is left of the former one.
-        if ordered.is_none() && !offline && !other_pace && !at_another_kit {
+        // with what is left of the former one, nor one without its pieces.
+        let is_whole = !at_another_kit && !self.builder.is_building();
+        if ordered.is_none() && !offline && !other_pace && is_whole {
             self.follow();
             return true;
         }
