@@ -350,8 +350,7 @@ mod tests {
         let mut compared = [0; HEADS];
         for (mode, above) in members.skip(first).zip(above) {
             let shares = [mode.batter, mode.resonant];
-            let Some(of) = (0..HEADS).find(|&of| shares[of] > 0.9 && shares[1 - of].abs() < 1e-6)
-            else {
+            let Some(of) = (0..HEADS).find(|&of| shares[of] > 0.9 && shares[1 - of].abs() < 1e-6) else {
                 continue;
             };
             let (head, spec) = (heads[of], heads[of].membrane.spec());
