@@ -118,8 +118,8 @@ pub struct CymbalPlate<'a> {
     splitting: Splitting,
     hammering: Option<HammeringSpec>,
     limit_hz: f64,
-    /// Whether it swings on its stand.
-    swings: bool,
+    /// Sample rate, Hz, if it swings on its stand.
+    swings: Option<f64>,
     /// Modes up to this are coupled, Hz.
     highest_hz: Option<f64>,
 }
@@ -143,7 +143,7 @@ impl<'a> CymbalPlate<'a> {
         let splitting = if ideal.round { Splitting::ROUND } else { spec.evenness };
         let highest_hz = coupled_hz.map(|hz| VonKarman::reach(&known.plate, hz));
         let hammering = spec.hammering.filter(|_| !ideal.round);
-        let swings = !ideal.linear;
+        let swings = (!ideal.linear).then_some(options.sample_rate);
         Ok(CymbalPlate { spec, receivers, known, tables, splitting, hammering, limit_hz, swings, highest_hz })
     }
 
@@ -234,7 +234,8 @@ impl<'a> CymbalPlate<'a> {
         (rows, coupled): (&Rows, usize),
         mixture: Option<&ModeMixture>,
     ) -> Option<Swing> {
-        let rock = rigid.iter().position(|motion| motion.m == 1).filter(|_| self.swings)?;
+        let sample_rate = self.swings?;
+        let rock = rigid.iter().position(|motion| motion.m == 1)?;
         let members = |motion: &RigidMotion| Splitting::ROUND.members(motion.m, 0).count();
         let [first, still] = [rock, rigid.len()].map(|n| rigid[..n].iter().map(members).sum::<usize>());
         let lobes = Lobes::new(
@@ -246,7 +247,8 @@ impl<'a> CymbalPlate<'a> {
         );
         // The slope of the rock's shape over the radius.
         let slope = (rigid[rock].shape)(1.0) / self.spec.plate().radius();
-        Some(Swing::new(Box::new(lobes), [first, first + 1], slope, (rows.modes.len(), coupled)))
+        let modes = (rows.modes.len(), coupled);
+        Some(Swing::new(Box::new(lobes), [first, first + 1], slope, modes, sample_rate))
     }
 
     /// What becomes of the modes by hammering, from [`MIXED_FROM_HZ`] on; they stand in order of their frequency.

@@ -7,8 +7,6 @@
 //! cycle the weights go there in steps of eight samples. A cycle lasts as long as the body, at the speed of the last one, needs for
 //! a small turn.
 
-use std::ops::RangeInclusive;
-
 use crate::block::BLOCK;
 use crate::modal::sway::Sway;
 use crate::receiver::POINTS;
@@ -19,9 +17,9 @@ use super::body::{SoundingBody, StruckBody};
 /// straight line is within 5 % of such a lobe.
 const TURN: f64 = 0.02;
 
-/// Blocks of a cycle, at least and at most. At least *derived*: a crash turns by 3 rad/s at most, by 0.01 rad in so many, a splash by 0.04.
-/// At most *judgement*: a swing that begins anew is heard 25 ms late.
-const CYCLE: RangeInclusive<usize> = 4..=16;
+/// How long a cycle lasts, s, at least and at most. At least *derived*: a crash turns by 3 rad/s at most, by 0.01 rad in so long, a splash
+/// by 0.04. At most *judgement*: a swing that begins anew is heard 12 ms late.
+const CYCLE: [f64; 2] = [0.003, 0.006];
 
 /// Samples of a step of the weights. *Derived*: images at 5.5 kHz from a mode at 10 kHz lie 40 dB under it.
 const STEP: usize = 8;
@@ -50,10 +48,9 @@ pub trait Directivity: Send {
     fn write_rest(&self, transfers: [&mut [[f64; 2]]; POINTS]);
 }
 
-/// Blocks of a cycle in which a body turns by so much (rad) in a block.
-fn cycle_of(turn: f64) -> usize {
-    let (least, most) = CYCLE.into_inner();
-    ((TURN / turn.max(f64::MIN_POSITIVE)).min(most as f64) as usize).max(least)
+/// Blocks of a cycle of a body that turns by so much (rad) in a block, between the fewest and the most.
+fn cycle_of(turn: f64, [fewest, most]: [usize; 2]) -> usize {
+    ((TURN / turn.max(f64::MIN_POSITIVE)).min(most as f64) as usize).max(fewest)
 }
 
 /// The swing of a body.
@@ -69,6 +66,8 @@ pub struct Swing {
     /// Block of the cycle, if one runs, and how many it has.
     block: Option<usize>,
     cycle: usize,
+    /// Fewest and most blocks of one.
+    cycles: [usize; 2],
     /// Samples into the present block.
     sample: usize,
     /// Whether the weights have left those of rest.
@@ -76,13 +75,15 @@ pub struct Swing {
 }
 
 impl Swing {
-    /// A swing of a body at rest with so many modes, of which the first are `coupled`. Allocates.
+    /// A swing of a body at rest with so many modes, of which the first are `coupled`, at a sample rate (Hz). Allocates.
     pub fn new(
         directivity: Box<dyn Directivity>,
         rock: [usize; 2],
         tilt_per_metre: f64,
         (modes, coupled): (usize, usize),
+        sample_rate: f64,
     ) -> Swing {
+        let cycles = CYCLE.map(|seconds| ((seconds * sample_rate / BLOCK as f64).round() as usize).max(2));
         let sway = Sway::new(modes, coupled);
         Swing {
             directivity,
@@ -91,7 +92,8 @@ impl Swing {
             sway,
             tilt: [0.0; 2],
             block: None,
-            cycle: *CYCLE.start(),
+            cycle: cycles[0],
+            cycles,
             sample: 0,
             moved: false,
         }
@@ -115,7 +117,7 @@ impl Swing {
             }
             Some(_) => {
                 let tilt = self.tilt(body);
-                self.cycle = cycle_of(self.turned_to(tilt) / self.cycle as f64);
+                self.cycle = cycle_of(self.turned_to(tilt) / self.cycle as f64, self.cycles);
                 let Swing { directivity, sway, .. } = self;
                 directivity.write(sway.transfers_mut());
                 body.modal.aim(sway, 0..body.modal.len());
@@ -125,7 +127,7 @@ impl Swing {
             }
             None => {
                 let tilt = self.tilt(body);
-                self.cycle = cycle_of(self.turned_to(tilt));
+                self.cycle = cycle_of(self.turned_to(tilt), self.cycles);
                 self.begin_cycle(tilt);
             }
         }
@@ -168,7 +170,7 @@ impl Swing {
     pub fn reset(&mut self, body: &mut SoundingBody) -> bool {
         self.sway.stop();
         (self.tilt, self.block, self.sample) = ([0.0; 2], None, 0);
-        self.cycle = *CYCLE.start();
+        self.cycle = self.cycles[0];
         if !std::mem::take(&mut self.moved) {
             return false;
         }
@@ -186,6 +188,7 @@ mod tests {
 
     #[test]
     fn a_cycle_lasts_until_the_body_has_turned_a_little() {
-        assert_eq!([0.0, 1e-9, 0.0021, 0.004, 0.1].map(cycle_of), [16, 16, 9, 5, 4]);
+        let cycles = [0.0, 1e-9, 0.0021, 0.004, 0.1].map(|turn| cycle_of(turn, [4, 17]));
+        assert_eq!(cycles, [17, 17, 9, 5, 4]);
     }
 }
