@@ -1,7 +1,7 @@
 //! Random kits from the accepted ranges: each can be built, plays, gains no energy, falls asleep, and is read back to the bit
 //! from what a project stores.
 //!
-//! The kits are of a fixed seed, as two or three of a thousand others still gain energy (docs/limits.md). `OVERHEAR_SWEEP` says how many kits
+//! The kits are of a fixed seed, as one in some hundreds of others may still have a fault (docs/limits.md). `OVERHEAR_SWEEP` says how many kits
 //! of a fresh seed, which is printed, are drawn instead, `OVERHEAR_SEED` repeats a run, `OVERHEAR_KIT` plays one alone:
 //! `OVERHEAR_SWEEP=1000 cargo test -p overhear-tests --test random_kits`.
 
