@@ -69,7 +69,7 @@ impl Numbers for Material {
 }
 
 impl Material {
-    /// Shows the numbers of the `material` of what the pull of a head hangs on: 1 GPa at least, as soft as plastics are.
+    /// Shows the numbers of the `material` of a shell or hoop, which bears the pull of a head: 1 GPa at least, as soft as plastics are.
     pub fn visit_bearing(&mut self, visitor: &mut dyn Visitor) {
         visitor.enter("material");
         visitor.number("youngs_modulus_pa", &mut self.youngs_modulus, 1e9..=1e12);

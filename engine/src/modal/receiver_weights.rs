@@ -91,8 +91,9 @@ pub(super) fn weights_of(
     for i in 0..TOGETHER {
         let (mode, [h_re, h_im]) = (modes.mode(i), transfers[i]);
         let (omega_d, sigma) = (mode.omega_d(), mode.sigma);
-        // What of a turn of the phase there is while the mode decays: of a mode near critical damping the real part of the state
-        // is huge beside its motion, and would be heard as that. By a hundredth of damping it changes 5e-5.
+        // The imaginary part reads the real part of the state, `(q' + sigma q) / omega_d`, which near critical damping is far
+        // larger than the motion: scaled by `omega_d / omega`, it is heard as loud as the motion is. With a hundredth of critical
+        // damping this changes it by 5e-5. A judgement: no equation for a phase near critical damping is at hand.
         let h_im = h_im * omega_d / (omega_d * omega_d + sigma * sigma).sqrt();
         let heard = omega_d * dt < std::f64::consts::PI;
         let (l2_re, l2_im) = (sigma * sigma - omega_d * omega_d, -2.0 * sigma * omega_d);

@@ -182,6 +182,13 @@ fn a_wait_that_runs_out_says_so() {
     let mut builder = builder(slow);
     let _ = ordered(&mut builder, RATE);
     assert_eq!(builder.wait(Duration::from_millis(1)), Outcome::Late);
+    let begun = Instant::now();
+    while !builder.is_building() {
+        assert!(begun.elapsed() < LONG, "it does not say that it builds");
+        thread::yield_now();
+    }
+    assert_eq!(builder.wait(LONG), Outcome::Finished);
+    assert!(!builder.is_building());
 }
 
 #[test]
