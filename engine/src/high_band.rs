@@ -48,6 +48,8 @@
 //! Source: Weyl's law as in Rossing & Fletcher, Principles of Vibration and Sound, ch. 3; Cremer, Heckl &
 //! Petersson, Structure-Borne Sound, ch. 6 (radiation of bending waves at an edge). The mean square is derived here.
 
+mod force_sums;
+mod point_band;
 mod slices;
 mod walk;
 
@@ -57,12 +59,12 @@ use crate::air_load::SPEED_OF_SOUND;
 use crate::modal::inaudible_modes::InaudibleModes;
 use crate::modal::simd::MAX_RUN;
 use crate::modal::smoothing::Smoothing;
-use crate::modal::{
-    InputVector, MAX_DRIVES, ModalBody, Mode, Pressure, RECEIVERS, ReceiverWeights, Row, zero_row,
-};
+use crate::modal::{MAX_DRIVES, ModalBody, Mode, RECEIVERS, ReceiverWeights, Row, zero_row};
 
 use crate::receiver::POINTS;
 
+use force_sums::{ForceSums, interleaved};
+use point_band::PointBand;
 pub use slices::{HighBandSpec, HighMuffling, Receiver, SLICES, SLICES_UNDER_WIRES};
 use slices::{
     Slice, SliceTable, TunedSlice, UnderPad, Waves, away, endless_sheet, rim_strip, slices, taken,
@@ -89,37 +91,6 @@ pub struct SliceInfo {
     pub monopole_area: f64,
 }
 
-/// A place that is pressed on, and how hard over the present run.
-struct PointBand {
-    port: InputVector,
-    /// Pressure at once per unit force, Pa/N: the slices' at each point; an endless sheet's; what of that the complete set lacks.
-    direct: [f32; POINTS],
-    sheet: f32,
-    lacking: f32,
-    /// The slow part of the force, N.
-    slow: f32,
-    forces: [f32; MAX_RUN],
-    pressed: bool,
-}
-
-impl PointBand {
-    /// Adds what follows the forces of the run at once.
-    fn add_direct(&mut self, follow: f32, gains: &[f32; POINTS], out: &mut [&mut [f32]]) {
-        for (sample, force) in self.forces.iter().enumerate().take(out[0].len()) {
-            self.slow += follow * (force - self.slow);
-            let lacking = self.lacking * (force - self.slow);
-            for ((out, direct), gain) in out.iter_mut().zip(&self.direct).zip(gains) {
-                out[sample] += direct * force + gain * lacking;
-            }
-        }
-    }
-}
-
-/// Of the pressure at each receiver that at the points.
-fn at_points(pressure: Pressure) -> [f32; POINTS] {
-    std::array::from_fn(|point| pressure[point])
-}
-
 /// What the slices last followed.
 struct Laid {
     /// The slices at every tension, without muffling.
@@ -133,6 +104,52 @@ struct Laid {
     inaudible: InaudibleModes,
 }
 
+/// Places that forces can act on.
+struct Places {
+    all: Vec<PointBand>,
+    /// What the slices take if the places are far apart.
+    sums: Option<ForceSums>,
+}
+
+impl Places {
+    /// The places of a band of so many slices. Allocates.
+    fn new(spec: &HighBandSpec, slices: usize) -> Places {
+        let most = if spec.apart { force_sums::MOST } else { MAX_DRIVES };
+        Places {
+            all: (0..spec.places.min(most)).map(|_| PointBand::new(slices)).collect(),
+            sums: spec.apart.then(|| ForceSums::new(slices)),
+        }
+    }
+
+    /// Follows the slices.
+    fn connect(&mut self, body: &ModalBody, pickup: &ReceiverWeights) {
+        match &mut self.sums {
+            Some(sums) => sums.stale = true,
+            None => self.all.iter_mut().for_each(|place| place.connect(body, pickup)),
+        }
+    }
+
+    /// Follows the shapes at place `i`.
+    fn connect_one(&mut self, i: usize, body: &ModalBody, pickup: &ReceiverWeights) {
+        match &mut self.sums {
+            Some(sums) => sums.stale = true,
+            None => self.all[i].connect(body, pickup),
+        }
+    }
+
+    /// Advances the slices through a run under the forces at the places, and listens.
+    fn ring(&mut self, body: &mut ModalBody, pickup: &ReceiverWeights, heard: &mut [&mut [f32]; RECEIVERS]) {
+        let mut pressed = self.all.iter().filter(|place| place.pressed).peekable();
+        match &mut self.sums {
+            Some(sums) if pressed.peek().is_some() => sums.ring(&self.all, (body, pickup), heard),
+            _ => {
+                let drives = pressed.map(|place| (&place.port, &place.forces[..]));
+                body.ring_driven(0, drives, pickup, heard.each_mut().map(|row| &mut **row));
+            }
+        }
+    }
+}
+
 /// The high band of one head.
 pub struct HighBand {
     spec: HighBandSpec,
@@ -141,7 +158,7 @@ pub struct HighBand {
     slices: Vec<Slice>,
     waves: Waves,
     laid: Laid,
-    places: Vec<PointBand>,
+    places: Places,
     /// How far the slow part of a force follows it in a sample.
     follow: f32,
     /// Loudness at each point over that at the near one: far away, as at a metre.
@@ -161,19 +178,10 @@ pub struct HighBand {
 impl HighBand {
     /// The band at rest, at the tension it is laid out for. Allocates.
     pub fn new(spec: &HighBandSpec) -> HighBand {
-        let slices = slices(spec);
+        let slices = if spec.apart { interleaved(slices(spec)) } else { slices(spec) };
         let table = SliceTable::new(spec, &slices);
         let modes: Vec<Mode> = table.at(spec.tensions[1]).map(|slice| slice.mode).collect();
         let count = modes.len();
-        let place = |_| PointBand {
-            port: InputVector::new(count),
-            direct: [0.0; POINTS],
-            sheet: 0.0,
-            lacking: 0.0,
-            slow: 0.0,
-            forces: [0.0; MAX_RUN],
-            pressed: false,
-        };
         let corner = SQRT_2 * SPEED_OF_SOUND / spec.head.radius;
         let away = away(spec, &slices);
         let mut band = HighBand {
@@ -191,7 +199,7 @@ impl HighBand {
             },
             waves: Waves::new(spec, &slices),
             slices,
-            places: (0..spec.places.min(MAX_DRIVES)).map(place).collect(),
+            places: Places::new(spec, count),
             follow: (1.0 - (-corner / spec.sample_rate).exp()) as f32,
             smoothing: Smoothing::default(),
             glide: zero_row(count),
@@ -217,7 +225,7 @@ impl HighBand {
             self.lay(tension);
         }
         self.laid.muffling = *muffling;
-        let HighBand { spec, body, pickup, slices, smoothing, laid, .. } = self;
+        let HighBand { spec, body, pickup, slices, smoothing, laid, places, .. } = self;
         let Laid { under, modes, inaudible, .. } = laid;
         let under = under.of(muffling, slices);
         let held = |k: usize| if spec.lossless { 0.0 } else { muffling.sigma(under[k]) };
@@ -225,10 +233,7 @@ impl HighBand {
         body.tune(pickup);
         body.update_thresholds(inaudible, pickup, 0, None);
         smoothing.step(before, body.listen(pickup));
-        for place in &mut self.places {
-            body.connect(&mut place.port);
-            place.direct = at_points(pickup.direct_at(body, &place.port));
-        }
+        places.connect(body, pickup);
     }
 
     /// Brings what follows from the head's tension (N/m) to it.
@@ -252,7 +257,7 @@ impl HighBand {
 
     /// Places that forces can act on.
     pub fn places(&self) -> usize {
-        self.places.len()
+        self.places.all.len()
     }
 
     /// Puts place `i` somewhere: distance from the centre as a share of the radius, direction in rad, and the
@@ -263,10 +268,10 @@ impl HighBand {
     pub fn put(&mut self, i: usize, radius: f64, angle: f64, patch: f64) {
         let HighBand { spec, body, pickup, slices, waves, places, .. } = self;
         body.end_detuning();
-        let PointBand { port, direct, sheet, .. } = &mut places[i];
-        *sheet = endless_sheet(spec, slices, radius, angle) as f32;
+        let place = &mut places.all[i];
+        place.sheet = endless_sheet(spec, slices, radius, angle) as f32;
         let known = waves.pressed.of(patch);
-        let shape = port.shape_mut();
+        let shape = place.port.shape_mut();
         body.kernels().vectorized(
             #[inline(always)]
             || waves.fill(radius, angle, shape),
@@ -274,13 +279,12 @@ impl HighBand {
         for (k, (shape, slice)) in shape.iter_mut().zip(&*slices).enumerate() {
             *shape *= known.map_or_else(|| taken(spec, slice, patch), |known| known.get(k)) as f32;
         }
-        body.connect(port);
-        *direct = at_points(pickup.direct_at(body, port));
+        places.connect_one(i, body, pickup);
     }
 
     /// Tells place `i` what the complete set's pressure is at once per unit force there, Pa/N.
     pub fn complete(&mut self, i: usize, direct: f32) {
-        let place = &mut self.places[i];
+        let place = &mut self.places.all[i];
         place.lacking = place.sheet - direct;
     }
 
@@ -289,8 +293,8 @@ impl HighBand {
     /// # Panics
     /// If the sample is not below [`MAX_RUN`].
     pub fn push(&mut self, i: usize, sample: usize, force: f32) {
-        self.places[i].forces[sample] = force;
-        self.places[i].pressed |= force != 0.0;
+        self.places.all[i].forces[sample] = force;
+        self.places.all[i].pressed |= force != 0.0;
         self.loaded |= force != 0.0;
     }
 
@@ -300,17 +304,15 @@ impl HighBand {
     /// Linear in slices times samples times places pressed; nothing at rest.
     pub fn render(&mut self, out: &mut [&mut [f32]; RECEIVERS]) {
         let HighBand { body, pickup, places, follow, rings, gains, smoothing, .. } = self;
-        *rings |= places.iter().any(|place| place.pressed);
+        *rings |= places.all.iter().any(|place| place.pressed);
         if !*rings {
             return;
         }
         let mut sounds = [[0.0; MAX_RUN]; RECEIVERS];
         let mut heard = sounds.each_mut().map(|row| &mut row[..out[0].len()]);
-        let pressed = places.iter().filter(|place| place.pressed);
-        let drives = pressed.map(|place| (&place.port, &place.forces[..]));
-        body.ring_driven(0, drives, pickup, heard.each_mut().map(|row| &mut **row));
+        places.ring(body, pickup, &mut heard);
         smoothing.add_to(&mut heard);
-        for place in places.iter_mut().filter(|place| place.pressed || place.slow != 0.0) {
+        for place in places.all.iter_mut().filter(|place| place.pressed || place.slow != 0.0) {
             place.add_direct(*follow, gains, &mut heard);
             if std::mem::take(&mut place.pressed) {
                 place.forces.fill(0.0);
@@ -328,18 +330,18 @@ impl HighBand {
     pub fn settle(&mut self) -> bool {
         if self.rings {
             self.body.flush_inaudible(&self.laid.inaudible);
-            for place in self.places.iter_mut().filter(|place| place.slow.abs() < FAINT) {
+            for place in self.places.all.iter_mut().filter(|place| place.slow.abs() < FAINT) {
                 place.slow = 0.0;
             }
             self.rings = !self.body.is_still()
                 || !self.smoothing.is_over()
-                || self.places.iter().any(|place| place.slow != 0.0);
+                || self.places.all.iter().any(|place| place.slow != 0.0);
             if !self.rings {
                 self.body.end_detuning();
                 self.walk.reset();
             }
         }
-        self.body.is_finite() && self.places.iter().all(|place| place.slow.is_finite())
+        self.body.is_finite() && self.places.all.iter().all(|place| place.slow.is_finite())
     }
 
     /// Lets the slices follow a tension (N/m) that is added to the head's for the next block, and their phases take a step. While a force acts they
@@ -367,7 +369,7 @@ impl HighBand {
         self.walk.reset();
         self.smoothing = Smoothing::default();
         (self.rings, self.loaded) = (false, false);
-        for place in &mut self.places {
+        for place in &mut self.places.all {
             place.forces.fill(0.0);
             (place.pressed, place.slow) = (false, 0.0);
         }
@@ -378,7 +380,7 @@ impl HighBand {
         self.body.energy()
     }
 
-    /// The slices that are heard, lowest first, as they are now.
+    /// The slices that are heard, as they are now; lowest first, unless places are far [apart](HighBandSpec::apart).
     pub fn slices(&self) -> impl Iterator<Item = SliceInfo> + '_ {
         let top = TAU * top_hz(self.spec.sample_rate);
         let rows = self.body.modes().iter().zip(&self.slices);

@@ -235,14 +235,39 @@ impl ModalBody {
         first: usize,
         drives: impl Iterator<Item = (&'a InputVector, &'a [f32])>,
         weights: &ReceiverWeights,
-        mut out: [&mut [f32]; RECEIVERS],
+        out: [&mut [f32]; RECEIVERS],
     ) {
-        let mut held = [Drive { gain_re: &[], gain_im: &[], forces: &[] }; MAX_DRIVES];
+        let mut held = [Drive { gain_re: &[], gain_im: &[], forces: &[], turns: 1 }; MAX_DRIVES];
         let mut count = 0;
         for (held, (input, forces)) in held.iter_mut().zip(drives) {
-            *held = Drive { gain_re: &input.gain_re[first..], gain_im: &input.gain_im[first..], forces };
+            *held = input.drive(first, forces, 1);
             count += 1;
         }
+        self.ring_under(first, &held[..count], weights, out);
+    }
+
+    /// [`ring`](Self::ring) of all modes under forces at an input vector (N, `[turn][sample]`, as many samples in each as `out` has): [`simd::REST`]
+    /// modes after [`simd::REST`] modes take the forces of the turns one after the other.
+    ///
+    /// # Real-time
+    /// As [`ring_driven`](Self::ring_driven) with one force.
+    pub fn ring_in_turns(
+        &mut self,
+        (input, forces, turns): (&InputVector, &[f32], usize),
+        weights: &ReceiverWeights,
+        out: [&mut [f32]; RECEIVERS],
+    ) {
+        self.ring_under(0, &[input.drive(0, forces, turns)], weights, out);
+    }
+
+    /// Advances the modes from `first` on under forces.
+    fn ring_under(
+        &mut self,
+        first: usize,
+        drives: &[Drive<'_>],
+        weights: &ReceiverWeights,
+        mut out: [&mut [f32]; RECEIVERS],
+    ) {
         let detuning = self.detuning.as_ref().filter(|detuning| detuning.is_active);
         let (turn_re, turn_im) = match detuning {
             Some(detuning) => (&detuning.turn_re, &detuning.turn_im),
@@ -255,9 +280,9 @@ impl ModalBody {
             turn_im: &turn_im[first..],
             heard: std::array::from_fn(|i| weights.receivers[i].from(first, std::mem::take(&mut out[i]))),
         };
-        match count {
-            0 => self.kernels.ring(&mut ring),
-            _ => self.kernels.ring_driven(&mut ring, &held[..count]),
+        match drives {
+            [] => self.kernels.ring(&mut ring),
+            drives => self.kernels.ring_driven(&mut ring, drives),
         }
     }
 

@@ -60,12 +60,13 @@ impl TunedHead {
         Ok(TunedHead { membrane, tensions, limit_hz })
     }
 
-    /// What the head does above its modes, in slices of that density (an octave), pressed on at so many places.
+    /// What the head does above its modes, in slices of that density (an octave), pressed on at so many places, which may be more than half a
+    /// wave apart.
     pub fn high_band(
         &self,
         ear: Receiver,
         context: &BuildContext,
-        (density, places): (f64, usize),
+        (density, places, apart): (f64, usize, bool),
     ) -> HighBandSpec {
         let limit = TAU * self.limit_hz;
         let reached =
@@ -81,6 +82,7 @@ impl TunedHead {
             sample_rate: context.options.sample_rate,
             seed: 100 + u32::from(ear.far),
             places,
+            apart,
         }
     }
 

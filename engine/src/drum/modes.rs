@@ -123,7 +123,7 @@ impl DrumModes {
     pub fn high_band(&self, spec: &DrumSpec, context: &BuildContext) -> HighBandSpec {
         let Receivers { near, far } = context.receivers;
         let ear = Receiver { point: near, away: far, outside: spec.outside(), far: false };
-        self.heads.batter.high_band(ear, context, (density(spec), STRIKER_PLACES))
+        self.heads.batter.high_band(ear, context, (density(spec), STRIKER_PLACES, false))
     }
 
     /// What the resonant head does above its modes, for wires to set going.
@@ -132,7 +132,7 @@ impl DrumModes {
         let Receivers { near, far } = context.receivers;
         let ear = Receiver { point: near.from_behind(behind), away: far, outside: spec.outside(), far: true };
         let head = self.heads.resonant.as_ref()?;
-        Some(head.high_band(ear, context, (density(spec), wires::SECTIONS)))
+        Some(head.high_band(ear, context, (density(spec), wires::SECTIONS, true)))
     }
 }
 

@@ -62,6 +62,8 @@ pub struct HighBandSpec {
     pub seed: u32,
     /// Places that forces can act on at once, at most [`MAX_DRIVES`](crate::modal::MAX_DRIVES).
     pub places: usize,
+    /// Whether these are more than half a wave apart.
+    pub apart: bool,
 }
 
 /// One slice: a chance wave.

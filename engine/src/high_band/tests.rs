@@ -6,6 +6,7 @@ use crate::drum::modes::DrumModes;
 use crate::drum::spec::DrumSpec;
 use crate::kit_spec::PieceBuild;
 use crate::reference;
+use crate::surface::wires;
 
 const RATE: f64 = 44_100.0;
 
@@ -190,4 +191,41 @@ fn energy_after_a_slow_force(walks: bool) -> f64 {
 fn what_a_slow_force_bends_is_not_turned_into_motion() {
     let [still, walking] = [false, true].map(energy_after_a_slow_force);
     assert!((walking / still - 1.0).abs() < 0.01, "{walking:e} J for {still:e} J");
+}
+
+/// Energy (J) that noise at all sections of the wires gives the snare's far band, by sums of the forces if its places are `apart`: the
+/// mean over some courses of the noise.
+fn energy_under_wires(apart: bool) -> f64 {
+    let build = reference::standard("snare");
+    let drum = build.spec.drum().unwrap();
+    let context = build.context(BuildOptions::new(RATE));
+    let spec = DrumModes::new(drum).unwrap().far_high_band(drum, &context).unwrap();
+    assert!(spec.apart);
+    let mut band = HighBand::new(&HighBandSpec { apart, ..spec });
+    for (i, [x, y]) in wires::PLACES.into_iter().enumerate() {
+        band.put(i, x.hypot(y), x.atan2(-y), wires::TURN);
+    }
+    const COURSES: u64 = 40;
+    let energy = |seed: u64| {
+        let mut noise = fastrand::Rng::with_seed(seed);
+        let mut rows = [[0.0; 32]; RECEIVERS];
+        band.reset();
+        for _ in 0..100 {
+            for sample in 0..32 {
+                // The outer sections are pressed on more than the inner ones.
+                (0..band.places())
+                    .for_each(|i| band.push(i, sample, [2.0, 1.0][i % 2] * (noise.f32() - 0.5)));
+            }
+            band.render(&mut rows.each_mut().map(|row| &mut row[..]));
+        }
+        band.energy() / COURSES as f64
+    };
+    (0..COURSES).map(energy).sum()
+}
+
+#[test]
+fn sums_of_the_forces_set_going_as_much_as_every_force_by_itself() {
+    let [each, sums] = [false, true].map(energy_under_wires);
+    println!("{each:e} J by itself, {sums:e} J by sums");
+    assert!((sums / each - 1.0).abs() < 0.03, "{sums:e} J for {each:e} J");
 }

@@ -1,6 +1,7 @@
 //! Input vectors: the weights with which a force acts on the modes.
 
 use super::row::{Row, zero_row};
+use super::simd::ring::Drive;
 
 /// Weights with which a force acts on the modes: the mode shapes at a point, or over a patch.
 pub struct InputVector {
@@ -26,5 +27,10 @@ impl InputVector {
     /// Mode shapes at the point, `[mode]`, relative to the modal displacement, padded.
     pub fn shape(&self) -> &[f32] {
         &self.shape
+    }
+
+    /// The modes from `first` on as forces (N) in turns drive them.
+    pub(super) fn drive<'a>(&'a self, first: usize, forces: &'a [f32], turns: usize) -> Drive<'a> {
+        Drive { gain_re: &self.gain_re[first..], gain_im: &self.gain_im[first..], forces, turns }
     }
 }

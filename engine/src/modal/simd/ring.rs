@@ -19,8 +19,10 @@ pub struct Drive<'a> {
     pub gain_re: &'a [f32],
     /// Effect of a unit force held for a sample, `[mode]`.
     pub gain_im: &'a [f32],
-    /// `[sample]`, N.
+    /// `[turn][sample]`, N: [`REST`] modes after [`REST`] modes take the forces of the turns one after the other.
     pub forces: &'a [f32],
+    /// Turns, at least 1.
+    pub turns: usize,
 }
 
 /// Operands of [`Kernels::ring`]; all rows `[mode]`.
@@ -177,8 +179,15 @@ struct RingRows<'a, S: Simd> {
     driven: usize,
 }
 
-/// Effect of a unit force, real and imaginary part, and the forces.
-type DriveRows<'a, S> = (&'a [<S as Simd>::f32s], &'a [<S as Simd>::f32s], &'a [f32]);
+/// Effect of a unit force, real and imaginary part, the forces, and their turns.
+type DriveRows<'a, S> = (&'a [<S as Simd>::f32s], &'a [<S as Simd>::f32s], &'a [f32], usize);
+
+/// The forces that act on modes from a lane on.
+#[inline(always)]
+fn forces_of(forces: &[f32], turns: usize, lane: usize) -> &[f32] {
+    let samples = forces.len() / turns;
+    &forces[lane / REST % turns * samples..][..samples]
+}
 
 impl<'a, S: Simd> RingRows<'a, S> {
     #[inline(always)]
@@ -190,9 +199,14 @@ impl<'a, S: Simd> RingRows<'a, S> {
     ) -> Self {
         let pair =
             |heard: &'a PressureSum<'_>| [heard.weight_re, heard.weight_im].map(|row| S::as_simd_f32s(row).0);
-        let mut rows: [DriveRows<'a, S>; MAX_DRIVES] = [(&[], &[], &[]); MAX_DRIVES];
+        let mut rows: [DriveRows<'a, S>; MAX_DRIVES] = [(&[], &[], &[], 1); MAX_DRIVES];
         for (row, drive) in rows.iter_mut().zip(drives) {
-            *row = (S::as_simd_f32s(drive.gain_re).0, S::as_simd_f32s(drive.gain_im).0, drive.forces);
+            *row = (
+                S::as_simd_f32s(drive.gain_re).0,
+                S::as_simd_f32s(drive.gain_im).0,
+                drive.forces,
+                drive.turns,
+            );
         }
         RingRows {
             turn: [turn_re, turn_im].map(|row| S::as_simd_f32s(row).0),
@@ -242,12 +256,16 @@ fn ring_groups<S: Simd, const G: usize, const E: usize, const DRIVEN: bool>(
     let (mut z_re, mut z_im) = (load(re), load(im));
     let [t_re, t_im] = rows.turn.map(load);
     let weights: [_; E] = std::array::from_fn(|receiver| rows.heard[receiver].map(load));
+    let mut acting: [&[f32]; MAX_DRIVES] = [&[]; MAX_DRIVES];
+    for (acting, (_, _, forces, turns)) in acting.iter_mut().zip(rows.drives()) {
+        *acting = forces_of(forces, *turns, first * S::F32_LANES);
+    }
     for (sample, sum) in sums.iter_mut().enumerate() {
         for i in 0..G {
             (z_re[i], z_im[i]) = turn(simd, fma, (z_re[i], z_im[i]), (t_re[i], t_im[i]));
         }
         if DRIVEN {
-            for (gain_re, gain_im, forces) in rows.drives() {
+            for ((gain_re, gain_im, ..), forces) in rows.drives().zip(&acting) {
                 let force = simd.splat_f32s(forces[sample]);
                 let (gain_re, gain_im) = (&gain_re[first..first + G], &gain_im[first..first + G]);
                 for i in 0..G {
