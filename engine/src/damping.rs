@@ -64,7 +64,11 @@ impl LossLaw {
 /// `2 k^2 A / a` (Rellich's identity), so all modes lose at the rate `sigma = T Re Y / a` where tension rules and the air
 /// weighs what it does: nothing at low frequency, the same for all high ones.
 ///
-/// Limits: the edge is alike all around; it does not detune the modes (by `T / (k a)`, a quarter of a percent).
+/// Modes of the orders 0 and 1 also pull on the drum as a whole, by a force and by a moment; those of higher orders do not. What its body
+/// and mount take from these is a decay rate of its own.
+///
+/// Limits: the edge is alike all around; it does not detune the modes (by `T / (k a)`, a quarter of a percent). What the mount takes is the same at all
+/// frequencies.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct EdgeSpec {
@@ -73,12 +77,16 @@ pub struct EdgeSpec {
     pub resistance: f64,
     /// `f_c`, where the dashpot takes over from the spring, Hz, 10 to 20,000.
     pub corner_hz: f64,
+    /// Decay rate by the drum's body and mount, of modes of the orders 0 and 1, 1/s, 0 to 1000.
+    #[serde(default, rename = "mount_1_s")]
+    pub mount: f64,
 }
 
 impl Numbers for EdgeSpec {
     fn visit(&mut self, visitor: &mut dyn Visitor) {
         visitor.number("resistance_n_s_m2", &mut self.resistance, 10.0..=1e6);
         visitor.number("corner_hz", &mut self.corner_hz, 10.0..=20_000.0);
+        visitor.number("mount_1_s", &mut self.mount, 0.0..=1000.0);
     }
 }
 
@@ -87,6 +95,11 @@ impl EdgeSpec {
     pub fn mobility(&self, omega: f64) -> f64 {
         let ratio = (TAU * self.corner_hz / omega).powi(2);
         1.0 / (self.resistance * (1.0 + ratio))
+    }
+
+    /// Decay rate by the drum's body and mount of a mode of order `m`, 1/s.
+    pub fn mount_sigma(&self, m: u32) -> f64 {
+        if m <= 1 { self.mount } else { 0.0 }
     }
 }
 

@@ -303,7 +303,8 @@ impl Membrane {
         }
         let k = mode.zero / self.spec.radius;
         let edge = self.spec.edge_sigma(tension, k, mass / self.spec.area(), omega);
-        Ringing { omega, sigma: self.spec.loss.sigma(omega) + edge, mass }
+        let mount = self.spec.edge.map_or(0.0, |edge| edge.mount_sigma(mode.m));
+        Ringing { omega, sigma: self.spec.loss.sigma(omega) + edge + mount, mass }
     }
 
     /// The tension (N/m) that puts mode `(m, n)` at a frequency (Hz); `None` if there is no such mode.
@@ -385,8 +386,26 @@ mod tests {
     }
 
     #[test]
+    fn a_mount_takes_from_modes_that_pull_on_the_whole_drum_alone() {
+        let ringing = |mount| {
+            let edge = EdgeSpec { resistance: 400.0, corner_hz: 200.0, mount };
+            let spec = MembraneSpec { edge: Some(edge), ..timpani() };
+            let membrane = Membrane::new(spec, Surroundings::Air, &range(2729.0)).unwrap();
+            membrane
+                .modes()
+                .iter()
+                .map(|mode| (mode.m, membrane.ringing(mode, 2729.0).sigma))
+                .collect::<Vec<_>>()
+        };
+        for ((m, free), (_, held)) in ringing(0.0).into_iter().zip(ringing(7.0)) {
+            let expected = if m <= 1 { 7.0 } else { 0.0 };
+            assert!((held - free - expected).abs() < 1e-9, "order {m}: {free} to {held} 1/s");
+        }
+    }
+
+    #[test]
     fn an_edge_takes_the_same_from_every_mode_above_its_corner() {
-        let edge = EdgeSpec { resistance: 400.0, corner_hz: 200.0 };
+        let edge = EdgeSpec { resistance: 400.0, corner_hz: 200.0, mount: 0.0 };
         let spec = MembraneSpec { thickness: 0.02e-3, edge: Some(edge), ..timpani() };
         let membrane = Membrane::new(spec, Surroundings::Vacuum, &range(2729.0)).unwrap();
         for mode in membrane.modes() {

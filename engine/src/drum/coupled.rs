@@ -220,7 +220,7 @@ impl<'a> OrderProblem<'a> {
             share[usize::from(part.far)] += kinetic;
             sigma += kinetic * part.head.membrane.spec().loss.sigma(omega);
         }
-        sigma += self.edge_sigma(parts, omega, &vector);
+        sigma += self.edge_sigma(parts, omega, &vector, share[0] + share[1]);
         if let Some(cavity) = self.cavity {
             let springs = cavity.modes.iter().filter(|mode| mode.omega > 0.0);
             for (mode, y) in springs.zip(&vector[heads..]) {
@@ -247,8 +247,8 @@ impl<'a> OrderProblem<'a> {
     }
 
     /// Decay rate by what the edges take from a mode of unit modal mass, 1/s: `T^2 Re Y int (dw/dn)^2 ds / (2 omega^2)`
-    /// of each head.
-    fn edge_sigma(&self, parts: &[Part], omega: f64, vector: &[f64]) -> f64 {
+    /// of each head, and what the mount takes of the heads' share of its energy.
+    fn edge_sigma(&self, parts: &[Part], omega: f64, vector: &[f64], share: f64) -> f64 {
         let mut pulls = [0.0; 2];
         for (part, q) in parts.iter().zip(vector) {
             pulls[usize::from(part.far)] += q * part.head.tension * part.head.membrane.rim_slope(part.mode);
@@ -257,7 +257,7 @@ impl<'a> OrderProblem<'a> {
         let radius = self.batter.membrane.spec().radius;
         let around = radius * std::f64::consts::PI * if self.m == 0 { 2.0 } else { 1.0 };
         let square = pulls.iter().map(|pull| pull * pull).sum::<f64>();
-        0.5 * around * square * edge.mobility(omega) / (omega * omega)
+        0.5 * around * square * edge.mobility(omega) / (omega * omega) + share * edge.mount_sigma(self.m)
     }
 
     /// Displacement of the air at an open end or in a port.

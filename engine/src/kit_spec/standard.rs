@@ -198,7 +198,7 @@ fn single_ply(pitch_ratio: f64, modes_to_hz: f64) -> ResonantSpec {
 const KICK_LOSS: LossLaw =
     LossLaw { constant: fitted::KICK_BATTER_LOSS, per_khz: fitted::TWO_PLY_LOSS_PER_KHZ };
 const TOM_LOSS: LossLaw =
-    LossLaw { constant: fitted::TOM_BATTER_LOSS, per_khz: fitted::TWO_PLY_LOSS_PER_KHZ };
+    LossLaw { constant: LossLaw::SINGLE_PLY.constant, per_khz: fitted::TWO_PLY_LOSS_PER_KHZ };
 const SNARE_LOSS: LossLaw =
     LossLaw { constant: fitted::SNARE_BATTER_LOSS, per_khz: fitted::SNARE_BATTER_LOSS_PER_KHZ };
 const SNARE_SIDE_LOSS: LossLaw =
@@ -253,7 +253,12 @@ fn two_headed(
 }
 
 /// What carries heads on toms and bass drums: collar, bearing edge, hoop and shell. *Fitted*.
-const EDGE: EdgeSpec = EdgeSpec { resistance: fitted::EDGE_RESISTANCE, corner_hz: fitted::EDGE_CORNER_HZ };
+const EDGE: EdgeSpec =
+    EdgeSpec { resistance: fitted::EDGE_RESISTANCE, corner_hz: fitted::EDGE_CORNER_HZ, mount: 0.0 };
+
+/// The same of toms, on their mounts and legs. *Fitted*. A rigid floor tom of 5 kg on a
+/// mount that takes the most, a dashpot of `omega M`, would lose 1.6 1/s of its (0,1) and 0.5 of its (1,1).
+const TOM_EDGE: EdgeSpec = EdgeSpec { mount: fitted::TOM_MOUNT_LOSS, ..EDGE };
 
 /// On snare drums, whose shells are short and whose hoops stiff. *Fitted*.
 const SNARE_EDGE: EdgeSpec = EdgeSpec { resistance: fitted::SNARE_EDGE_RESISTANCE, ..EDGE };
@@ -322,7 +327,7 @@ fn snare() -> InstrumentSpec {
 fn tom(size_in: [f64; 2], pitches: [f64; 3], seed: u32) -> InstrumentSpec {
     let drum = two_headed(size_in, film(0.36e-3, 2, TOM_LOSS), single_ply(1.15, 2500.0), pitches);
     let tension_field = Some(TensionFieldSpec { seed, ..UNEVEN });
-    InstrumentSpec::Drum(DrumSpec { hoop: Some(HOOP), tension_field, ..drum })
+    InstrumentSpec::Drum(DrumSpec { hoop: Some(HOOP), edge: Some(TOM_EDGE), tension_field, ..drum })
 }
 
 /// 12 x 9 in rack tom, heard at 127 Hz, as recorded ones are. *Fitted*.
