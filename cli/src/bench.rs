@@ -7,6 +7,7 @@
 pub mod calibration;
 mod callgrind;
 mod compare;
+mod exchanges;
 mod limit;
 mod measure;
 mod report;
@@ -34,6 +35,7 @@ use rayon::prelude::*;
 
 use crate::progress::Progress;
 use crate::{bad_input, settings};
+use exchanges::Exchanges;
 use limit::Limit;
 use measure::Cost;
 use report::Report;
@@ -75,6 +77,8 @@ pub fn run(request: &Request) -> Result<Report> {
         blocks.push((scene, lasted));
         costs.push((scene, cost));
     }
+    let is_standard = document == KitDocument::standard();
+    let exchanges = is_standard.then(|| Exchanges::measure(request)).transpose()?;
     let widest = Kernels::detect().name();
     let narrower = if request.simd.is_none() { narrower(request, &document)? } else { Vec::new() };
     let counts = if request.callgrind { callgrind::count(request, &document)? } else { Vec::new() };
@@ -83,6 +87,7 @@ pub fn run(request: &Request) -> Result<Report> {
         kit: &document.kit,
         costs,
         blocks,
+        exchanges,
         builds,
         narrower,
         simd: widest,

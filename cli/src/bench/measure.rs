@@ -36,10 +36,25 @@ impl Buffers {
     /// Of so many blocks each, in several scenes; the rate is in Hz.
     pub fn of(scenes: &[Blocks], blocks: usize, rate: f64) -> Buffers {
         let buffers = scenes.iter().flat_map(|scene| scene.0.chunks_exact(blocks));
-        let deadline = (blocks * BLOCK) as f64 / rate;
-        let mut shares: Vec<f64> = buffers.map(|times| times.iter().sum::<f64>() / deadline).collect();
+        let times = buffers.map(|times| times.iter().sum::<f64>()).collect();
+        Buffers::timed(times, (blocks * BLOCK) as f64 / rate)
+    }
+
+    /// Of buffers that took so long, s, and last as long as a deadline, s.
+    pub fn timed(times: Vec<f64>, deadline: f64) -> Buffers {
+        let mut shares: Vec<f64> = times.into_iter().map(|time| time / deadline).collect();
         shares.sort_by(f64::total_cmp);
         Buffers(shares)
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.0.len()
+    }
+
+    /// How many take longer than they last.
+    pub fn late(&self) -> usize {
+        self.0.iter().filter(|&&share| share > 1.0).count()
     }
 
     /// The share of the deadline that so many buffers stay within.
@@ -122,5 +137,7 @@ mod tests {
         assert_eq!([0.0, 0.5, 1.0].map(|q| blocks.within(q)), [1.0, 2.0, 3.0]);
         // Two blocks last twice as long; a rest that is too short for a buffer is dropped.
         assert_eq!(Buffers::of(&scenes, 2, rate).within(1.0), 2.0);
+        // One that takes all of its time is not late.
+        assert_eq!([blocks.late(), blocks.count()], [2, 3]);
     }
 }

@@ -11,13 +11,15 @@ use serde::Serialize;
 
 use super::callgrind::Count;
 use super::compare::Before;
+use super::exchanges::Exchanges;
 use super::limit::Limit;
 use super::measure::{Blocks, Buffers, Cost};
 use super::request::{Builds, Request};
 use super::workload::Scene;
 
 /// Quantiles of the time of a block that are reported.
-const QUANTILES: [(&str, f64); 5] = [("50", 0.5), ("90", 0.9), ("99", 0.99), ("99.9", 0.999), ("100", 1.0)];
+pub(super) const QUANTILES: [(&str, f64); 5] =
+    [("50", 0.5), ("90", 0.9), ("99", 0.99), ("99.9", 0.999), ("100", 1.0)];
 
 /// Buffers of a host, samples, whole blocks.
 const BUFFERS: [usize; 4] = [64, 128, 256, 512];
@@ -52,6 +54,9 @@ pub struct Report {
     buffers: BTreeMap<usize, BTreeMap<&'static str, f64>>,
     /// The percentiles of scenes in which controls move, by scene.
     moved_block_share_percentiles: BTreeMap<&'static str, BTreeMap<&'static str, f64>>,
+    /// Of the standard kit only.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    exchanges: Option<Exchanges>,
     #[serde(flatten)]
     builds: Builds,
     simd: &'static str,
@@ -111,6 +116,7 @@ pub struct Measured<'a> {
     pub kit: &'a KitSpec,
     pub costs: Vec<(Scene, Cost)>,
     pub blocks: Vec<(Scene, Blocks)>,
+    pub exchanges: Option<Exchanges>,
     pub narrower: Vec<(InstructionSet, Scene, Cost)>,
     pub builds: Builds,
     pub simd: &'static str,
@@ -185,6 +191,7 @@ impl Report {
             block_share_percentiles: percentiles(1),
             buffers: BUFFERS.map(|samples| (samples, percentiles(samples / BLOCK))).into(),
             moved_block_share_percentiles,
+            exchanges: measured.exchanges,
             narrower: by_set,
             builds: measured.builds,
             simd: measured.simd,
@@ -261,6 +268,15 @@ impl fmt::Display for Report {
             let shares = QUANTILES.map(|(name, _)| format!("{:>9.1}", 100.0 * percentiles[name])).concat();
             writeln!(f, "{:<20}{shares}", format!("{BLOCK}, {scene}"))?;
         }
+        if let Some(exchanges) = &self.exchanges {
+            for (name, percentiles, [late, buffers]) in exchanges.rows() {
+                let shares =
+                    QUANTILES.map(|(name, _)| format!("{:>9.1}", 100.0 * percentiles[name])).concat();
+                writeln!(f, "{name:<20}{shares}  {late} of {buffers} late")?;
+            }
+            let (pieces, longest_s) = exchanges.takeovers();
+            writeln!(f, "{pieces} pieces taken over, each within {:.1} us", 1e6 * longest_s)?;
+        }
         let Builds {
             instance_s,
             build_cold_s,
@@ -327,6 +343,7 @@ mod tests {
                 .map(|it| (it, Blocks::default()))
                 .into(),
             narrower: vec![(InstructionSet::Sse2, Scene::Groove(quality), cost)],
+            exchanges: Some(Exchanges::example()),
             builds: Builds::default(),
             simd: "avx2",
             counts: Vec::new(),
@@ -343,6 +360,7 @@ mod tests {
             "pieces",
             "idle",
             "worst_block_share",
+            "exchanges",
             "build_cold_s",
             "build_warm_s",
             "memory_mb",
@@ -355,10 +373,13 @@ mod tests {
         assert_eq!(json["moved_block_share_percentiles"]["gliding"]["50"], 0.0);
         assert_eq!(json["cymbals_choked"]["over_ringing"], 1.0);
         assert_eq!(json["pieces"]["crash"]["tiers"].as_object().unwrap().len(), Quality::ALL.len());
+        assert_eq!(json["exchanges"]["with"]["late"], 1);
+        assert_eq!(json["exchanges"]["without"]["late"], 0);
         let before = compare::parse(&json.to_string()).unwrap();
         assert_eq!(before.get("crash high"), Some(&0.6));
         let table = report.beside(before).to_string();
         assert!(table.lines().filter(|line| line.ends_with("x1.00")).count() >= 8, "{table}");
+        assert!(table.contains("1 of 2 late"), "{table}");
         assert!(compare::parse("{}").unwrap_err().to_string().contains("all_at_once"));
     }
 }
