@@ -328,3 +328,29 @@ fn a_level_of_the_whole_kit_that_is_too_much_for_a_piece_is_told_at_its_line() {
         error(&format!("format = 1\nlevel_db = 1\n{wrong}")).starts_with("4: pieces.snare.defaults.level_db")
     );
 }
+
+#[test]
+fn what_no_such_instrument_can_be_is_refused_with_the_nearest_that_can_be_built() {
+    for (piece, field, value) in [
+        // Heads that would tear, and slack ones.
+        ("snare", "pitch_hz", 900.0),
+        ("snare", "pitch_hz", 5.0),
+        ("snare", "highest_pitch_hz", 2_000.0),
+        ("rack-tom", "highest_pitch_hz", 500.0),
+        ("kick", "pitch_hz", 1.0),
+        ("floor-tom", "resonant.pitch_ratio", 9.0),
+        // Foils, and what nobody could lift.
+        ("crash", "mass_g", 60.0),
+        ("crash", "mass_g", 9_000.0),
+        ("hi-hat", "top.mass_g", 50.0),
+        ("hi-hat", "bottom.mass_g", 50.0),
+    ] {
+        let text = |value: &str| format!("format = 1\n[pieces.{piece}]\n{field} = {value}");
+        let refused = error(&text(&value.to_string()));
+        let start = format!("3: pieces.{piece}.{field} is {value}, accepted: ");
+        let range = refused.strip_prefix(&start).unwrap_or_else(|| panic!("{refused}"));
+        let [least, most] = range.split_once(" to ").map(|(least, most)| [least, most]).expect(&refused);
+        let nearest = if value < least.parse().unwrap() { least } else { most };
+        assert!(read("my.toml", &text(nearest)).is_ok(), "{refused}, but {nearest} is refused too");
+    }
+}
