@@ -3,14 +3,16 @@
 //!
 //! `cargo test --package overhear-tests --features traps --test process`
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
 
 use assert_no_alloc::{AllocDisabler, assert_no_alloc, reset_violation_count, violation_count};
-use overhear::building::Pace;
+use overhear::builder::{Arrival, Builder, Delivery, Outcome};
+use overhear::building::{BuildPlan, Pace};
 use overhear::deadline::Deadlines;
 use overhear::kit_document::KitDocument;
 use overhear::midi_map::NoteTable;
-use overhear::parameters::COUNT;
+use overhear::parameters::{COUNT, default_value};
 use overhear::performer::{Performer, Setup};
 use overhear::strokes::{Stroke, Strokes, Waiting, strokes};
 use overhear_engine::piece::Piece;
@@ -167,12 +169,98 @@ fn nothing_allocates_while_the_kit_becomes_another_one_and_is_played_on() {
     assert!(!gone.is_empty(), "nothing has come back");
 }
 
+/// A builder, the kit that it is asked for, and the audio thread's end of it.
+struct Workshop {
+    wanted: Arc<Mutex<Arc<KitDocument>>>,
+    builder: Builder,
+    delivery: Delivery,
+}
+
+/// Longest time in which a kit is built on a machine that does other things, too.
+const BUILT_WITHIN: Duration = Duration::from_secs(300);
+
+impl Workshop {
+    /// One that has been asked for the standard kit.
+    fn new() -> Workshop {
+        let standard = Arc::new(KitDocument::standard());
+        let wanted = Arc::new(Mutex::new(standard.clone()));
+        let asked = wanted.clone();
+        let plan = move || {
+            let document = asked.lock().expect("nobody panics with it").clone();
+            let kit = document.kit.clone();
+            BuildPlan::of(document, move |index| default_value(index, &kit), Pace::RealTime)
+        };
+        let mut builder = Builder::new(Arc::new(plan), Arc::new(Deadlines::default()));
+        let delivery = builder.order(48_000.0, standard);
+        Workshop { wanted, builder, delivery }
+    }
+
+    fn want(&self, document: &Arc<KitDocument>) {
+        *self.wanted.lock().expect("nobody panics with it") = document.clone();
+    }
+
+    /// Takes what has arrived as the plugin does at the head of a buffer; setups and pieces that came.
+    fn deliver(&mut self, performer: &mut Performer) -> [usize; 2] {
+        let mut came = [0; 2];
+        self.delivery.take(|arrival| match arrival {
+            Arrival::Setup(setup) => {
+                came[0] += 1;
+                Some(Arrival::Setup(performer.change_kit(setup)))
+            }
+            Arrival::Piece(piece) => {
+                came[1] += 1;
+                performer.install(piece).map(Arrival::Piece)
+            }
+        });
+        while let Some(piece) = performer.retire() {
+            self.delivery.give_back(piece);
+        }
+        if performer.is_whole() {
+            self.delivery.take_workers(|workers| performer.attach(workers));
+        }
+        came
+    }
+}
+
+#[test]
+fn nothing_allocates_while_kits_arrive_from_the_threads_that_build_them() {
+    let mut session = Session::new(4);
+    let mut workshop = Workshop::new();
+    reset_violation_count();
+    for document in [KitDocument::standard(), another_kit(), KitDocument::standard()].map(Arc::new) {
+        workshop.want(&document);
+        let (deadline, mut came) = (Instant::now() + BUILT_WITHIN, [0; 2]);
+        while *session.performer.document() != *document
+            || !session.performer.is_complete()
+            || workshop.builder.is_building()
+        {
+            assert!(Instant::now() < deadline, "{came:?} have come");
+            let more = assert_no_alloc(|| {
+                session.act();
+                workshop.deliver(&mut session.performer)
+            });
+            came = [came[0] + more[0], came[1] + more[1]];
+            assert_eq!(violation_count(), 0, "as {more:?} came");
+        }
+        // Until what it replaced has faded out and been sent back.
+        for _ in 0..500 {
+            assert_no_alloc(|| {
+                session.act();
+                workshop.deliver(&mut session.performer);
+            });
+        }
+        assert_eq!(violation_count(), 0);
+        assert!(session.performer.is_complete());
+        assert!(session.left.iter().chain(&session.right).all(|x| x.is_finite()));
+    }
+}
+
 /// In a child of this test, which forbids itself all system calls.
 #[cfg(all(target_os = "linux", any(target_arch = "x86_64", target_arch = "aarch64")))]
 mod system_calls {
     use overhear_tests::system_calls::{child_gets_to_its_end, done, forbid};
 
-    use super::Session;
+    use super::{Arc, BUILT_WITHIN, Outcome, Session, Workshop, another_kit};
 
     #[test]
     #[ignore = "run in a child process by the test below"]
@@ -188,5 +276,31 @@ mod system_calls {
     #[test]
     fn ten_thousand_events_performed_make_no_system_call() {
         child_gets_to_its_end("system_calls::child_that_performs");
+    }
+
+    #[test]
+    #[ignore = "run in a child process by the test below"]
+    fn child_that_takes_another_kit() {
+        let mut session = Session::new(5);
+        let mut workshop = Workshop::new();
+        let document = Arc::new(another_kit());
+        workshop.want(&document);
+        // What waits in the queues is all that this thread needs of the others.
+        assert_eq!(workshop.builder.wait(BUILT_WITHIN), Outcome::Finished);
+        forbid();
+        let mut came = [0; 2];
+        for _ in 0..1_000 {
+            session.act();
+            let more = workshop.deliver(&mut session.performer);
+            came = [came[0] + more[0], came[1] + more[1]];
+        }
+        // A piece that is the same in both kits stays.
+        let whole = session.performer.is_complete() && *session.performer.document() == *document;
+        done(came[0] == 1 && came[1] > 0 && whole);
+    }
+
+    #[test]
+    fn another_kit_is_taken_without_a_system_call() {
+        child_gets_to_its_end("system_calls::child_that_takes_another_kit");
     }
 }

@@ -7,7 +7,8 @@
 use std::path::Path;
 
 use assert_no_alloc::{AllocDisabler, assert_no_alloc, reset_violation_count, violation_count};
-use overhear_engine::kit::{Control, Kit};
+use overhear_engine::kit::{Arrangement, Control, Kit};
+use overhear_engine::kit_spec::KitSpec;
 use overhear_engine::piece::Piece;
 use overhear_engine::slot::Slot;
 use overhear_engine::snapshot::KitSnapshot;
@@ -27,10 +28,20 @@ struct Stage {
     /// Pieces to swap in; what they replace comes back here.
     #[expect(clippy::vec_box, reason = "a kit takes boxes, and boxing allocates")]
     spares: Vec<Box<Piece>>,
+    /// Other places of every piece, another room; what the kit had before comes back here.
+    arrangement: Option<Box<Arrangement>>,
     snapshot: KitSnapshot,
     left: Vec<f32>,
     right: Vec<f32>,
     chance: Chance,
+}
+
+/// The standard kit, narrower and in a drier room.
+fn elsewhere() -> KitSpec {
+    let mut kit = standard();
+    kit.pieces.iter_mut().for_each(|piece| piece.place.centre[0] *= 0.8);
+    kit.room.time = 0.3;
+    kit
 }
 
 /// Numbers that no control expects.
@@ -45,6 +56,7 @@ impl Stage {
             spares: ["snare", "splash", "timpani"]
                 .map(|name| Box::new(member(&standard(), slot(name), RATE)))
                 .into(),
+            arrangement: Some(Box::new(Arrangement::new(RATE, &elsewhere()))),
             snapshot: KitSnapshot::default(),
             left: vec![0.0; 8192],
             right: vec![0.0; 8192],
@@ -94,6 +106,7 @@ impl Stage {
                 }
             }
             996 => self.kit.finish_controls(),
+            997 => self.arrangement = self.arrangement.take().map(|other| self.kit.arrange(other)),
             _ => self.kit.reset(),
         }
         self.spares.extend(self.kit.retire());

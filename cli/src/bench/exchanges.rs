@@ -49,10 +49,19 @@ pub struct Exchanges {
     exchanged: usize,
     /// Samples of a buffer.
     buffer: usize,
-    /// CPU time of taking over another kit and its piece, s: the longest of all.
-    longest_takeover_s: f64,
+    /// CPU time of taking over, each the longest of all.
+    longest_takeover: Takeover,
     without: Shares,
     with: Shares,
+}
+
+/// What taking over takes of the head of a buffer, s.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+struct Takeover {
+    /// Another kit.
+    kit_s: f64,
+    /// The piece.
+    piece_s: f64,
 }
 
 /// Time of buffers.
@@ -74,7 +83,7 @@ struct Coming {
 /// CPU time of every buffer, and of every exchange, s.
 struct Timed {
     buffers: Vec<f64>,
-    takeovers: Vec<f64>,
+    takeovers: Vec<Takeover>,
 }
 
 impl Exchanges {
@@ -101,7 +110,10 @@ impl Exchanges {
         Ok(Exchanges {
             exchanged: with.takeovers.len(),
             buffer: BUFFER,
-            longest_takeover_s: with.takeovers.iter().copied().fold(0.0, f64::max),
+            longest_takeover: with
+                .takeovers
+                .into_iter()
+                .fold(Takeover::default(), |a, b| a.each(b, f64::max)),
             without: Shares::of(without.buffers, request.rate),
             with: Shares::of(with.buffers, request.rate),
         })
@@ -115,9 +127,10 @@ impl Exchanges {
         })
     }
 
-    /// How many pieces are exchanged, and the longest time that taking one over takes, s.
-    pub fn takeovers(&self) -> (usize, f64) {
-        (self.exchanged, self.longest_takeover_s)
+    /// How many pieces are exchanged, and the longest times that taking over a kit and a piece take, s.
+    pub fn takeovers(&self) -> (usize, [f64; 2]) {
+        let Takeover { kit_s, piece_s } = self.longest_takeover;
+        (self.exchanged, [kit_s, piece_s])
     }
 }
 
@@ -128,16 +141,22 @@ impl Exchanges {
         let deadline = BUFFER as f64;
         let shares = |longest: f64| Shares::of(vec![0.5 * deadline, longest * deadline], 1.0);
         let (without, with) = (shares(0.9), shares(1.1));
-        Exchanges { exchanged: 1, buffer: BUFFER, longest_takeover_s: 1e-5, without, with }
+        Exchanges { exchanged: 1, buffer: BUFFER, longest_takeover: Takeover::default(), without, with }
     }
 }
 
 impl Timed {
     fn keep_less(&mut self, other: &Timed) {
-        let pairs = [(&mut self.buffers, &other.buffers), (&mut self.takeovers, &other.takeovers)];
-        for (mine, others) in pairs {
-            mine.iter_mut().zip(others).for_each(|(least, &time)| *least = least.min(time));
-        }
+        self.buffers.iter_mut().zip(&other.buffers).for_each(|(least, &time)| *least = least.min(time));
+        let takeovers = self.takeovers.iter_mut().zip(&other.takeovers);
+        takeovers.for_each(|(least, &taken)| *least = least.each(taken, f64::min));
+    }
+}
+
+impl Takeover {
+    /// One of two of each time.
+    fn each(self, other: Takeover, choose: fn(f64, f64) -> f64) -> Takeover {
+        Takeover { kit_s: choose(self.kit_s, other.kit_s), piece_s: choose(self.piece_s, other.piece_s) }
     }
 }
 
@@ -206,8 +225,9 @@ fn play(documents: &[Arc<KitDocument>], exchanging: bool, rate: f64) -> Result<T
                 && let Some(Coming { setup, piece }) = coming.next()
             {
                 gone.0.push(performer.change_kit(setup));
+                let kit_s = start.elapsed().as_secs_f64();
                 gone.1.extend(performer.install(piece));
-                timed.takeovers.push(start.elapsed().as_secs_f64());
+                timed.takeovers.push(Takeover { kit_s, piece_s: start.elapsed().as_secs_f64() - kit_s });
             }
             while let Some(piece) = performer.retire() {
                 gone.1.push(piece);

@@ -275,7 +275,11 @@ impl fmt::Display for Report {
                 writeln!(f, "{name:<20}{shares}  {late} of {buffers} late")?;
             }
             let (pieces, longest_s) = exchanges.takeovers();
-            writeln!(f, "{pieces} pieces taken over, each within {:.1} us", 1e6 * longest_s)?;
+            let [kit, piece] = longest_s.map(|seconds| 1e6 * seconds);
+            writeln!(
+                f,
+                "{pieces} exchanges, each takes over a kit within {kit:.0} us, a piece within {piece:.0} us"
+            )?;
         }
         let Builds {
             instance_s,

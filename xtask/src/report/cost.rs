@@ -85,6 +85,16 @@ pub fn page() -> Result<Page> {
         source: GOAL,
         met: Some(over <= 1.2),
     });
+    let [late, buffers] = ["late", "buffers"].map(|key| number(&report, &["exchanges", "with", key]));
+    let exchanged = number(&report, &["exchanges", "exchanged"]);
+    sheet.claim(Claim {
+        what: format!("late buffers of 64 samples in a groove in which {exchanged} pieces are exchanged"),
+        on: PLAYED,
+        figure: format!("{late} of {buffers}"),
+        reference: "0".to_owned(),
+        source: GOAL,
+        met: Some(late == 0.0),
+    });
     let worst = number(&report, &["worst_block_share"]);
     sheet.claim(percent("longest block of 32 samples, of its deadline".to_owned(), worst, 60.0));
     for (what, key, most, unit) in [
@@ -191,6 +201,9 @@ fn pieces(sheet: &mut Sheet, report: &Value) -> Result<()> {
     }
     for (name, scene) in [("32, all controls glide", "gliding"), ("32, cymbals choked", "choked")] {
         rows.push((name, report.get("moved_block_share_percentiles").and_then(|scenes| scenes.get(scene))));
+    }
+    for (name, scene) in [("64, groove", "without"), ("64, groove, pieces exchanged", "with")] {
+        rows.push((name, report.pointer(&format!("/exchanges/{scene}/share_percentiles"))));
     }
     let row = |(size, of): (&str, Option<&Value>)| {
         let share = |key: &&str| cell(100.0 * of.map_or(f64::NAN, |of| number(of, &[key])));
