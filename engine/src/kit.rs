@@ -161,6 +161,19 @@ impl Kit {
         job.fade_out.start(former)
     }
 
+    /// Puts a piece in its slot, whose tuning (Hz or a ratio, as the piece's) becomes this one; otherwise as [`install`](Self::install). A piece
+    /// that is built there need not be retuned.
+    ///
+    /// # Real-time
+    /// No allocation; nothing is dropped here.
+    pub fn install_tuned(&mut self, piece: Box<Piece>, tuning: f64) -> Option<Box<Piece>> {
+        let slot = piece.slot().index();
+        if self.jobs[slot].is_some() && tuning.is_finite() {
+            self.retained[slot].tuning = tuning;
+        }
+        self.install(piece)
+    }
+
     /// Takes over the slots in use, the positions of pieces and microphones, and the room. Pieces of slots that become empty
     /// fade out. All others play on until they are [replaced](Self::install). The returned arrangement holds everything that is
     /// no longer needed, to be dropped elsewhere.

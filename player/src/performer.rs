@@ -177,14 +177,9 @@ impl Performer {
     /// No allocation; nothing is dropped here.
     pub fn install(&mut self, piece: Box<Piece>) -> Option<Box<Piece>> {
         let (slot, [_, own, _]) = (piece.slot(), piece.tunings());
-        let former = flushed(|| self.kit.install(piece));
-        if std::mem::replace(&mut self.own[slot.index()], own) != own {
-            self.tune(slot);
-            if let Some(piece) = self.kit.piece_mut(slot) {
-                flushed(|| piece.finish_controls());
-            }
-        }
-        former
+        self.own[slot.index()] = own;
+        let tuning = self.tuning(slot);
+        flushed(|| self.kit.install_tuned(piece, tuning))
     }
 
     /// Hands back a replaced piece that has faded out, to be dropped elsewhere; one a call.

@@ -110,10 +110,15 @@ impl Performer {
 
     /// Brings the piece of a slot to the pitch that its parameter and its bend come to.
     pub(super) fn tune(&mut self, slot: Slot) {
+        let tuning = self.tuning(slot);
+        flushed(|| self.kit.set(Control::Tuning(slot), tuning));
+    }
+
+    /// The pitch that the parameter and the bend of a slot come to, Hz or a ratio.
+    pub(super) fn tuning(&self, slot: Slot) -> f64 {
         let semitones = f64::from(self.values[slot_index(slot, SlotParameter::Tune)])
             + self.expressions[slot.index()].bend;
-        let tuning = self.own[slot.index()] * libm::exp2(semitones / 12.0);
-        flushed(|| self.kit.set(Control::Tuning(slot), tuning));
+        self.own[slot.index()] * libm::exp2(semitones / 12.0)
     }
 
     /// Moves a MIDI controller to a value, 0 to 1. All sound off and all notes off (120, 123) end whatever sounds.
