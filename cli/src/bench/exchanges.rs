@@ -18,8 +18,7 @@ use overhear_engine::piece::Piece;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::measure::Buffers;
-use super::report::QUANTILES;
+use super::measure::{Buffers, QUANTILES};
 use super::request::Request;
 use crate::bad_input;
 use crate::progress::Progress;
@@ -269,7 +268,7 @@ mod tests {
             assert_eq!(pieces.filter(|(before, after)| before.instrument != after.instrument).count(), 1);
         }
         let instruments = |document: &KitDocument| -> Vec<_> {
-            document.kit.pieces.iter().map(|piece| piece.instrument.clone()).collect()
+            document.kit.pieces.iter().map(|piece| piece.instrument).collect()
         };
         assert_eq!(instruments(&documents[STEPS]), instruments(&documents[0]));
     }

@@ -7,6 +7,10 @@ use super::calibration::{Calibration, SLICES};
 use super::workload::Workload;
 use crate::progress::Progress;
 
+/// Quantiles of the time of a block that are reported.
+pub(super) const QUANTILES: [(&str, f64); 5] =
+    [("50", 0.5), ("90", 0.9), ("99", 0.99), ("99.9", 0.999), ("100", 1.0)];
+
 /// Cost of a scene, over the runs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cost {

@@ -13,13 +13,9 @@ use super::callgrind::Count;
 use super::compare::Before;
 use super::exchanges::Exchanges;
 use super::limit::Limit;
-use super::measure::{Blocks, Buffers, Cost};
+use super::measure::{Blocks, Buffers, Cost, QUANTILES};
 use super::request::{Builds, Request};
 use super::workload::Scene;
-
-/// Quantiles of the time of a block that are reported.
-pub(super) const QUANTILES: [(&str, f64); 5] =
-    [("50", 0.5), ("90", 0.9), ("99", 0.99), ("99.9", 0.999), ("100", 1.0)];
 
 /// Buffers of a host, samples, whole blocks.
 const BUFFERS: [usize; 4] = [64, 128, 256, 512];
