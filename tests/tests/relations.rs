@@ -124,13 +124,13 @@ fn headed(head: &str) -> Recorded {
 }
 
 /// F. Azzarto, What you need to know about drumheads, Modern Drummer, 2010: two plies have fewer overtones and a shorter
-/// sustain, one ply is brighter and rings.
+/// sustain, one ply is brighter and rings. By how much is not said; at 250 Hz, where mount and air take as much as the film, it is a sixth.
 #[test]
 fn two_plies_are_duller_and_shorter_than_one() {
     let heads = ["clear-7", "two-ply-clear"].map(headed);
     falls("what rings, mean frequency, Hz", &heads.each_ref().map(Recorded::ring), 0.02);
     for octave in [250.0, 1000.0, 4000.0] {
-        falls(&format!("decay at {octave} Hz, s"), &heads.each_ref().map(|head| head.decay(octave)), 0.25);
+        falls(&format!("decay at {octave} Hz, s"), &heads.each_ref().map(|head| head.decay(octave)), 0.15);
     }
 }
 
