@@ -124,7 +124,7 @@ fn headed(head: &str) -> Recorded {
 }
 
 /// F. Azzarto, What you need to know about drumheads, Modern Drummer, 2010: two plies have fewer overtones and a shorter
-/// sustain, one ply is brighter and rings. By how much is not said; at 250 Hz, where mount and air take as much as the film, it is a sixth.
+/// sustain, one ply is brighter and rings. By how much is not said.
 #[test]
 fn two_plies_are_duller_and_shorter_than_one() {
     let heads = ["clear-7", "two-ply-clear"].map(headed);
