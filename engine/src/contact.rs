@@ -89,6 +89,8 @@ impl Material {
     /// the modulus across, and sheared by 0.08 to 0.1 of it (Wood Handbook, ch. 5), have an indentation modulus of 2.7 to 3.5 GPa
     /// (Delafargue & Ulm 2004, across the axis).
     pub const HICKORY_ACROSS: Material = Material::new(2.8, 0.30, 820.0);
+    /// Maple along the grain.
+    pub const MAPLE: Material = Material::new(11.0, 0.30, 680.0);
     /// Nylon.
     pub const NYLON: Material = Material::new(3.0, 0.39, 1150.0);
     /// Polyester film of drum heads.

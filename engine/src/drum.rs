@@ -10,6 +10,7 @@ pub mod body;
 pub mod coupled;
 pub mod heads;
 mod losses;
+pub mod lugs;
 pub mod mixing;
 pub mod mode_transfer;
 pub mod modes;
@@ -53,7 +54,7 @@ use tuned::{ModeAtPitch, PitchPosition};
 /// What a drum's modes and their shapes follow from: the key of the cache.
 fn modes_key(spec: &DrumSpec) -> impl Serialize {
     let DrumSpec { diameter, pitch_of, batter, resonant, shell, edge, .. } = *spec;
-    (diameter, spec.pitches(), pitch_of, batter, resonant, shell, edge, spec.tension_field.is_some())
+    (diameter, spec.pitches(), pitch_of, batter, resonant, shell, edge, spec.is_uneven())
 }
 
 /// What has been worked out of late.
@@ -153,15 +154,15 @@ impl Drum {
     pub fn new(spec: &DrumSpec, context: &BuildContext) -> Result<Drum, SpecError> {
         spec.check()?;
         let BuildContext { options, receivers, ideal } = context;
-        let field = spec.tension_field.filter(|field| !ideal.round && field.rms > 0.0);
+        let uneven = spec.unevenness().filter(|_| !ideal.round);
         let [low, pitch, high] = spec.pitches();
         let built = MODES.get(&modes_key(spec), || DrumModes::new(spec))?;
         let place = built.heads.scale.place(pitch);
-        let mixed = field
-            .map(|field| {
+        let mixed = uneven
+            .map(|uneven| {
                 let axis = |m| spec.evenness.axis(m, 0);
-                let make = || Ok::<_, SpecError>(MixedModes::new(&built, &field, axis));
-                MIXED.get(&(modes_key(spec), field, spec.evenness.seed), make)
+                let make = || Ok::<_, SpecError>(MixedModes::new(&built, &uneven, axis));
+                MIXED.get(&(modes_key(spec), uneven, spec.evenness.seed), make)
             })
             .transpose()?;
         let modes = body::assemble(spec, &built, mixed.as_deref(), ideal.round);

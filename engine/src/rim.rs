@@ -64,6 +64,48 @@ impl Numbers for HoopSpec {
     }
 }
 
+/// A hoop as a ring.
+struct Ring {
+    /// Mass per length, kg/m.
+    line: f64,
+    /// Rigidity against being bent out of its plane, N m2.
+    bending: f64,
+    /// Against being twisted, N m2.
+    torsion: f64,
+}
+
+impl HoopSpec {
+    /// A hoop of maple, as bass drums have it, out of a stick's reach: 9.5 mm by 40 mm (*trade sizes*).
+    pub const OUT_OF_REACH: HoopSpec = HoopSpec {
+        material: Material::MAPLE,
+        wall: 9.5e-3,
+        height: 0.040,
+        flange: 0.0,
+        q: 25.0,
+        drum_mass: 8.0,
+        stand_hz: 20.0,
+        stand_q: 2.0,
+    };
+
+    fn ring(&self) -> Ring {
+        let HoopSpec { material, wall, height, flange, .. } = *self;
+        let shear = material.youngs_modulus / (2.0 * (1.0 + material.poisson_ratio));
+        let area = wall * (height + flange);
+        Ring {
+            line: material.density * area,
+            bending: material.youngs_modulus * (wall * height.powi(3) / 12.0),
+            torsion: shear * (height + flange) * wall.powi(3) / 3.0,
+        }
+    }
+
+    /// Load on a hoop of that radius (m) that bends it out of its plane in `n` periods around, over the displacement, N/m2.
+    pub fn stiffness(&self, radius: f64, n: u32) -> f64 {
+        let Ring { bending, torsion, .. } = self.ring();
+        let n2 = f64::from(n * n);
+        bending / radius.powi(4) * n2 * (n2 - 1.0).powi(2) / (n2 + 1.0 + bending / torsion)
+    }
+}
+
 /// Radius of the edge that a shaft meets, m, is the stick's; the hoop is taken as flat. Width of the
 /// hoop's top as it is heard, m.
 const WIDTH: f64 = 0.012;
@@ -121,12 +163,8 @@ impl Rim {
         receivers: &Receivers,
         lossless: bool,
     ) -> Rim {
-        let HoopSpec { material, wall, height, flange, .. } = *hoop;
-        let shear = material.youngs_modulus / (2.0 * (1.0 + material.poisson_ratio));
-        let area = wall * (height + flange);
-        let bending = material.youngs_modulus * (wall * height.powi(3) / 12.0);
-        let torsion = shear * (height + flange) * wall.powi(3) / 3.0;
-        let line = material.density * area;
+        let Ring { line, bending, torsion } = hoop.ring();
+        let material = hoop.material;
         let unit = bending / (line * radius.powi(4));
         let loss = |omega: f64, q: f64| if lossless { 0.0 } else { omega / (2.0 * q) };
         let (mass, hz, q) = (hoop.drum_mass, hoop.stand_hz, hoop.stand_q);

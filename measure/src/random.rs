@@ -5,6 +5,7 @@
 //! or that have too many modes, are drawn again. [`kits`] puts them together.
 
 pub mod kits;
+mod parts;
 
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;

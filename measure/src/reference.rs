@@ -65,6 +65,7 @@ fn fixed_disc(of: &str, change: impl FnOnce(DrumSpec) -> DrumSpec) -> PieceSpec 
         contact: HeadContact::FixedDisc,
         edge: None,
         tension_field: None,
+        lugs: None,
         ..drum
     };
     let piece = altered(spec(of), |drum| change(plain(drum)));

@@ -21,7 +21,7 @@ use serde::{Deserialize, Serialize};
 use crate::drum::coupled::CoupledMode;
 use crate::drum::heads::{MIDDLE, TunedHead};
 use crate::drum::modes::DrumModes;
-use crate::drum::tension_field::{Harmonic, TensionField, TensionFieldSpec};
+use crate::drum::tension_field::{Harmonic, TensionField, Unevenness};
 use crate::drum::tuned::{Grid, ModeAtPitch, PitchPosition};
 use crate::math::quadrature;
 use crate::mode::Member;
@@ -89,7 +89,7 @@ struct HeadPart {
 impl MixedModes {
     /// Mixes a drum's modes. `axis(m)` is the direction of the axes of pairs with `m` nodal diameters, rad. Allocates; takes
     /// tenths of a second.
-    pub fn new(drum: &DrumModes, spec: &TensionFieldSpec, axis: impl Fn(u32) -> f64) -> MixedModes {
+    pub fn new(drum: &DrumModes, spec: &Unevenness, axis: impl Fn(u32) -> f64) -> MixedModes {
         let even = even_modes(drum);
         let kept = even.iter().filter(|mode| mode.pair < drum.kept).count();
         let mixed = &even[kept..];
@@ -196,7 +196,7 @@ struct Problem<'a> {
 impl<'a> Problem<'a> {
     fn new(
         drum: &'a DrumModes,
-        spec: &TensionFieldSpec,
+        spec: &Unevenness,
         mixed: &'a [EvenMode],
         axis: impl Fn(u32) -> f64,
     ) -> Problem<'a> {
@@ -205,13 +205,13 @@ impl<'a> Problem<'a> {
         let zeros = both.flat_map(|head| head.membrane.modes()).map(|mode| mode.zero);
         let finest = zeros.fold(0.0, f64::max);
         // Two shapes and the field: a node for every radian and some.
-        let rule = quadrature::shared_unit((0.8 * finest + 12.0 / spec.correlation) as usize + 16);
+        let rule = quadrature::shared_unit((0.8 * finest + 12.0 / spec.correlation()) as usize + 16);
         let weights: Vec<f64> =
             rule.nodes.iter().zip(&rule.weights).map(|(r, weight)| 2.0 * r * weight).collect();
         let pairs: Vec<usize> = mixed.iter().map(|mode| mode.pair).collect();
         let first = pairs.first().copied().unwrap_or(drum.modes.len());
         let part = |head: &TunedHead, far: bool| HeadPart {
-            field: TensionField::new(spec, u32::from(far), &rule.nodes, &weights),
+            field: TensionField::of_head(spec, head.membrane.spec(), u32::from(far), &rule.nodes, &weights),
             radial: radial(drum, head, far, first, &rule.nodes),
             tension: PI * head.tensions[MIDDLE],
         };

@@ -67,7 +67,7 @@ impl DrumModes {
             orders.flat_map(|(m, table)| follow_order(&heads, spec, m, table)).collect();
         let [_, default, _] = spec.pitches();
         let place = heads.scale.place(default);
-        let mixed_from = spec.tension_field.map(|_| TAU * MIXED_FROM * heads.scale.pitches()[MIDDLE]);
+        let mixed_from = spec.is_uneven().then(|| TAU * MIXED_FROM * heads.scale.pitches()[MIDDLE]);
         let (mut modes, mut mixed): (Vec<_>, Vec<_>) =
             modes.into_iter().partition(|mode| mixed_from.is_none_or(|from| mode.reference.omega < from));
         modes.sort_by(|a, b| a.at(&place).omega.total_cmp(&b.at(&place).omega));
@@ -165,6 +165,7 @@ mod tests {
             batter,
             resonant,
             tension_field: None,
+            lugs: None,
             ..kick
         };
         DrumModes::new(&spec).unwrap()

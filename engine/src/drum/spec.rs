@@ -6,7 +6,8 @@ use crate::cavity::CavitySpec;
 use crate::contact::Material;
 use crate::damping::{EdgeSpec, LossLaw, Muffler};
 use crate::diffraction::Outside;
-use crate::drum::tension_field::TensionFieldSpec;
+use crate::drum::lugs::LugsSpec;
+use crate::drum::tension_field::{TensionFieldSpec, Unevenness};
 use crate::error::SpecError;
 use crate::membrane::MembraneSpec;
 use crate::numbers::{self, Numbers, Visitor};
@@ -54,6 +55,9 @@ pub struct DrumSpec {
     /// How uneven its heads are where modes crowd; none of heads whose orders do not mix.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tension_field: Option<TensionFieldSpec>,
+    /// Where rods pull on its heads, and how evenly; none where that is not described.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lugs: Option<LugsSpec>,
     /// How tips press on its heads.
     pub contact: HeadContact,
     /// Whether it sounds above its heads' complete sets of modes; see [`high_band`](crate::high_band).
@@ -216,6 +220,9 @@ impl Numbers for DrumSpec {
         if let Some(field) = &mut self.tension_field {
             field.visit_part("tension_field", visitor);
         }
+        if let Some(lugs) = &mut self.lugs {
+            lugs.visit_part("lugs", visitor);
+        }
     }
 }
 
@@ -252,6 +259,18 @@ impl DrumSpec {
     /// Lowest, default and highest pitch, Hz.
     pub fn pitches(&self) -> [f64; 3] {
         [self.lowest_pitch_hz, self.pitch_hz, self.highest_pitch_hz]
+    }
+
+    /// Whether its heads are described as unevenly stretched.
+    pub fn is_uneven(&self) -> bool {
+        self.tension_field.is_some() || self.lugs.is_some()
+    }
+
+    /// What stretches its heads unevenly, if anything does.
+    pub fn unevenness(&self) -> Option<Unevenness> {
+        let field = self.tension_field.filter(|field| field.rms > 0.0);
+        let lugs = self.lugs.map(|lugs| (lugs, self.hoop.unwrap_or(HoopSpec::OUT_OF_REACH)));
+        (field.is_some() || lugs.is_some()).then_some(Unevenness { field, lugs })
     }
 
     /// A head as a membrane.
@@ -321,6 +340,10 @@ impl DrumSpec {
     /// [`SpecError`] naming the field.
     pub fn check(&self) -> Result<(), SpecError> {
         numbers::check(self)?;
+        if let Some(lugs) = &self.lugs {
+            let [fewest, most] = LugsSpec::COUNT.map(f64::from);
+            SpecError::check("lugs.count", f64::from(lugs.count), fewest, most)?;
+        }
         SpecError::check("batter.plies", f64::from(self.batter.plies), 1.0, 2.0)?;
         self.check_strain("batter", &self.batter, 1.0)?;
         if let Some(resonant) = self.resonant {

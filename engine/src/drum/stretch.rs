@@ -285,7 +285,7 @@ mod tests {
     fn the_gradient_is_that_of_the_energy_below_and_beyond_yield() {
         let spec = reference::drum("rack-tom");
         let drum = DrumModes::new(&spec).unwrap();
-        let mixed = MixedModes::new(&drum, &spec.tension_field.unwrap(), |_| 0.0);
+        let mixed = MixedModes::new(&drum, &spec.unevenness().unwrap(), |_| 0.0);
         for mixed in [None, Some(&mixed)] {
             check(&spec, &drum, mixed);
         }
@@ -320,7 +320,7 @@ mod tests {
         // Below yield the energy goes with the fourth power of the displacement: by Euler's theorem `grad E . q = 4 E`.
         let spec = reference::drum("rack-tom");
         let drum = DrumModes::new(&spec).unwrap();
-        let mixed = MixedModes::new(&drum, &spec.tension_field.unwrap(), |_| 0.0);
+        let mixed = MixedModes::new(&drum, &spec.unevenness().unwrap(), |_| 0.0);
         let StretchModel { potential: mut stretch, modes, .. } =
             StretchModel::new(&drum, Some(&mixed), spec.pitch_hz);
         let (mut q, mut gradient) = (zero_row(modes), zero_row(modes));

@@ -21,9 +21,12 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::drum::lugs::{self, LugsSpec};
 use crate::math::bessel;
+use crate::membrane::MembraneSpec;
 use crate::numbers::{Numbers, Visitor};
 use crate::random_field::{self, Along, Component};
+use crate::rim::HoopSpec;
 
 /// How uneven the tension of a drum's heads is.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -42,6 +45,15 @@ impl Numbers for TensionFieldSpec {
         visitor.number("rms", &mut self.rms, 0.0..=0.2);
         visitor.number("correlation", &mut self.correlation, 0.1..=2.0);
     }
+}
+
+/// All that stretches the heads of a drum unevenly.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Unevenness {
+    /// What is drawn over the area, if anything is.
+    pub field: Option<TensionFieldSpec>,
+    /// Lugs and the hoop that they pull down, if they are counted.
+    pub lugs: Option<(LugsSpec, HoopSpec)>,
 }
 
 /// Modes are mixed from so many times the pitch on, in the middle of the range of pitches, dimensionless. *Judgement*: below, a head has so few modes
@@ -64,6 +76,15 @@ pub struct TensionField {
     pub harmonics: Vec<Harmonic>,
 }
 
+impl Unevenness {
+    /// Length over which the field changes, share of the radius.
+    pub fn correlation(&self) -> f64 {
+        let field = self.field.map_or(f64::INFINITY, |field| field.correlation);
+        // `r^l` falls to a seventh within `2 / l` of the rim.
+        self.lugs.map_or(field, |(lugs, _)| field.min(1.0 / f64::from(lugs.count)))
+    }
+}
+
 impl TensionField {
     /// Draws the field of one head (`head` tells the heads of a drum apart) at radii (shares of the head's) with weights (dimensionless) such that
     /// `sum weight f = int f 2 r dr`. Allocates.
@@ -74,6 +95,38 @@ impl TensionField {
         let harmonics =
             fields.into_iter().map(|[tension, curvature]| Harmonic { tension, curvature }).collect();
         TensionField { harmonics }
+    }
+
+    /// The field of one head of a drum: as drawn, and what its lugs leave. Allocates.
+    pub fn of_head(
+        uneven: &Unevenness,
+        film: &MembraneSpec,
+        head: u32,
+        radii: &[f64],
+        weights: &[f64],
+    ) -> TensionField {
+        let mut field = match &uneven.field {
+            Some(spec) => TensionField::new(spec, head, radii, weights),
+            None => TensionField { harmonics: Vec::new() },
+        };
+        if let Some((lugs, hoop)) = &uneven.lugs {
+            field.add_harmonic(&lugs::rim_tension(lugs, hoop, film, head), radii);
+        }
+        field
+    }
+
+    /// Adds a tension that is harmonic inside, of which the parts at the rim are given by the periods around.
+    fn add_harmonic(&mut self, rim: &[[f64; 2]], radii: &[f64]) {
+        let empty = || [vec![0.0; radii.len()], vec![0.0; radii.len()]];
+        let orders = self.harmonics.len().max(rim.len());
+        self.harmonics.resize_with(orders, || Harmonic { tension: empty(), curvature: empty() });
+        for ((l, parts), harmonic) in rim.iter().enumerate().zip(&mut self.harmonics) {
+            for (along, part) in harmonic.tension.iter_mut().zip(parts) {
+                for (value, r) in along.iter_mut().zip(radii) {
+                    *value += part * r.powi(l as i32);
+                }
+            }
+        }
     }
 
     /// Relative tension at a radius of those given and a direction (rad).

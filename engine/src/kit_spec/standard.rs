@@ -247,6 +247,7 @@ fn two_headed(
         muffler: Muffler::GEL,
         evenness: Splitting::DRUM,
         tension_field: Some(UNEVEN),
+        lugs: None,
         contact: HeadContact::Wraps,
         high_band: true,
     }
@@ -354,6 +355,7 @@ fn timpani() -> InstrumentSpec {
         evenness: Splitting::CLEARED,
         edge: None,
         tension_field: None,
+        lugs: None,
         ..drum
     })
 }

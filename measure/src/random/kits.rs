@@ -9,6 +9,8 @@ use overhear_engine::strike::Striker;
 
 use crate::{Chance, standard};
 
+use super::parts;
+
 /// A kit of so many pieces, 1 to 16, and the notes that play it: two strokes of each, the pedal of hi-hats, hands on cymbals.
 ///
 /// # Panics
@@ -20,7 +22,8 @@ pub fn kit(chance: &mut Chance, pieces: usize) -> KitDocument {
         *x += chance.between(-0.3, 0.3);
     }
     for number in 1..=pieces {
-        kit.pieces.push(PieceSpec { name: format!("piece-{number}"), ..super::piece(chance) });
+        let piece = PieceSpec { name: format!("piece-{number}"), ..super::piece(chance) };
+        kit.pieces.push(parts::added(piece, chance));
         place_last(&mut kit, chance);
     }
     let notes = notes(&kit, chance);

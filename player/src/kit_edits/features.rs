@@ -1,14 +1,19 @@
-//! What a piece has or has not: a bell, an upturned rim, hammering, an unevenly stretched head.
+//! What a piece has or has not: a bell, an upturned rim, hammering, an unevenly stretched head,
+//! counted lugs.
 //!
 //! What is switched on comes as the standard kit's has it, in proportion to the piece.
 
 use overhear_engine::cymbal::CymbalSpec;
+use overhear_engine::drum::lugs::LugsSpec;
 use overhear_engine::kit_spec::{InstrumentSpec, KitSpec, PieceSpec};
 use overhear_engine::plate::{Bell, Flange};
 
 /// Where a china's rim begins to turn up and how far it does, shares of the radius. *Judgement*: the china of the kit files'
 /// documentation.
 const CHINA: (f64, f64) = (0.8, 0.09);
+
+/// Distance of tension rods along the rim, m. *Trade sizes*: five on a 10 in tom, six on 12 in, eight on 16 in, ten on kicks.
+const ROD_DISTANCE: f64 = 0.16;
 
 /// What can be switched.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -19,13 +24,16 @@ pub enum Feature {
     Flange,
     /// Uneven thickness of a cymbal on a stand.
     Hammering,
-    /// Uneven tension of a drum's heads.
+    /// Uneven film and tension of a drum's heads.
     UnevenHead,
+    /// Lugs that are counted, and where a drum's heads are pulled.
+    Lugs,
 }
 
 impl Feature {
     /// All of them.
-    pub const ALL: [Feature; 4] = [Feature::Bell, Feature::Flange, Feature::Hammering, Feature::UnevenHead];
+    pub const ALL: [Feature; 5] =
+        [Feature::Bell, Feature::Flange, Feature::Hammering, Feature::UnevenHead, Feature::Lugs];
 
     /// What it is called on screen.
     pub fn label(self) -> &'static str {
@@ -33,7 +41,8 @@ impl Feature {
             Feature::Bell => "With a bell",
             Feature::Flange => "China rim",
             Feature::Hammering => "Hammered",
-            Feature::UnevenHead => "Uneven lugs",
+            Feature::UnevenHead => "Uneven head",
+            Feature::Lugs => "Lugs counted",
         }
     }
 
@@ -41,6 +50,7 @@ impl Feature {
     pub fn of(self, piece: &PieceSpec) -> Option<bool> {
         match (self, &piece.instrument) {
             (Feature::UnevenHead, InstrumentSpec::Drum(drum)) => Some(drum.tension_field.is_some()),
+            (Feature::Lugs, InstrumentSpec::Drum(drum)) => Some(drum.lugs.is_some()),
             (Feature::Bell, InstrumentSpec::HiHat(hat)) => Some(hat.top.bell.is_some()),
             (Feature::Bell, InstrumentSpec::Cymbal(cymbal)) => Some(cymbal.bell.is_some()),
             (Feature::Flange, InstrumentSpec::Cymbal(cymbal)) => Some(cymbal.flange.is_some()),
@@ -55,6 +65,12 @@ impl Feature {
             (Feature::UnevenHead, InstrumentSpec::Drum(drum)) => {
                 let usual = KitSpec::standard().pieces.iter().find_map(|other| other.drum()?.tension_field);
                 drum.tension_field = usual.filter(|_| on);
+            }
+            (Feature::Lugs, InstrumentSpec::Drum(drum)) => {
+                let rods = (std::f64::consts::PI * drum.diameter / ROD_DISTANCE).round();
+                let count = (rods as u32).clamp(5, 10);
+                let lugs = LugsSpec { count, rms: LugsSpec::BY_EAR, seed: drum.evenness.seed };
+                drum.lugs = on.then_some(lugs);
             }
             (Feature::Bell, InstrumentSpec::HiHat(hat)) => {
                 [&mut hat.top, &mut hat.bottom].into_iter().for_each(|cymbal| self.switch_cymbal(cymbal, on));
@@ -78,13 +94,13 @@ impl Feature {
                 cymbal.flange = on.then_some(flange);
             }
             Feature::Hammering => cymbal.hammering = usual.and_then(|usual| usual.hammering),
-            Feature::UnevenHead => {}
+            Feature::UnevenHead | Feature::Lugs => {}
         }
     }
 
     /// Whether there are many of the kind, told apart by chance.
     pub fn is_chance(self) -> bool {
-        matches!(self, Feature::Hammering | Feature::UnevenHead)
+        matches!(self, Feature::Hammering | Feature::UnevenHead | Feature::Lugs)
     }
 
     /// Another one of the kind.
@@ -96,6 +112,7 @@ impl Feature {
             (Feature::UnevenHead, InstrumentSpec::Drum(drum)) => {
                 drum.tension_field.as_mut().map(|field| &mut field.seed)
             }
+            (Feature::Lugs, InstrumentSpec::Drum(drum)) => drum.lugs.as_mut().map(|lugs| &mut lugs.seed),
             _ => None,
         };
         if let Some(seed) = seed {

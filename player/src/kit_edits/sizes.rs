@@ -43,8 +43,12 @@ pub enum Size {
     FlangeRise,
     /// How uneven the hammer leaves a cymbal's thickness.
     Hammering,
-    /// How unevenly the lugs stretch a head.
+    /// How unevenly a head is stretched.
     Unevenness,
+    /// Number of lugs, where they are counted.
+    Lugs,
+    /// How far the pulls of a drum's lugs are apart.
+    LugTuning,
     /// To the drummer's right, from the middle of the kit.
     Right,
     /// Over the floor.
@@ -63,6 +67,7 @@ enum Measure {
     Pitch,
     Ratio,
     Percent,
+    Count,
 }
 
 /// Units of lengths on screen.
@@ -86,7 +91,7 @@ pub struct Refusal {
 
 impl Size {
     /// All of them.
-    pub const ALL: [Size; 19] = [
+    pub const ALL: [Size; 21] = [
         Size::Diameter,
         Size::Depth,
         Size::Volume,
@@ -103,6 +108,8 @@ impl Size {
         Size::FlangeRise,
         Size::Hammering,
         Size::Unevenness,
+        Size::Lugs,
+        Size::LugTuning,
         Size::Right,
         Size::Height,
         Size::Forward,
@@ -127,6 +134,8 @@ impl Size {
             Size::FlangeRise => "Rim turns up",
             Size::Hammering => "Hammering",
             Size::Unevenness => "Uneven tension",
+            Size::Lugs => "Lugs",
+            Size::LugTuning => "Lugs differ by",
             Size::Right => "Right",
             Size::Height => "Height",
             Size::Forward => "Forward",
@@ -140,7 +149,8 @@ impl Size {
             Size::Pitch => Measure::Pitch,
             Size::PitchRatio => Measure::Ratio,
             Size::Rim => Measure::Thickness,
-            Size::Hammering | Size::Unevenness => Measure::Percent,
+            Size::Hammering | Size::Unevenness | Size::LugTuning => Measure::Percent,
+            Size::Lugs => Measure::Count,
             _ => Measure::Length,
         }
     }
@@ -161,6 +171,8 @@ impl Size {
             Size::FlangeRise => "flange.rise_m",
             Size::Hammering => "hammering.rms",
             Size::Unevenness => "tension_field.rms",
+            Size::Lugs => "lugs.count",
+            Size::LugTuning => "lugs.rms",
             Size::Right => "centre_m.x",
             Size::Height => "centre_m.y",
             Size::Forward => "centre_m.z",
@@ -187,6 +199,8 @@ impl Size {
             (Size::PitchRatio, InstrumentSpec::Drum(drum)) => drum.resonant.map(|head| head.pitch_ratio),
             (Size::Opening, InstrumentSpec::Drum(drum)) => drum.resonant.and_then(|head| head.port_diameter),
             (Size::Unevenness, InstrumentSpec::Drum(drum)) => drum.tension_field.map(|field| field.rms),
+            (Size::Lugs, InstrumentSpec::Drum(drum)) => drum.lugs.map(|lugs| f64::from(lugs.count)),
+            (Size::LugTuning, InstrumentSpec::Drum(drum)) => drum.lugs.map(|lugs| lugs.rms),
             (_, InstrumentSpec::Cymbal(cymbal)) => self.of_cymbal(cymbal),
             (Size::LowerWeight, InstrumentSpec::HiHat(hat)) => Some(hat.bottom.mass),
             (_, InstrumentSpec::HiHat(hat)) => self.of_cymbal(&hat.top),
@@ -257,6 +271,8 @@ impl Size {
             (Size::PitchRatio, _, Some(head)) => head.pitch_ratio = value,
             (Size::Opening, _, Some(head)) => head.port_diameter = Some(value),
             (Size::Unevenness, ..) => drum.tension_field.iter_mut().for_each(|field| field.rms = value),
+            (Size::Lugs, ..) => drum.lugs.iter_mut().for_each(|lugs| lugs.count = value.round() as u32),
+            (Size::LugTuning, ..) => drum.lugs.iter_mut().for_each(|lugs| lugs.rms = value),
             _ => {}
         }
     }
@@ -314,6 +330,7 @@ impl Size {
             (Measure::Thickness, _) => (1e-3, "mm", 2),
             (Measure::Ratio, _) => (1.0, "", 3),
             (Measure::Percent, _) => (1e-2, "%", 1),
+            (Measure::Count, _) => (1.0, "", 0),
         }
     }
 

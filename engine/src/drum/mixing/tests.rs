@@ -1,20 +1,23 @@
 use std::f64::consts::TAU;
 
 use super::*;
+use crate::drum::lugs::LugsSpec;
 use crate::drum::spec::DrumSpec;
+use crate::drum::tension_field::TensionFieldSpec;
 use crate::math::bessel;
 use crate::math::eigen;
 use crate::mode_mixture::blocks::BLOCK;
 use crate::reference;
 
-const FIELD: TensionFieldSpec = TensionFieldSpec { rms: 0.05, correlation: 0.3, seed: 7 };
+const DRAWN: TensionFieldSpec = TensionFieldSpec { rms: 0.05, correlation: 0.3, seed: 7 };
+const FIELD: Unevenness = Unevenness { field: Some(DRAWN), lugs: None };
 
 /// A rack tom with modes up to a frequency (Hz).
 fn tom(modes_to_hz: f64) -> DrumModes {
     let mut spec: DrumSpec = reference::drum("rack-tom");
     spec.batter.modes_to_hz = modes_to_hz;
     spec.resonant = spec.resonant.map(|head| crate::drum::ResonantSpec { modes_to_hz, ..head });
-    spec.tension_field = Some(FIELD);
+    spec.tension_field = Some(DRAWN);
     DrumModes::new(&spec).unwrap()
 }
 
@@ -28,10 +31,18 @@ fn mixed(even: &[EvenMode], drum: &DrumModes) -> usize {
 
 #[test]
 fn a_coupling_is_the_sum_over_the_heads_of_tension_times_slopes() {
+    let lugs = LugsSpec { count: 6, rms: 0.05, seed: 2 };
+    let hoop = reference::drum("rack-tom").hoop.unwrap();
+    for uneven in [FIELD, Unevenness { field: None, lugs: Some((lugs, hoop)) }] {
+        compare_couplings(&uneven);
+    }
+}
+
+fn compare_couplings(uneven: &Unevenness) {
     let drum = tom(900.0);
     let even = even_modes(&drum);
     let even = &even[mixed(&even, &drum)..];
-    let problem = Problem::new(&drum, &FIELD, even, axis);
+    let problem = Problem::new(&drum, uneven, even, axis);
     // Slopes by differences on a fine grid of each head, with the field drawn at its radii.
     let (rings, spokes) = (160, 160);
     let radii: Vec<f64> = (0..rings).map(|i| (f64::from(i) + 0.5) / f64::from(rings)).collect();
@@ -41,7 +52,7 @@ fn a_coupling_is_the_sum_over_the_heads_of_tension_times_slopes() {
         let heads = [Some(&drum.heads.batter), drum.heads.resonant.as_ref()];
         let mut sum = 0.0;
         for (far, head) in heads.into_iter().flatten().enumerate() {
-            let field = TensionField::new(&FIELD, far as u32, &radii, &weights);
+            let field = TensionField::of_head(uneven, head.membrane.spec(), far as u32, &radii, &weights);
             let shape = |k: usize, r: f64, theta: f64| -> f64 {
                 let mode = &drum.modes[even[k].pair];
                 let (first, count) = head.order(mode.m);

@@ -44,8 +44,8 @@ pub struct Body {
 pub enum Kind {
     /// A head on its own in its hoop.
     Head,
-    /// A shell of that depth (m) and colour, with a head at its other end or open there.
-    Drum { depth: f32, shell: Color32, closed: bool },
+    /// A shell of that depth (m) and colour, with a head at its other end or open there, and so many lugs if they are counted.
+    Drum { depth: f32, shell: Color32, closed: bool, lugs: Option<u32> },
     /// A bowl of that depth (m).
     Kettle { depth: f32 },
     /// A plate.
@@ -135,7 +135,8 @@ impl Kind {
             Some(ShellSpec::Cylinder { depth, .. }) => {
                 // Those with wires are mostly seen in metal.
                 let shell = if drum.wires.is_some() { STEEL } else { LACQUER };
-                Kind::Drum { depth: depth as f32, shell, closed: drum.resonant.is_some() }
+                let lugs = drum.lugs.map(|lugs| lugs.count);
+                Kind::Drum { depth: depth as f32, shell, closed: drum.resonant.is_some(), lugs }
             }
             Some(ShellSpec::Kettle { volume, .. }) => {
                 let depth = volume as f32 / (FULLNESS * PI * (drum.radius() as f32).powi(2));

@@ -29,7 +29,7 @@ pub fn shell(scene: &mut Scene, body: &Body, glow: Color32, palette: &Palette) {
         Kind::Cymbal { .. } | Kind::HiHat { .. } => return,
         Kind::Head => hoop(scene, frame, radius, [0.008, -0.03], palette.chrome, Finish::Chrome),
         Kind::Kettle { depth } => kettle(scene, body, depth, palette),
-        Kind::Drum { depth, shell, closed } => {
+        Kind::Drum { depth, shell, closed, lugs } => {
             let rings: Vec<Ring> =
                 (0..=ROWS).map(|row| (-depth * row as f32 / ROWS as f32, radius)).collect();
             sides(scene, frame, &rings, shell, Finish::Lacquer, true);
@@ -38,7 +38,7 @@ pub fn shell(scene: &mut Scene, body: &Body, glow: Color32, palette: &Palette) {
             } else {
                 sides(scene, frame, &rings, shade(shell, 0.5, 0.0), Finish::Lacquer, false);
             }
-            fittings(scene, body, depth, palette);
+            fittings(scene, body, depth, lugs, palette);
         }
     }
     if glow != Color32::TRANSPARENT {
@@ -61,7 +61,7 @@ fn kettle(scene: &mut Scene, body: &Body, depth: f32, palette: &Palette) {
 }
 
 /// Hoops and lugs of a shell.
-fn fittings(scene: &mut Scene, body: &Body, depth: f32, palette: &Palette) {
+fn fittings(scene: &mut Scene, body: &Body, depth: f32, counted: Option<u32>, palette: &Palette) {
     let (frame, radius) = (&body.frame, body.radius);
     // A bass drum's hoops are of wood and deep.
     let (colour, finish, height, count) = if body.support == Support::Spurs {
@@ -73,6 +73,7 @@ fn fittings(scene: &mut Scene, body: &Body, depth: f32, palette: &Palette) {
     let height = f32::min(height, 0.3 * depth);
     hoop(scene, frame, radius, [0.009, 0.009 - height], colour, finish);
     hoop(scene, frame, radius, [height - depth - 0.009, -depth - 0.009], colour, finish);
+    let count = counted.map_or(count, |counted| counted as usize);
     lugs(scene, frame, radius, [-height, height - depth], count, palette);
 }
 

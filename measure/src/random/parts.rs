@@ -1,0 +1,30 @@
+//! Parts that no piece of the standard kit has.
+
+use overhear_engine::drum::DrumSpec;
+use overhear_engine::drum::lugs::LugsSpec;
+use overhear_engine::kit_spec::{InstrumentSpec, PieceSpec};
+
+use crate::Chance;
+
+/// Probability of each part.
+const OFTEN: f64 = 0.3;
+
+/// The piece with some more parts, where it is accepted so.
+pub fn added(piece: PieceSpec, chance: &mut Chance) -> PieceSpec {
+    let more = match piece.instrument {
+        InstrumentSpec::Drum(drum) => InstrumentSpec::Drum(more_of_drum(drum, chance)),
+        other => other,
+    };
+    let more = PieceSpec { instrument: more, ..piece.clone() };
+    if more.check().is_ok() { more } else { piece }
+}
+
+fn more_of_drum(drum: DrumSpec, chance: &mut Chance) -> DrumSpec {
+    let [fewest, most] = LugsSpec::COUNT;
+    let lugs = chance.happens(OFTEN).then(|| LugsSpec {
+        count: fewest + chance.below((most - fewest + 1) as usize) as u32,
+        rms: chance.between(0.0, 0.3),
+        seed: chance.below(1000) as u32,
+    });
+    DrumSpec { lugs, ..drum }
+}
