@@ -15,6 +15,8 @@
 //! where they are pressed together by [`CLAMPING`]. Open, loose, half and tight are positions of it. The [foot] moves it at
 //! a finite speed, and the sound follows from the contact of the rims.
 //!
+//! A stack of two cymbals is the same without pedal: a nut presses the rim of the upper one on the lower one, which may be wider.
+//!
 //! No real-time model of a hi-hat is published; the parts are as elsewhere in this crate. Energy: all contacts are discrete
 //! gradients of one potential, solved together with the strikers through both bodies.
 
@@ -82,6 +84,8 @@ pub struct HiHat {
     /// Position of the rod at the pedal's end, m.
     closed: f64,
     pedal: f64,
+    /// Whether a nut holds the rod where a pedal would move it.
+    is_stack: bool,
 }
 
 impl HiHat {
@@ -92,8 +96,9 @@ impl HiHat {
     pub fn new(spec: &HiHatSpec, context: &BuildContext) -> Result<HiHat, SpecError> {
         spec.check()?;
         let coupled_hz = assembly::coupled_hz(context);
-        let top = Half::new(&spec.top, (&spec.clutch, spec.rubbing), coupled_hz, context)?;
-        let bottom = Half::new(&spec.bottom, (&spec.seat, spec.rubbing), None, context)?;
+        let [above, below] = spec.meeting();
+        let top = Half::new(&spec.top, (&spec.clutch, spec.rubbing), above, coupled_hz, context)?;
+        let bottom = Half::new(&spec.bottom, (&spec.seat, spec.rubbing), below, None, context)?;
         let (surface, halves) = assemble(spec, context, top, bottom);
         let (low, tuning, high) = CymbalSpec::TUNING;
         let mut hat = HiHat {
@@ -108,19 +113,28 @@ impl HiHat {
             stale: true,
             closed: GAP,
             pedal: 0.0,
+            is_stack: spec.pressed.is_some(),
         };
         hat.follow_controls();
-        hat.closed = hat.find_closed();
+        hat.closed = hat.find_closed(spec.pressed.unwrap_or(CLAMPING));
+        if hat.is_stack {
+            let pressed = hat.closed;
+            hat.move_pedal(|foot| foot.go(pressed, SPEED.1));
+            hat.finish_controls();
+        }
         Ok(hat)
     }
 
-    /// Position of the rod at which the rims press on each other with [`CLAMPING`], m.
-    fn find_closed(&self) -> f64 {
-        let clamping = |y: f64| self.pair().map_or(CLAMPING, |pair| pair.clamping(y));
+    /// Position of the rod at which the rims press on each other with a force (N), m.
+    fn find_closed(&self, force: f64) -> f64 {
+        let clamping = |y: f64| self.pair().map_or(force, |pair| pair.clamping(y));
         // Far below any motion: the width of an atom.
         const TOLERANCE: f64 = 1e-11;
         let most = GAP + 0.05;
-        roots::find(|y| clamping(y) - CLAMPING, GAP, most, TOLERANCE).unwrap_or(most)
+        // A light force is held by the highest spots alone, before the rims meet in the mean.
+        let nearest = self.pair().map_or(GAP, |pair| pair.statics.nearest());
+        let least = if clamping(GAP) > force { nearest } else { GAP };
+        roots::find(|y| clamping(y) - force, least, most, TOLERANCE).unwrap_or(most)
     }
 
     /// Position of the rod for a position of the pedal, 0 to 1; m.
@@ -179,7 +193,7 @@ impl Instrument for HiHat {
     }
 
     fn pedal_mut(&mut self) -> Option<&mut dyn Pedal> {
-        Some(self)
+        if self.is_stack { None } else { Some(self) }
     }
 
     fn choke(&mut self, strength: f64) {
@@ -349,6 +363,7 @@ fn assemble(
         depth: std::array::from_fn(|j| {
             GAP + leaning * (rim_points::angle(j) - spec.toward).cos() + heights[j]
         }),
+        meeting: spec.meeting(),
         sample_rate: options.sample_rate,
     }));
     (surface, [top, bottom])

@@ -64,7 +64,9 @@ impl Pair {
             return;
         }
         let [above, below] = [0, 1].map(|which: usize| self.rigid[which].place());
-        let y = self.statics.weights.iter().zip(&self.rims.compression).fold(end, |y, (weights, d)| {
+        // Rims that a pedal moves are equally wide.
+        let [places, _] = &self.statics.weights;
+        let y = places.iter().zip(&self.rims.compression).fold(end, |y, (weights, d)| {
             let rigid: f64 =
                 weights.iter().zip(above.iter().zip(&below)).map(|(w, (a, b))| w * (a - b)).sum();
             y.min(rigid - d - CLEARANCE)
@@ -77,7 +79,7 @@ impl Pair {
     fn displace(&mut self, by: &[Weights; 2]) {
         self.rigid.iter_mut().zip(by).for_each(|(rigid, by)| rigid.displace(by));
         self.carried.iter_mut().zip(&by[0]).for_each(|(carried, by)| *carried += by);
-        for (d, weights) in self.rims.compression.iter_mut().zip(&self.statics.weights) {
+        for (d, weights) in self.rims.compression.iter_mut().zip(&self.statics.weights[0]) {
             *d += weights.iter().zip(by[0].iter().zip(&by[1])).map(|(w, (a, b))| w * (a - b)).sum::<f64>();
         }
     }

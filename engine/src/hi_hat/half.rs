@@ -37,7 +37,7 @@ pub struct Damping {
 pub struct Half {
     /// Its modes.
     pub cymbal: CymbalModes,
-    /// Shapes of the modes at the rim.
+    /// Shapes of the modes where the two cymbals meet.
     pub folded: RimHarmonics,
     rubbing: LossLaw,
 }
@@ -50,7 +50,8 @@ struct Ranked {
 }
 
 impl Half {
-    /// Builds a cymbal whose modes are coupled up to `coupled_hz`, if they are; with it comes what makes a body of it.
+    /// Builds a cymbal whose modes are coupled up to `coupled_hz`, if they are, and that meets the other one at the share `meeting` of its radius; with it
+    /// comes what makes a body of it.
     /// Allocates; takes a tenth of a second.
     ///
     /// # Errors
@@ -58,12 +59,13 @@ impl Half {
     pub fn new(
         spec: &CymbalSpec,
         (mount, rubbing): (&Mount, LossLaw),
+        meeting: f64,
         coupled_hz: Option<f64>,
         context: &BuildContext,
     ) -> Result<(Half, PlateShapes), SpecError> {
         let plate = CymbalPlate::new(spec, coupled_hz, context)?;
         let order = order(&plate);
-        let (at_rim, at_mount) = (plate.shapes_at(1.0), plate.shapes_at(mount.reach));
+        let (at_rim, at_mount) = (plate.shapes_at(meeting), plate.shapes_at(mount.reach));
         let mounted = |row: usize, shell: &ShellMode| {
             mount.damping * at_mount[row].powi(2) * if shell.m == 0 { 1.0 } else { 0.5 }
         };
@@ -133,7 +135,7 @@ mod tests {
         let spec = reference::hi_hat();
         let context = reference::standard("hi-hat").context(BuildOptions::new(44_100.0));
         let (half, plate) =
-            Half::new(&spec.top, (&spec.clutch, spec.rubbing), Some(2000.0), &context).unwrap();
+            Half::new(&spec.top, (&spec.clutch, spec.rubbing), 1.0, Some(2000.0), &context).unwrap();
         let shapes = plate.shapes();
         let damping = Damping { muffling: 0.0, hand: 0.0, rubbing: 0.0, lossless: false };
         let modes: Vec<Mode> = (0..half.cymbal.modes.len()).map(|k| half.mode(k, 1.0, &damping)).collect();

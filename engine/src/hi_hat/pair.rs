@@ -66,6 +66,8 @@ pub struct PairParts {
     pub lasting_loss: f64,
     /// Gap of the rims while the pedal is up, m.
     pub depth: [f64; POINTS],
+    /// Where they meet, shares of the radii of the upper and the lower cymbal.
+    pub meeting: [f64; 2],
     /// Hz.
     pub sample_rate: f64,
 }
@@ -105,7 +107,7 @@ impl Pair {
             lower,
             folded: parts.folded,
             rigid: parts.rigid,
-            statics: Statics::new(parts.depth),
+            statics: Statics::new(parts.depth, parts.meeting),
             dynamics: Dynamics::new(parts.rigid_sounds),
             rims: RimState::new(parts.law, parts.lasting_loss, parts.depth),
             pedal: Pedal::up(1.0 / parts.sample_rate),
@@ -269,8 +271,8 @@ impl Pair {
 
     /// Overlap without the shells' motion, m.
     fn apart(&self, j: usize) -> f64 {
-        let weights = &self.statics.weights[j];
-        self.rigid[0].at(weights) - self.rigid[1].at(weights) + self.pedal.rest.bend[j]
+        let [above, below] = &self.statics.weights;
+        self.rigid[0].at(&above[j]) - self.rigid[1].at(&below[j]) + self.pedal.rest.bend[j]
             - self.statics.depth[j]
     }
 

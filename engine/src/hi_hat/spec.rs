@@ -11,14 +11,20 @@ use crate::numbers::{self, Numbers, Visitor};
 use super::rigid::Mount;
 use super::warp::WarpSpec;
 
-/// A hi-hat's description.
+/// Widest lower cymbal of a stack over the upper one: more, and the rim of the upper one would stand on the bell.
+const WIDEST_STACK: f64 = 2.0;
+
+/// A hi-hat's description, or of a stack: two cymbals on one stand, one pressed on the other.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct HiHatSpec {
     /// The upper cymbal.
     pub top: CymbalSpec,
-    /// The lower cymbal, as wide as the upper one.
+    /// The lower cymbal, as wide as the upper one; of a stack as wide or wider.
     pub bottom: CymbalSpec,
+    /// Force with which a nut presses the upper cymbal on the lower one, N, 0.5 to 200: of a stack, which has no pedal. None of a hi-hat.
+    #[serde(rename = "pressed_n", default, skip_serializing_if = "Option::is_none")]
+    pub pressed: Option<f64>,
     /// What holds the upper cymbal on the rod.
     pub clutch: Mount,
     /// What holds the lower cymbal.
@@ -52,6 +58,9 @@ impl Numbers for HiHatSpec {
     fn visit(&mut self, visitor: &mut dyn Visitor) {
         self.top.visit_part("top", visitor);
         self.bottom.visit_part("bottom", visitor);
+        if let Some(pressed) = &mut self.pressed {
+            visitor.number("pressed_n", pressed, 0.5..=200.0);
+        }
         self.clutch.visit_part("clutch", visitor);
         self.seat.visit_part("seat", visitor);
         visitor.number("tilt_rad", &mut self.tilt, 0.0..=0.05);
@@ -67,6 +76,13 @@ impl Numbers for HiHatSpec {
 }
 
 impl HiHatSpec {
+    /// Where the rim of the upper cymbal meets the two, shares of the radii of the upper and the lower one: the rims of hi-hats meet, whose cymbals are
+    /// as wide as each other within what [`check`](Self::check) accepts.
+    pub fn meeting(&self) -> [f64; 2] {
+        let below = if self.pressed.is_some() { self.top.diameter / self.bottom.diameter } else { 1.0 };
+        [1.0, below.min(1.0)]
+    }
+
     /// Checks every number.
     ///
     /// # Errors
@@ -88,16 +104,10 @@ impl HiHatSpec {
                 ));
             }
         }
-        // Rims of different radii would not meet.
-        let widths = (self.bottom.diameter - self.top.diameter).abs();
-        if widths > 0.01 * self.top.diameter {
-            return Err(SpecError::OutOfRange {
-                field: "bottom.diameter_m".to_owned(),
-                value: self.bottom.diameter,
-                min: 0.99 * self.top.diameter,
-                max: 1.01 * self.top.diameter,
-            });
-        }
+        // Rims of different radii would not meet; the upper cymbal of a stack stands on the lower one.
+        let most = if self.pressed.is_some() { WIDEST_STACK } else { 1.01 };
+        let (min, max) = (0.99 * self.top.diameter, most * self.top.diameter);
+        SpecError::check("bottom.diameter_m", self.bottom.diameter, min, max)?;
         Ok(())
     }
 }

@@ -37,7 +37,7 @@ impl Pair {
         let place = &mut self.strikers[point];
         for (j, shell) in shell.into_iter().enumerate() {
             place.shell[j] = -shell;
-            place.whole[j] = -shell - self.rigid[0].compliance(&place.weights, &self.statics.weights[j]);
+            place.whole[j] = -shell - self.rigid[0].compliance(&place.weights, &self.statics.weights[0][j]);
         }
     }
 
@@ -181,13 +181,16 @@ impl Pair {
         if dynamic == [0.0; POINTS] && self.rims.force == [0.0; POINTS] {
             return (0.0, Pressure::default());
         }
-        let mut felt = [0.0; 3];
-        for (weights, force) in self.statics.weights.iter().zip(&self.rims.force) {
-            felt.iter_mut().zip(weights).for_each(|(felt, weight)| *felt += weight * force);
-        }
+        let felt = self.statics.weights.each_ref().map(|places| {
+            let mut felt = [0.0; 3];
+            for (weights, force) in places.iter().zip(&self.rims.force) {
+                felt.iter_mut().zip(weights).for_each(|(felt, weight)| *felt += weight * force);
+            }
+            felt
+        });
         let before = self.rigid.each_ref().map(Rigid::speeds);
-        self.rigid[0].push_parts(&felt.map(|force| -force));
-        self.rigid[1].push_parts(&felt);
+        self.rigid[0].push_parts(&felt[0].map(|force| -force));
+        self.rigid[1].push_parts(&felt[1]);
         if self.pedal.arrival.is_some() {
             // Rims that are led to another equilibrium are not heard as they let go.
             for ((heard_from, rigid), before) in

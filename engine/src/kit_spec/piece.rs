@@ -38,12 +38,13 @@ pub struct PieceSpec {
 /// What a piece is.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
+#[expect(clippy::large_enum_variant, reason = "a kit has sixteen at most")]
 pub enum InstrumentSpec {
     /// A drum: kick, snare, tom, timpani.
     Drum(DrumSpec),
     /// A cymbal on a stand.
     Cymbal(CymbalSpec),
-    /// Two cymbals and a pedal.
+    /// Two cymbals and a pedal, or a stack of two.
     HiHat(HiHatSpec),
 }
 
@@ -52,7 +53,7 @@ pub enum InstrumentSpec {
 pub enum Kind {
     /// A drum, which has a pitch to tune.
     Drum,
-    /// A cymbal on a stand.
+    /// A cymbal on a stand, or a stack of two.
     Cymbal,
     /// Two cymbals and a pedal.
     HiHat,
@@ -90,6 +91,8 @@ impl InstrumentSpec {
         match self {
             InstrumentSpec::Drum(_) => Kind::Drum,
             InstrumentSpec::Cymbal(_) => Kind::Cymbal,
+            // A stack has no pedal, and is played as any other cymbal.
+            InstrumentSpec::HiHat(hat) if hat.pressed.is_some() => Kind::Cymbal,
             InstrumentSpec::HiHat(_) => Kind::HiHat,
         }
     }

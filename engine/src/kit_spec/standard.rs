@@ -460,6 +460,7 @@ fn hi_hat() -> InstrumentSpec {
     InstrumentSpec::HiHat(HiHatSpec {
         top: half(0.95, 5),
         bottom: half(1.25, 6),
+        pressed: None,
         clutch: clutch(inches(14.0) / 2.0, fitted::HAT_BOW + fitted::HAT_BELL_RISE),
         seat: Mount { bounce_hz: 50.0, rock_hz: 12.0, q: 2.0, rock_q: None, damping: 0.5, reach: 0.12 },
         tilt: 0.009,

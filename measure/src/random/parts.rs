@@ -2,6 +2,7 @@
 
 use overhear_engine::drum::DrumSpec;
 use overhear_engine::drum::lugs::LugsSpec;
+use overhear_engine::hi_hat::HiHatSpec;
 use overhear_engine::kit_spec::{InstrumentSpec, PieceSpec};
 
 use crate::Chance;
@@ -13,6 +14,7 @@ const OFTEN: f64 = 0.3;
 pub fn added(piece: PieceSpec, chance: &mut Chance) -> PieceSpec {
     let more = match piece.instrument {
         InstrumentSpec::Drum(drum) => InstrumentSpec::Drum(more_of_drum(drum, chance)),
+        InstrumentSpec::HiHat(hat) => InstrumentSpec::HiHat(more_of_pair(hat, chance)),
         other => other,
     };
     let more = PieceSpec { instrument: more, ..piece.clone() };
@@ -27,4 +29,16 @@ fn more_of_drum(drum: DrumSpec, chance: &mut Chance) -> DrumSpec {
         seed: chance.below(1000) as u32,
     });
     DrumSpec { lugs, ..drum }
+}
+
+/// A stack of its cymbals, now and then, the lower one as thin and wider.
+fn more_of_pair(hat: HiHatSpec, chance: &mut Chance) -> HiHatSpec {
+    if !chance.happens(OFTEN) {
+        return hat;
+    }
+    let by = chance.between(1.0, 1.6);
+    let mut bottom = hat.bottom;
+    (bottom.diameter, bottom.mass, bottom.bow) =
+        (by * bottom.diameter, by * by * bottom.mass, by * bottom.bow);
+    HiHatSpec { bottom, pressed: Some(0.5 * 400.0_f64.powf(chance.unit())), ..hat }
 }

@@ -29,6 +29,10 @@ pub enum Size {
     Weight,
     /// Of the lower one of a hi-hat.
     LowerWeight,
+    /// Across the lower cymbal of a stack.
+    LowerDiameter,
+    /// Force that presses the upper cymbal of a stack on the lower one.
+    Pressed,
     /// Rise of a cymbal's bow.
     Bow,
     /// Thickness of a cymbal at its rim.
@@ -68,6 +72,7 @@ enum Measure {
     Ratio,
     Percent,
     Count,
+    Force,
 }
 
 /// Units of lengths on screen.
@@ -91,7 +96,7 @@ pub struct Refusal {
 
 impl Size {
     /// All of them.
-    pub const ALL: [Size; 21] = [
+    pub const ALL: [Size; 23] = [
         Size::Diameter,
         Size::Depth,
         Size::Volume,
@@ -100,6 +105,8 @@ impl Size {
         Size::Opening,
         Size::Weight,
         Size::LowerWeight,
+        Size::LowerDiameter,
+        Size::Pressed,
         Size::Bow,
         Size::Rim,
         Size::Bell,
@@ -126,6 +133,8 @@ impl Size {
             Size::Opening => "Port",
             Size::Weight => "Weight",
             Size::LowerWeight => "Lower weight",
+            Size::LowerDiameter => "Lower diameter",
+            Size::Pressed => "Pressed by",
             Size::Bow => "Bow",
             Size::Rim => "Rim thickness",
             Size::Bell => "Bell",
@@ -151,6 +160,7 @@ impl Size {
             Size::Rim => Measure::Thickness,
             Size::Hammering | Size::Unevenness | Size::LugTuning => Measure::Percent,
             Size::Lugs => Measure::Count,
+            Size::Pressed => Measure::Force,
             _ => Measure::Length,
         }
     }
@@ -158,7 +168,8 @@ impl Size {
     /// The field of a kit file that it is, as the end of its path; nothing where that is measured otherwise.
     fn field(self) -> &'static str {
         match self {
-            Size::Diameter => "diameter_m",
+            Size::Diameter | Size::LowerDiameter => "diameter_m",
+            Size::Pressed => "pressed_n",
             Size::Depth => "depth_m",
             Size::Volume => "volume_m3",
             Size::Pitch => "pitch_hz",
@@ -203,6 +214,8 @@ impl Size {
             (Size::LugTuning, InstrumentSpec::Drum(drum)) => drum.lugs.map(|lugs| lugs.rms),
             (_, InstrumentSpec::Cymbal(cymbal)) => self.of_cymbal(cymbal),
             (Size::LowerWeight, InstrumentSpec::HiHat(hat)) => Some(hat.bottom.mass),
+            (Size::LowerDiameter, InstrumentSpec::HiHat(hat)) => hat.pressed.map(|_| hat.bottom.diameter),
+            (Size::Pressed, InstrumentSpec::HiHat(hat)) => hat.pressed,
             (_, InstrumentSpec::HiHat(hat)) => self.of_cymbal(&hat.top),
             _ => None,
         }
@@ -232,8 +245,13 @@ impl Size {
             (Size::Forward, _) => centre[2] = value,
             (_, InstrumentSpec::Drum(drum)) => self.set_drum(drum, value),
             (Size::LowerWeight, InstrumentSpec::HiHat(hat)) => hat.bottom.mass = value,
+            (Size::LowerDiameter, InstrumentSpec::HiHat(hat)) => widen(&mut hat.bottom, value),
+            (Size::Pressed, InstrumentSpec::HiHat(hat)) => hat.pressed = hat.pressed.map(|_| value),
             (Size::Diameter, InstrumentSpec::HiHat(hat)) => {
-                [&mut hat.top, &mut hat.bottom].into_iter().for_each(|cymbal| widen(cymbal, value));
+                let by = value / hat.top.diameter;
+                let below = if hat.pressed.is_some() { by * hat.bottom.diameter } else { value };
+                widen(&mut hat.top, value);
+                widen(&mut hat.bottom, below);
             }
             (Size::Bow | Size::Rim | Size::Bell | Size::BellRise, InstrumentSpec::HiHat(hat)) => {
                 [&mut hat.top, &mut hat.bottom].into_iter().for_each(|cymbal| self.set_cymbal(cymbal, value));
@@ -313,7 +331,10 @@ impl Size {
             (Measure::Length, "in" | "\"") => INCH,
             (Measure::Length, "mm") | (Measure::Mass, "g") | (Measure::Volume, "l") => 1e-3,
             (Measure::Length, "cm") => 1e-2,
-            (Measure::Length, "m") | (Measure::Mass, "kg") | (Measure::Pitch, "Hz" | "hz") => 1.0,
+            (Measure::Length, "m")
+            | (Measure::Mass, "kg")
+            | (Measure::Pitch, "Hz" | "hz")
+            | (Measure::Force, "N" | "n") => 1.0,
             _ => return None,
         };
         Some(number * scale)
@@ -331,6 +352,7 @@ impl Size {
             (Measure::Ratio, _) => (1.0, "", 3),
             (Measure::Percent, _) => (1e-2, "%", 1),
             (Measure::Count, _) => (1.0, "", 0),
+            (Measure::Force, _) => (1.0, "N", 1),
         }
     }
 

@@ -279,6 +279,9 @@ impl KitView {
         if let Kind::HiHat { bottom, .. } = body.kind {
             close(scene, &mut body, bottom, state, palette);
         }
+        if let Kind::Stack { bottom, .. } = body.kind {
+            below(scene, &body, body.frame.at(0.0, 0.0, -CLOSED), bottom, palette);
+        }
         let accent = palette.pieces[slot.index()];
         let heights = self.heights(slot, &body, seen, now.elapsed);
         let replay = &mut self.replays[slot.index()];
@@ -357,11 +360,17 @@ impl KitView {
 fn close(scene: &mut Scene, body: &mut Body, bottom: PlateSpec, state: &PieceSnapshot, palette: &Palette) {
     let gap = overhear_engine::hi_hat::GAP as f32;
     let down = state.rims.pedal.clamp(0.0, gap);
+    let turned = Frame { normal: vector::scale(body.frame.normal, -1.0), ..body.frame };
     let centre = body.frame.at(0.0, 0.0, -gap - CLOSED);
-    let frame = Frame { centre, normal: vector::scale(body.frame.normal, -1.0), ..body.frame };
+    below(scene, &Body { frame: turned, ..*body }, centre, bottom, palette);
+    body.frame.centre = body.frame.at(0.0, 0.0, -down);
+}
+
+/// Draws the lower cymbal of two, its rim about a point.
+fn below(scene: &mut Scene, body: &Body, centre: vector::V3, bottom: PlateSpec, palette: &Palette) {
+    let frame = Frame { centre, ..body.frame };
     let radius = bottom.radius() as f32;
     surfaces::still(scene, &Body { frame, radius, kind: Kind::Cymbal { plate: bottom }, ..*body }, palette);
-    body.frame.centre = body.frame.at(0.0, 0.0, -down);
 }
 
 /// The room behind the kit.

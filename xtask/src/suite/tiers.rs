@@ -12,7 +12,7 @@ pub enum Tier {
 }
 
 /// Every integration test of the workspace by its target: when it is run, and why then.
-pub const TARGETS: [(&str, Tier, &str); 36] = [
+pub const TARGETS: [(&str, Tier, &str); 37] = [
     ("acoustics", Tier::Quick, "figures of modes, computed rather than played"),
     ("automation", Tier::Whole, "plays the kit under every parameter"),
     ("command_line", Tier::Quick, "the program for users, in an empty folder"),
@@ -28,6 +28,7 @@ pub const TARGETS: [(&str, Tier, &str); 36] = [
     ("hi_hat", Tier::Quick, "the only tests of the pair and its pedal, and short"),
     ("hi_hat_notes", Tier::Quick, "notes of one hi-hat"),
     ("hosts", Tier::Whole, "needs the release bundles, hosts and a display"),
+    ("stacks", Tier::Quick, "the only tests of stacks, and short"),
     ("instruction_sets", Tier::Whole, "every piece on each instruction set"),
     ("cache", Tier::Whole, "builds kits anew with harmed caches"),
     ("kit", Tier::Quick, "a kit as a document, played for moments"),

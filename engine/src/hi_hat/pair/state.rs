@@ -46,14 +46,15 @@ impl Dynamics {
         bodies: [(&ModalBody, &ReceiverWeights); 2],
         folded: &[RimHarmonics; 2],
         rigid: &[Rigid; 2],
-        weights: &[Weights; POINTS],
+        weights: &[[Weights; POINTS]; 2],
     ) {
         let [above, below] = [0, 1].map(|which: usize| {
             rim_points::between_points(&bodies[which].0.class_compliances(&folded[which]))
         });
         for i in 0..POINTS {
             for j in 0..POINTS {
-                let mounts: f64 = rigid.iter().map(|rigid| rigid.compliance(&weights[i], &weights[j])).sum();
+                let mounts = rigid.iter().zip(weights);
+                let mounts: f64 = mounts.map(|(rigid, at)| rigid.compliance(&at[i], &at[j])).sum();
                 self.shells[i][j] = above[i][j] + below[i][j];
                 self.whole[i][j] = self.shells[i][j] + mounts;
             }

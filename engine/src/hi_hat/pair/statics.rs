@@ -14,8 +14,8 @@ use super::rest::Rest;
 pub(crate) struct Statics {
     /// How far the lower rim is below the upper one while the pedal is up, m.
     pub(crate) depth: [f64; POINTS],
-    /// What each place feels of the cymbals as stiff bodies.
-    pub(crate) weights: [Weights; POINTS],
+    /// What each place feels of the upper and of the lower cymbal as stiff bodies.
+    pub(crate) weights: [[Weights; POINTS]; 2],
     /// Steady compliance of shells, and of shells and mounts, between the places, m/N.
     shells: Compliances<POINTS>,
     whole: Compliances<POINTS>,
@@ -31,9 +31,10 @@ pub(crate) struct Balance {
 }
 
 impl Statics {
-    /// Of cymbals that are yet to be [followed](Self::follow), their rims so far (m) apart.
-    pub(crate) fn new(depth: [f64; POINTS]) -> Statics {
-        let weights = std::array::from_fn(|j| Rigid::weights(1.0, rim_points::angle(j)));
+    /// Of cymbals that are yet to be [followed](Self::follow), so far (m) apart where they meet, at shares of the radii of the upper and the lower one.
+    pub(crate) fn new(depth: [f64; POINTS], radii: [f64; 2]) -> Statics {
+        let weights =
+            radii.map(|radius| std::array::from_fn(|j| Rigid::weights(radius, rim_points::angle(j))));
         let none = [[0.0; POINTS]; POINTS];
         Statics { depth, weights, shells: none, whole: none }
     }
@@ -51,8 +52,8 @@ impl Statics {
         });
         for i in 0..POINTS {
             for j in 0..POINTS {
-                let (wi, wj) = (&self.weights[i], &self.weights[j]);
-                let mounts: f64 = rigid.iter().map(|rigid| rigid.steady_compliance(wi, wj)).sum();
+                let mounts = rigid.iter().zip(&self.weights);
+                let mounts: f64 = mounts.map(|(rigid, at)| rigid.steady_compliance(&at[i], &at[j])).sum();
                 self.shells[i][j] = above[i][j] + below[i][j];
                 self.whole[i][j] = self.shells[i][j] + mounts;
             }
@@ -79,9 +80,10 @@ impl Statics {
         let compression = static_equilibrium::compressions(&self.whole, &overlap, &preload);
         let bend = self.shells.map(|row| -row.iter().zip(&preload).map(|(s, p)| s * p).sum::<f64>());
         let mut resting = *rigid;
-        for (rigid, (rest, sign)) in resting.iter_mut().zip([(y, -1.0), (0.0, 1.0)]) {
+        let held = self.weights.iter().zip([(y, -1.0), (0.0, 1.0)]);
+        for (rigid, (weights, (rest, sign))) in resting.iter_mut().zip(held) {
             let mut place = [rest, 0.0, 0.0];
-            for (weights, force) in self.weights.iter().zip(&preload) {
+            for (weights, force) in weights.iter().zip(&preload) {
                 for (i, place) in place.iter_mut().enumerate() {
                     let mut along = [0.0; 3];
                     along[i] = 1.0;

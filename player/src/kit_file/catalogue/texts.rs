@@ -114,6 +114,8 @@ pub(crate) static INSTRUMENTS: &[(&str, &str)] = files!["pieces":
     "hats-14",
     "hats-14-b8",
     "hats-14-brass",
+    "stack-10-12",
+    "stack-14-16",
 ];
 
 /// Whole kits by name, in the order in which they are shown.

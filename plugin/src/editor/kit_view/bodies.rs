@@ -52,6 +52,8 @@ pub enum Kind {
     Cymbal { plate: PlateSpec },
     /// Two plates; the upper one is struck.
     HiHat { top: PlateSpec, bottom: PlateSpec },
+    /// Two plates, the upper one on the lower one; the upper one is struck.
+    Stack { top: PlateSpec, bottom: PlateSpec },
 }
 
 /// What carries it.
@@ -124,7 +126,10 @@ impl Kind {
         match &piece.instrument {
             InstrumentSpec::Drum(drum) => Kind::of_drum(drum, piece.place.centre[1] as f32),
             InstrumentSpec::Cymbal(cymbal) => Kind::Cymbal { plate: cymbal.plate() },
-            InstrumentSpec::HiHat(hat) => Kind::HiHat { top: hat.top.plate(), bottom: hat.bottom.plate() },
+            InstrumentSpec::HiHat(hat) => {
+                let (top, bottom) = (hat.top.plate(), hat.bottom.plate());
+                if hat.pressed.is_some() { Kind::Stack { top, bottom } } else { Kind::HiHat { top, bottom } }
+            }
         }
     }
 
@@ -150,7 +155,7 @@ impl Kind {
     pub fn depth(&self) -> f32 {
         match *self {
             Kind::Drum { depth, .. } | Kind::Kettle { depth } => depth,
-            Kind::Head | Kind::Cymbal { .. } | Kind::HiHat { .. } => 0.0,
+            Kind::Head | Kind::Cymbal { .. } | Kind::HiHat { .. } | Kind::Stack { .. } => 0.0,
         }
     }
 }
@@ -161,7 +166,7 @@ impl Support {
         let rise = frame.normal[1].clamp(-1.0, 1.0);
         let lowest = frame.centre[1] - kind.depth() * rise.max(0.0) - radius * (1.0 - rise * rise).sqrt();
         match kind {
-            Kind::Cymbal { .. } => Support::Stand,
+            Kind::Cymbal { .. } | Kind::Stack { .. } => Support::Stand,
             Kind::HiHat { .. } => Support::HatStand,
             Kind::Kettle { .. } => Support::Legs(4),
             Kind::Head => Support::Basket,
@@ -190,7 +195,9 @@ impl Body {
     /// The struck plate, if it is one.
     pub fn plate(&self) -> Option<&PlateSpec> {
         match &self.kind {
-            Kind::Cymbal { plate } | Kind::HiHat { top: plate, .. } => Some(plate),
+            Kind::Cymbal { plate } | Kind::HiHat { top: plate, .. } | Kind::Stack { top: plate, .. } => {
+                Some(plate)
+            }
             Kind::Head | Kind::Drum { .. } | Kind::Kettle { .. } => None,
         }
     }

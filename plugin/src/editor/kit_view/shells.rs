@@ -26,7 +26,7 @@ type Ring = (f32, f32);
 pub fn shell(scene: &mut Scene, body: &Body, glow: Color32, palette: &Palette) {
     let (frame, radius) = (&body.frame, body.radius);
     match body.kind {
-        Kind::Cymbal { .. } | Kind::HiHat { .. } => return,
+        Kind::Cymbal { .. } | Kind::HiHat { .. } | Kind::Stack { .. } => return,
         Kind::Head => hoop(scene, frame, radius, [0.008, -0.03], palette.chrome, Finish::Chrome),
         Kind::Kettle { depth } => kettle(scene, body, depth, palette),
         Kind::Drum { depth, shell, closed, lugs } => {
