@@ -4,7 +4,7 @@
 //! takes them; where another piece has them, it takes one of those that merely repeat that piece's ordinary stroke, as General MIDI's
 //! second crash does, and free notes for the rest.
 
-use overhear_engine::kit_spec::KitSpec;
+use overhear_engine::kit_spec::{KitSpec, PieceSpec};
 use overhear_engine::slot::Slot;
 use overhear_engine::strike::Striker;
 
@@ -39,11 +39,15 @@ pub(super) fn of_slot(table: &NoteTable, slot: Slot) -> Notes {
     notes
 }
 
-/// What plays the piece of the standard kit that an instrument is like.
+/// What plays the piece of the standard kit that an instrument is like; the first of its kind if that is another, as of a stack, which is made of hats but
+/// played as a cymbal.
 pub(super) fn of_model(instrument: &Instrument) -> Notes {
     let standard = KitSpec::standard();
+    let kind = instrument.piece().ok().map(|piece| piece.instrument.kind());
+    let is_of_kind = |piece: &PieceSpec| kind.is_none_or(|kind| piece.instrument.kind() == kind);
     let model = kit_file::library_model(instrument.name);
-    let slot = model.and_then(|model| Some(standard.find(&model)?.0));
+    let model = model.and_then(|model| standard.find(&model)).filter(|(_, piece)| is_of_kind(piece));
+    let slot = model.or_else(|| standard.slots().find(|(_, piece)| is_of_kind(piece))).map(|found| found.0);
     slot.map_or_else(Notes::new, |slot| of_slot(&NoteTable::standard(&standard), slot))
 }
 
