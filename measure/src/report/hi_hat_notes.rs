@@ -253,9 +253,7 @@ pub fn page() -> Result<Page> {
     let panel = |index: usize| {
         let (of, sound) = &sounds[index];
         let most = sound.iter().fold(0.0_f32, |most, x| most.max(x.abs()));
-        let points = sound.iter().take((0.04 * RATE) as usize).enumerate();
-        let points = points.map(|(at, x)| (1e3 * at as f64 / RATE, f64::from(x / most))).collect();
-        (case(*of), vec![(String::new(), points)])
+        (case(*of), vec![(String::new(), envelope(&sound[..(0.04 * RATE) as usize], most))])
     };
     for (name, title, cases) in [
         ("closed", "The first 40 ms of closed notes at velocity 90", [1, 2, 3, 5]),
@@ -263,10 +261,25 @@ pub fn page() -> Result<Page> {
     ] {
         let plot = Plot {
             across: Axis::linear("ms after the note", 0.0..40.0),
-            up: Axis::linear("pressure over its greatest", -1.0..1.0),
+            up: Axis::linear("pressure over its greatest", -1.05..1.05),
             panels: cases.into_iter().map(panel).collect(),
         };
         sheet.plot(name, title, &plot)?;
     }
     Ok(sheet.finish())
+}
+
+/// Lowest and highest value of every stretch of a sound, over the greatest of all, by ms: more samples than points are wide make a picture of noise grey.
+fn envelope(sound: &[f32], greatest: f32) -> Vec<(f64, f64)> {
+    /// Stretches of a picture.
+    const STRETCHES: usize = 250;
+    let length = sound.len().div_ceil(STRETCHES);
+    let stretches = sound.chunks(length).enumerate();
+    let ends = stretches.flat_map(|(index, stretch)| {
+        let at = 1e3 * (index * length) as f64 / RATE;
+        let (low, high) =
+            stretch.iter().fold((f32::MAX, f32::MIN), |(low, high), x| (low.min(*x), high.max(*x)));
+        [low, high].map(|x| (at, f64::from(x / greatest)))
+    });
+    ends.collect()
 }
