@@ -85,6 +85,22 @@ pub fn rim_tension(spec: &LugsSpec, hoop: &HoopSpec, film: &MembraneSpec, head: 
     tension
 }
 
+/// Least tension of a head under its lugs, relative to the mean. What is harmonic is least at the rim. Allocates.
+pub fn least_tension(spec: &LugsSpec, hoop: &HoopSpec, film: &MembraneSpec, head: u32) -> f64 {
+    let tension = rim_tension(spec, hoop, film, head);
+    // Eight directions to a period of the finest part.
+    let directions = 16 * spec.count;
+    let at = |direction: u32| {
+        let angle = TAU * f64::from(direction) / f64::from(directions);
+        let parts = tension.iter().enumerate().map(|(l, [re, im])| {
+            let (sin, cos) = (l as f64 * angle).sin_cos();
+            re * cos + im * sin
+        });
+        1.0 + parts.sum::<f64>()
+    };
+    (0..directions).map(at).fold(f64::INFINITY, f64::min)
+}
+
 /// Directions of the rods, rad, and how each pulls relative to their mean.
 fn pulls(spec: &LugsSpec, head: u32) -> Vec<(f64, f64)> {
     let drawn: Vec<f64> =
@@ -168,6 +184,37 @@ mod tests {
         }
         // In one period around the load is a moment: stress as in a beam, `sigma_theta = 3 sigma_r`, twice the load in the mean.
         assert!((rim_share(&rigid, &film, 1) - 2.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_head_is_slackest_between_few_lugs_that_are_tuned_far_apart() {
+        let (hoop, film) = tom();
+        let least = |count, rms| least_tension(&LugsSpec { count, rms, seed: 4 }, &hoop, &film, 0);
+        // One wave of 5 % alone.
+        assert!((least(6, 0.0) - 0.95).abs() < 0.01, "{}", least(6, 0.0));
+        assert!(least(3, 0.0) < least(4, 0.0) && least(4, 0.0) < least(6, 0.0));
+        assert!(least(6, 0.3) < least(6, 0.1) && least(6, 0.1) < least(6, 0.0));
+    }
+
+    #[test]
+    fn lugs_that_leave_a_head_slack_are_refused_with_what_works() {
+        let spec = reference::drum("rack-tom");
+        let lugs = |count, rms| Some(LugsSpec { count, rms, seed: 4 });
+        let thin = HoopSpec { wall: 5e-4, ..spec.hoop.unwrap() };
+        let with = |hoop, lugs| crate::drum::DrumSpec { hoop: Some(hoop), lugs, ..spec };
+        let nearest = |refused: &crate::drum::DrumSpec| -> f64 {
+            let words = refused.check().unwrap_err().to_string();
+            words.rsplit(' ').next().unwrap().parse().unwrap_or_else(|_| panic!("{words}"))
+        };
+        assert_eq!(with(spec.hoop.unwrap(), lugs(6, 0.04)).check(), Ok(()));
+        // Too far apart.
+        let rms = nearest(&with(spec.hoop.unwrap(), lugs(6, 0.3)));
+        assert!(rms > 0.04 && rms < 0.3, "{rms}");
+        assert_eq!(with(spec.hoop.unwrap(), lugs(6, rms)).check(), Ok(()));
+        // Too few for the hoop.
+        let count = nearest(&with(thin, lugs(3, 0.02)));
+        assert!(count > 3.0 && count < 12.0, "{count}");
+        assert_eq!(with(thin, lugs(count as u32, 0.02)).check(), Ok(()));
     }
 
     #[test]

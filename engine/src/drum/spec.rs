@@ -6,7 +6,7 @@ use crate::cavity::CavitySpec;
 use crate::contact::Material;
 use crate::damping::{EdgeSpec, LossLaw, Muffler};
 use crate::diffraction::Outside;
-use crate::drum::lugs::LugsSpec;
+use crate::drum::lugs::{self, LugsSpec};
 use crate::drum::tension_field::{TensionFieldSpec, Unevenness};
 use crate::error::SpecError;
 use crate::membrane::MembraneSpec;
@@ -247,6 +247,9 @@ impl PitchOf {
 /// Largest share of what pulls a head back that may be its own stiffness, at the lowest pitch: more, and it is a plate.
 const MOST_BENDING: f64 = 0.5;
 
+/// Least tension of a head between its lugs, over the mean, after twice what else is drawn of it. *Judgement*: far from where modes would not be held.
+const SLACKEST: f64 = 0.3;
+
 /// Strain that films hold.
 const STRONGEST_STRAIN: f64 = 0.03;
 
@@ -340,10 +343,7 @@ impl DrumSpec {
     /// [`SpecError`] naming the field.
     pub fn check(&self) -> Result<(), SpecError> {
         numbers::check(self)?;
-        if let Some(lugs) = &self.lugs {
-            let [fewest, most] = LugsSpec::COUNT.map(f64::from);
-            SpecError::check("lugs.count", f64::from(lugs.count), fewest, most)?;
-        }
+        self.check_lugs()?;
         SpecError::check("batter.plies", f64::from(self.batter.plies), 1.0, 2.0)?;
         self.check_strain("batter", &self.batter, 1.0)?;
         if let Some(resonant) = self.resonant {
@@ -362,6 +362,41 @@ impl DrumSpec {
             ));
         }
         Ok(())
+    }
+
+    /// No head is slack between the lugs.
+    fn check_lugs(&self) -> Result<(), SpecError> {
+        let Some(lugs) = self.lugs else { return Ok(()) };
+        let [fewest, most] = LugsSpec::COUNT;
+        SpecError::check("lugs.count", f64::from(lugs.count), f64::from(fewest), f64::from(most))?;
+        let hoop = self.hoop.unwrap_or(HoopSpec::OUT_OF_REACH);
+        let heads = [Some(self.batter), self.resonant.map(|head| head.head())].into_iter().flatten();
+        let films: Vec<MembraneSpec> = heads.map(|head| self.membrane(&head)).collect();
+        let drawn = 2.0 * self.tension_field.map_or(0.0, |field| field.rms);
+        let least = |lugs: &LugsSpec| {
+            let tensions =
+                films.iter().zip(0..).map(|(film, head)| lugs::least_tension(lugs, &hoop, film, head));
+            tensions.fold(f64::INFINITY, f64::min) - drawn
+        };
+        let holds = |lugs: LugsSpec| least(&lugs) >= SLACKEST;
+        if holds(lugs) {
+            return Ok(());
+        }
+        let slack = format!("with which a head would have {:.2} of its mean tension somewhere", least(&lugs));
+        if holds(LugsSpec { rms: 0.0, ..lugs }) {
+            let (mut works, mut fails) = (0.0, lugs.rms);
+            for _ in 0..30 {
+                let rms = 0.5 * (works + fails);
+                if holds(LugsSpec { rms, ..lugs }) { works = rms } else { fails = rms }
+            }
+            let works = (1e3 * works).floor() / 1e3;
+            let reason = format!("is {}, {slack}, accepted: up to {works}", lugs.rms);
+            return Err(SpecError::refused("lugs.rms", reason));
+        }
+        let enough = (lugs.count..=most).find(|&count| holds(LugsSpec { count, ..lugs }));
+        let accepted = enough.map_or("a stiffer hoop".to_owned(), |count| count.to_string());
+        let reason = format!("is {}, {slack}, accepted: {accepted}", lugs.count);
+        Err(SpecError::refused("lugs.count", reason))
     }
 
     /// No head is pulled beyond what its film holds at the highest pitch, and each has to be pulled at the lowest.
