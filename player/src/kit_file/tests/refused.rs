@@ -183,7 +183,7 @@ fn every_error_names_the_line_the_field_and_what_is_accepted() {
         ),
         (
             "format = 1\n[pieces.snare-2]\nlike = \"snare\"",
-            "2: pieces.snare-2.place.centre_m puts its middle 0.00 m",
+            "2: pieces.snare-2.place.centre_m is [-0.40, 0.66, -0.40], inside `snare`, accepted: [",
         ),
         ("format = 1\n[pieces.kick]\nslot = 10", "3: pieces.kick.slot is 10, accepted: 1 to 9"),
         ("format = 1\n[pieces.kick]\nslot = 0", "3: pieces.kick.slot is 0, accepted: 1 to 9"),
@@ -426,5 +426,31 @@ fn heads_that_would_tear_or_not_be_held_are_refused_with_pitches_that_all_heads_
         }
         let again = read("my.toml", &text(&fields)).map(|_| ());
         assert_eq!(again, Ok(()), "{refused}");
+    }
+}
+
+#[test]
+fn what_is_put_inside_another_piece_is_refused_with_the_nearest_place_that_is_free() {
+    let text = |piece: &str, centre: &str| {
+        format!("format = 1\n[pieces.{piece}]\nlike = \"crash\"\nplace.centre_m = {centre}")
+    };
+    for (inside, centre) in [
+        ("crash", "[-0.64, 1.2, 0.0]"),
+        ("crash", "[-0.62, 1.2, 0.0]"),
+        ("ride", "[0.68, 1.06, -0.04]"),
+        // Inside a drum.
+        ("floor-tom", "[0.47, 0.50, -0.34]"),
+        ("kick", "[0.0, 0.30, 0.0]"),
+        ("hi-hat", "[-0.72, 0.861, -0.30]"),
+    ] {
+        let refused = error(&text("crash-2", centre));
+        assert!(refused.starts_with("4: pieces.crash-2.place.centre_m is ["), "{refused}");
+        let (_, accepted) = refused.split_once(&format!("inside `{inside}`, accepted: ")).expect(&refused);
+        let free = &accepted[..=accepted.find(']').expect(&refused)];
+        assert!(read("my.toml", &text("crash-2", free)).is_ok(), "{refused}");
+    }
+    // Crashes over a ride and over one another, as drummers hang them.
+    for centre in ["[0.5, 1.2, -0.04]", "[-0.64, 1.26, 0.0]", "[-0.5, 1.2, 0.35]"] {
+        assert!(read("my.toml", &text("crash-2", centre)).is_ok(), "{centre}");
     }
 }
