@@ -5,6 +5,7 @@
 //! [slot](crate::slot::Slot); what needs building is here. The names under which fields are serialized carry their units.
 
 pub mod piece;
+pub mod places;
 pub mod room;
 mod standard;
 
@@ -141,32 +142,26 @@ impl KitSpec {
         self.room.check().map_err(|error| error.inside("room"))
     }
 
-    /// No drum stands in another.
+    /// No piece stands in another.
     fn check_places(&self) -> Result<(), SpecError> {
-        let drums: Vec<_> = self.pieces.iter().filter(|piece| piece.drum().is_some()).collect();
-        for (at, a) in drums.iter().enumerate() {
-            for b in &drums[..at] {
-                let (own, other) = (a.placement(), b.placement());
-                let apart = crate::layout::distance(&own.source(), &other.source());
-                let least = OVERLAP * (own.radius + other.radius);
-                if apart < least {
-                    return Err(SpecError::refused(
-                        &format!("pieces.{}.place.centre_m", a.name),
-                        format!(
-                            "puts its middle {apart:.2} m from that of `{}`, inside it, accepted: {least:.2} m or more",
-                            b.name
-                        ),
-                    ));
-                }
-            }
+        for (at, piece) in self.pieces.iter().enumerate() {
+            let Some(other) = self.pieces[..at].iter().find(|other| places::inside(piece, other)) else {
+                continue;
+            };
+            let [x, y, z] = piece.place.centre;
+            let others = self.pieces.iter().filter(|other| other.name != piece.name);
+            let accepted = places::free_place(piece, others).map_or_else(
+                || "another place".to_owned(),
+                |[x, y, z]| format!("[{x}, {y}, {z}], the nearest place that is free"),
+            );
+            return Err(SpecError::refused(
+                &format!("pieces.{}.place.centre_m", piece.name),
+                format!("is [{x:.2}, {y:.2}, {z:.2}], inside `{}`, accepted: {accepted}", other.name),
+            ));
         }
         Ok(())
     }
 }
-
-/// Nearest that the middles of two drums can be, over the sum of their radii: shells that touch are a whole apart, and
-/// a tom hangs over a kick.
-const OVERLAP: f64 = 0.5;
 
 impl PieceBuild {
     /// The context its instrument is built in.

@@ -10,7 +10,7 @@ mod notes;
 pub mod sizes;
 
 use overhear_engine::error::SpecError;
-use overhear_engine::kit_spec::{KitSpec, PieceSpec};
+use overhear_engine::kit_spec::{KitSpec, PieceSpec, places};
 use overhear_engine::layout::distance;
 use overhear_engine::slot::{SLOTS, Slot};
 
@@ -115,7 +115,8 @@ pub fn remove(document: &KitDocument, slot: Slot) -> Result<Edit, SpecError> {
     checked(Edit { document, origins, about: Slot::ALL[slot.index().min(count - 2)] })
 }
 
-/// Puts an instrument of the library in the place of a piece. One of the same kind keeps name, place and notes.
+/// Puts an instrument of the library in the place of a piece, or beside it if it is too large for that. One of the same kind keeps
+/// name, place and notes.
 ///
 /// # Errors
 /// [`SpecError`] of what does not fit there, or of an empty slot.
@@ -134,6 +135,11 @@ pub fn exchange(document: &KitDocument, slot: Slot, instrument: &Instrument) -> 
         names::make_distinct(&mut piece, &document.kit, Some(slot));
         document.notes = notes::moved(&document.notes, |of| (of != slot).then_some(of));
         notes::give(&mut document, slot, &piece.title, &notes::of_model(instrument));
+    }
+    let pieces = &document.kit.pieces;
+    let others = pieces.iter().enumerate().filter(|(of, _)| *of != slot.index()).map(|(_, other)| other);
+    if others.clone().any(|other| places::inside(&piece, other)) {
+        piece.place.centre = places::free_place(&piece, others).unwrap_or(piece.place.centre);
     }
     document.kit.pieces[slot.index()] = piece;
     let mut origins = kept(&document.kit);
@@ -209,9 +215,12 @@ fn place(piece: &mut PieceSpec, kit: &KitSpec) {
 }
 
 fn is_free(piece: &PieceSpec, kit: &KitSpec) -> bool {
-    // Less than the sum of the radii: cymbals overlap a little, as do toms and what hangs over them.
+    // Less than the sum of the radii: cymbals hang over one another a little, as do toms and what hangs over them.
     const CLOSE: f64 = 0.85;
     kit.pieces.iter().all(|other| {
+        if places::inside(piece, other) {
+            return false;
+        }
         let apart = distance(&piece.place.centre, &other.place.centre);
         let middles = distance(&piece.placement().source(), &other.placement().source());
         apart.min(middles) > CLOSE * (piece.instrument.radius() + other.instrument.radius())

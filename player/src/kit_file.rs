@@ -46,9 +46,11 @@ use std::io::Read as _;
 use std::path::Path;
 
 use overhear_engine::error::SpecError;
-use overhear_engine::kit_spec::{Defaults, KitSpec, PieceSpec};
+use overhear_engine::kit_spec::{Defaults, KitSpec, PieceSpec, places};
+use overhear_engine::slot::SLOTS;
 use toml::de::DeTable;
 use toml::{Table, Value};
+use tracing::warn;
 
 use crate::kit_document::KitDocument;
 
@@ -81,16 +83,29 @@ pub fn read(file_name: &str, text: &str) -> Result<KitDocument, KitFileError> {
     if text.len() > LARGEST {
         return Err(KitFileError::too_large(file_name));
     }
-    let read = Source::parse(text).and_then(document);
+    let read = Source::parse(text).and_then(|source| document(source, Places::Given));
     read.map_err(|fault| KitFileError::at(file_name, text.as_bytes(), fault.at, &fault.reason))
 }
 
-/// Reads a kit file that is a table inside another file of that name and text.
+/// Reads what [`write`] wrote and a project has stored, also where pieces stand inside one another, as a former version wrote
+/// it: the later ones are moved to the nearest place that is free.
 ///
 /// # Errors
-/// As of [`read`]; lines are those of the whole text.
+/// As of [`read`], but for places.
+pub fn read_stored(name: &str, text: &str) -> Result<KitDocument, KitFileError> {
+    if text.len() > LARGEST {
+        return Err(KitFileError::too_large(name));
+    }
+    let read = Source::parse(text).and_then(|source| document(source, Places::Stored));
+    read.map_err(|fault| KitFileError::at(name, text.as_bytes(), fault.at, &fault.reason))
+}
+
+/// Reads a kit file that is a table inside another file of that name and text, as [`read_stored`] does.
+///
+/// # Errors
+/// As of [`read_stored`]; lines are those of the whole text.
 pub fn read_part(file_name: &str, text: &str, table: &DeTable<'_>) -> Result<KitDocument, KitFileError> {
-    let read = Source::of(text, table).and_then(document);
+    let read = Source::of(text, table).and_then(|source| document(source, Places::Stored));
     read.map_err(|fault| KitFileError::at(file_name, text.as_bytes(), fault.at, &fault.reason))
 }
 
@@ -147,7 +162,16 @@ pub(crate) fn library_parts(kind: &str) -> &'static Table {
     catalogue::parts(kind)
 }
 
-fn document(Source { table, origins }: Source) -> Result<KitDocument, Fault> {
+/// What is done with pieces that stand inside others.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Places {
+    /// Those that the file puts there are refused. A cymbal that it only says is like another one is moved.
+    Given,
+    /// They are moved.
+    Stored,
+}
+
+fn document(Source { table, origins }: Source, places: Places) -> Result<KitDocument, Fault> {
     let start = head(&table, &origins)?;
     check_about(&table, &origins)?;
     let empty = Table::new();
@@ -159,6 +183,15 @@ fn document(Source { table, origins }: Source) -> Result<KitDocument, Fault> {
         drafts.iter().map(|draft| pieces::read(draft, &origins)).collect::<Result<Vec<_>, _>>()?;
     let level_db = level(&table, &pieces, &origins)?;
     pieces.iter_mut().for_each(|piece| piece.defaults.level_db += level_db);
+    // More are refused below.
+    for (at, draft) in drafts.iter().enumerate().take(SLOTS) {
+        let put = draft.beside.get("like").is_none()
+            || pieces[at].drum().is_some()
+            || origins.has(&format!("pieces.{}.place.centre_m", draft.name));
+        if places == Places::Stored || !put {
+            make_room(&mut pieces, at);
+        }
+    }
     let kit = KitSpec {
         pieces,
         microphones: whole(&table, "microphones", kit.map(|kit| text::table(&kit.microphones)), &origins)?,
@@ -168,6 +201,18 @@ fn document(Source { table, origins }: Source) -> Result<KitDocument, Fault> {
     let reader = notes::Reader { start: start.as_ref(), kit: &kit, drafts: &drafts, origins: &origins };
     let notes = reader.read(table.get("silent"))?;
     Ok(KitDocument { kit, notes })
+}
+
+/// Moves a piece that stands inside one before it to the nearest place that is free; it stays where there is none.
+fn make_room(pieces: &mut [PieceSpec], at: usize) {
+    if !pieces[..at].iter().any(|other| places::inside(&pieces[at], other)) {
+        return;
+    }
+    let others = pieces.iter().enumerate().filter(|(of, _)| *of != at).map(|(_, other)| other);
+    if let Some(free) = places::free_place(&pieces[at], others) {
+        warn!("The {} stood inside another piece: it is moved to {free:?} m", pieces[at].name);
+        pieces[at].place.centre = free;
+    }
 }
 
 /// Checks what the file is, and tells what it starts from.

@@ -7,6 +7,8 @@ use std::num::NonZeroU32;
 
 use nice_plug::prelude::*;
 use overhear_engine::kit::{OUTPUTS, Stereo};
+use overhear_engine::kit_spec::KitSpec;
+use overhear_engine::slot::Slot;
 
 /// What tells one kind of instrument from the other.
 pub trait Outputs: Send + 'static {
@@ -50,8 +52,8 @@ impl Outputs for Apart {
     };
 }
 
-/// Names of the outputs: hosts ask for them before there is an instance, so that they are those of the standard kit's pieces,
-/// and of the slots behind these.
+/// Names of the outputs as the framework has them, before there is an instance: those of the standard kit's pieces, and of the
+/// slots behind these. Hosts are told [those of the kit](title).
 const TITLES: [&str; OUTPUTS] = [
     "Kick",
     "Snare",
@@ -72,6 +74,16 @@ const TITLES: [&str; OUTPUTS] = [
     "Overheads",
     "Room",
 ];
+
+/// What an output beside the main one is called with a kit: as the piece in its slot.
+pub fn title(place: usize, kit: &KitSpec) -> Option<String> {
+    match Slot::new(place) {
+        Some(slot) => {
+            Some(kit.piece(slot).map_or_else(|| format!("Slot {}", place + 1), |piece| piece.title.clone()))
+        }
+        None => TITLES.get(place).map(|title| (*title).to_owned()),
+    }
+}
 
 /// Which outputs beside the main one a host uses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -159,7 +171,7 @@ fn cut<'b>(pair: &'b mut Stereo<'_>, from: usize, to: usize) -> Stereo<'b> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use overhear_engine::slot::{SLOTS, Slot};
+    use overhear_engine::slot::SLOTS;
     use overhear_player::parameters::SlotParameter::Level;
     use overhear_player::parameters::{parameters, slot_index};
 
@@ -167,5 +179,10 @@ mod tests {
     fn outputs_are_called_as_the_standard_kit_s_parameters_are() {
         let groups = Slot::ALL.map(|slot| parameters()[slot_index(slot, Level)].group);
         assert_eq!(TITLES[..SLOTS], groups);
+        let kit = KitSpec::standard();
+        for (place, of_framework) in TITLES.into_iter().enumerate() {
+            assert_eq!(title(place, &kit).as_deref(), Some(of_framework));
+        }
+        assert_eq!(title(OUTPUTS, &kit), None);
     }
 }

@@ -184,9 +184,9 @@ impl Numbers for ShellSpec {
 impl Numbers for DrumSpec {
     fn visit(&mut self, visitor: &mut dyn Visitor) {
         visitor.number("diameter_m", &mut self.diameter, 0.15..=0.82);
-        visitor.number("lowest_pitch_hz", &mut self.lowest_pitch_hz, 15.0..=1000.0);
+        visitor.number("lowest_pitch_hz", &mut self.lowest_pitch_hz, LOWEST_PITCH_HZ);
         let lowest = self.lowest_pitch_hz;
-        visitor.number("highest_pitch_hz", &mut self.highest_pitch_hz, 1.01 * lowest..=4.0 * lowest);
+        visitor.number("highest_pitch_hz", &mut self.highest_pitch_hz, NARROWEST * lowest..=4.0 * lowest);
         visitor.number("pitch_hz", &mut self.pitch_hz, lowest..=self.highest_pitch_hz);
         visitor.enter("batter");
         self.batter.visit_numbers(visitor);
@@ -249,6 +249,12 @@ const MOST_BENDING: f64 = 0.5;
 
 /// Least tension of a head between its lugs, over the mean, after twice what else is drawn of it. *Judgement*: far from where modes would not be held.
 const SLACKEST: f64 = 0.3;
+
+/// Accepted lowest pitches, Hz.
+const LOWEST_PITCH_HZ: std::ops::RangeInclusive<f64> = 15.0..=1000.0;
+
+/// Highest pitch over the lowest, at least.
+const NARROWEST: f64 = 1.01;
 
 /// Strain that films hold.
 const STRONGEST_STRAIN: f64 = 0.03;
@@ -345,10 +351,8 @@ impl DrumSpec {
         numbers::check(self)?;
         self.check_lugs()?;
         SpecError::check("batter.plies", f64::from(self.batter.plies), 1.0, 2.0)?;
-        self.check_strain("batter", &self.batter, 1.0)?;
         if let Some(resonant) = self.resonant {
             SpecError::check("resonant.plies", f64::from(resonant.plies), 1.0, 2.0)?;
-            self.check_strain("resonant", &resonant.head(), resonant.pitch_ratio)?;
             if !matches!(self.shell, Some(ShellSpec::Cylinder { .. })) {
                 return Err(SpecError::refused(
                     "resonant",
@@ -361,7 +365,7 @@ impl DrumSpec {
                 "are given, accepted: only with a resonant head to lie against",
             ));
         }
-        Ok(())
+        self.check_pitches()
     }
 
     /// No head is slack between the lugs.
@@ -399,39 +403,97 @@ impl DrumSpec {
         Err(SpecError::refused("lugs.count", reason))
     }
 
-    /// No head is pulled beyond what its film holds at the highest pitch, and each has to be pulled at the lowest.
-    fn check_strain(&self, name: &str, head: &HeadSpec, ratio: f64) -> Result<(), SpecError> {
+    /// No head is pulled beyond what its film holds at the highest pitch, and each has to be pulled at the lowest. What is said to be
+    /// accepted is what all heads accept.
+    fn check_pitches(&self) -> Result<(), SpecError> {
+        let DrumSpec { lowest_pitch_hz: lowest, pitch_hz: pitch, highest_pitch_hz: highest, .. } = *self;
+        let limits = |name: &'static str, head: &HeadSpec, ratio| {
+            let [least, most] = self.pitches_of(head, ratio);
+            (name, head.thickness, least, most)
+        };
+        let batter = limits("batter", &self.batter, 1.0);
+        let resonant =
+            self.resonant.map_or(batter, |head| limits("resonant", &head.head(), head.pitch_ratio));
+        let (stiff, thickness, least, _) = if resonant.2 > batter.2 { resonant } else { batter };
+        let (weak, .., most) = if resonant.3 < batter.3 { resonant } else { batter };
+        if lowest >= least && highest <= most {
+            return Ok(());
+        }
+        // Limits are told in tenths, rounded inward: what is told is accepted.
+        let [up, down] = [|hz: f64| (10.0 * hz).ceil() / 10.0, |hz: f64| (10.0 * hz).floor() / 10.0];
+        let reach = down(most.min(NARROWEST * LOWEST_PITCH_HZ.end()));
+        if up(NARROWEST * up(least)) > reach {
+            // A film's lowest pitch is in proportion to its thickness; the highest of the other does not depend on it.
+            let wanted = lowest.min(down(reach / NARROWEST - 0.1));
+            let thickest = (1e6 * thickness * wanted / least).floor() / 1e6;
+            let most = down(most);
+            let with = Self::following(
+                [
+                    ("lowest_pitch_hz", lowest, wanted),
+                    ("pitch_hz", pitch, most),
+                    ("highest_pitch_hz", highest, most),
+                ],
+                |value, needed| value > needed,
+                |needed| format!("up to {needed:.1}"),
+            );
+            return Err(SpecError::refused(
+                &format!("{stiff}.thickness_m"),
+                format!(
+                    "is {thickness}, held by its stiffness more than by its tension up to {reach:.1} Hz, accepted: up to {thickest:.6}{with}"
+                ),
+            ));
+        }
+        if lowest < least {
+            let least = up(least);
+            let with = Self::following(
+                [("pitch_hz", pitch, least), ("highest_pitch_hz", highest, up(NARROWEST * least))],
+                |value, needed| value < needed,
+                |needed| format!("{needed:.1} or more"),
+            );
+            return Err(SpecError::refused(
+                "lowest_pitch_hz",
+                format!(
+                    "is {lowest}, at which the {stiff} head would be held by its stiffness more than by its tension, accepted: {least:.1} or more{with}"
+                ),
+            ));
+        }
+        let strain = STRONGEST_STRAIN * (highest / most).powi(2);
+        let most = down(most);
+        let with = Self::following(
+            [("pitch_hz", pitch, most), ("lowest_pitch_hz", lowest, down(most / NARROWEST))],
+            |value, needed| value > needed,
+            |needed| format!("up to {needed:.1}"),
+        );
+        Err(SpecError::refused(
+            "highest_pitch_hz",
+            format!(
+                "is {highest}, at which the {weak} head would be strained by {:.1} %, accepted: up to {most:.1}{with}",
+                100.0 * strain
+            ),
+        ))
+    }
+
+    /// What else has to change with a pitch that is refused: the name, the present value and the needed one of each.
+    fn following<const N: usize>(
+        pitches: [(&str, f64, f64); N],
+        wrong: impl Fn(f64, f64) -> bool,
+        said: impl Fn(f64) -> String,
+    ) -> String {
+        let wrong = pitches.into_iter().filter(|(_, value, needed)| wrong(*value, *needed));
+        wrong.map(|(name, _, needed)| format!(", with {name} {}", said(needed))).collect()
+    }
+
+    /// Lowest and highest pitch of the drum, Hz, at which a head whose own is in that ratio to it is still held by its tension and
+    /// not torn.
+    fn pitches_of(&self, head: &HeadSpec, ratio: f64) -> [f64; 2] {
         let (m, n) = self.pitch_of.mode();
         let membrane = self.membrane(head);
         let zero = crate::math::bessel::zero(m, n);
         let bending = membrane.flexural_rigidity() * (zero / membrane.radius).powi(2);
-        // Without the air, which makes it need more.
-        let tension = |hz| crate::membrane::vacuum_tension(&membrane, zero, ratio * hz);
-        let bent = bending / tension(self.lowest_pitch_hz);
-        if bent > MOST_BENDING {
-            let lowest = self.lowest_pitch_hz * (bent / MOST_BENDING).sqrt();
-            return Err(SpecError::refused(
-                "lowest_pitch_hz",
-                format!(
-                    "is {}, at which the {name} head would be held by its stiffness more than by its tension, accepted: {lowest:.1} or more",
-                    self.lowest_pitch_hz,
-                ),
-            ));
-        }
-        let tension = tension(self.highest_pitch_hz);
         let Material { youngs_modulus, poisson_ratio, .. } = head.material;
-        let strain = tension * (1.0 - poisson_ratio) / (youngs_modulus * head.thickness);
-        if strain > STRONGEST_STRAIN {
-            let highest = self.highest_pitch_hz * (STRONGEST_STRAIN / strain).sqrt();
-            return Err(SpecError::refused(
-                "highest_pitch_hz",
-                format!(
-                    "is {}, at which the {name} head would be strained by {:.1} %, accepted: up to {highest:.1}",
-                    self.highest_pitch_hz,
-                    100.0 * strain
-                ),
-            ));
-        }
-        Ok(())
+        let strongest = STRONGEST_STRAIN * youngs_modulus * head.thickness / (1.0 - poisson_ratio);
+        // Without the air, which makes it need more. Tension goes with the square of the frequency.
+        let at_one_hertz = crate::membrane::vacuum_tension(&membrane, zero, ratio);
+        [bending / MOST_BENDING, strongest].map(|tension| (tension / at_one_hertz).sqrt())
     }
 }

@@ -43,6 +43,27 @@ fn every_instrument_of_the_library_can_be_added_and_put_in_every_place() {
 }
 
 #[test]
+fn what_is_added_duplicated_or_exchanged_until_the_kit_is_full_stands_in_nothing() {
+    let mut starts = vec![standard()];
+    starts.extend(library::kits().map(|kit| kit.document().unwrap()));
+    for start in starts {
+        for name in ["ride-24-light", "crash-20-thin", "hats-16-light", "kick-24x18", "splash-8"] {
+            let large = instrument(name);
+            // In every place, beside what is there.
+            for (slot, piece) in start.kit.slots() {
+                let exchanged = exchange(&start, slot, &large);
+                assert!(exchanged.is_ok(), "{name} for {}: {exchanged:?}", piece.name);
+            }
+            let mut full = add(&start, &large).unwrap();
+            while full.document.kit.pieces.len() < SLOTS {
+                full =
+                    duplicate(&full.document, full.about).unwrap_or_else(|error| panic!("{name}: {error}"));
+            }
+        }
+    }
+}
+
+#[test]
 fn a_kit_has_no_more_than_sixteen_pieces_and_no_fewer_than_one() {
     let mut document = standard();
     for _ in document.kit.pieces.len()..SLOTS {
@@ -99,7 +120,7 @@ fn sizes_are_refused_with_the_range_and_the_nearest_that_works() {
         (tom, Size::Diameter, 2.0, "accepted: 5.91 in to"),
         (tom, Size::Pitch, 480.0, "strained"),
         (crash, Size::Weight, 0.05, "Weight is 50 g, accepted:"),
-        (tom, Size::Right, -0.4, "inside it"),
+        (tom, Size::Right, -0.4, "inside `snare`"),
     ] {
         // The tom is put where the snare stands.
         let refused = match size {

@@ -44,7 +44,9 @@ pub fn kit_text(document: &KitDocument) -> Option<String> {
 /// # Errors
 /// [`KitFileError`] if it cannot be read.
 pub fn kit(fields: &BTreeMap<String, String>) -> Result<KitDocument, KitFileError> {
-    fields.get(KIT_FIELD).map_or_else(|| Ok(KitDocument::standard()), |text| kit_file::read(KIT_NAME, text))
+    fields
+        .get(KIT_FIELD)
+        .map_or_else(|| Ok(KitDocument::standard()), |text| kit_file::read_stored(KIT_NAME, text))
 }
 
 /// Assignments as stored in [`NOTES_FIELD`], lowest note first.

@@ -1,6 +1,6 @@
 use std::collections::BTreeMap;
 
-use overhear_engine::kit_spec::KitSpec;
+use overhear_engine::kit_spec::{KitSpec, PieceSpec};
 
 use super::*;
 use crate::kit_document::KitDocument;
@@ -139,4 +139,20 @@ fn a_state_of_sixteen_pieces_is_smaller_than_64_kilobytes() {
         println!("16 of {piece}: {size} bytes");
         assert!(size < 64_000, "16 of {piece}: {size} bytes");
     }
+}
+
+#[test]
+fn a_project_whose_cymbals_stand_in_one_another_is_loaded_with_the_later_ones_beside() {
+    let mut document = KitDocument::standard();
+    let mut second = document.kit.find("crash").unwrap().1.clone();
+    second.name = "crash-2".to_owned();
+    document.kit.pieces.push(second);
+    assert!(document.check().is_err());
+    let state = with_kit(&crate::kit_file::write(&document));
+    let loaded = kit(&state.fields).unwrap();
+    assert_eq!(loaded.check(), Ok(()));
+    assert_eq!(loaded.kit.pieces[..9], document.kit.pieces[..9]);
+    let [before, after] = [&document, &loaded].map(|document| document.kit.pieces[9].clone());
+    assert!(overhear_engine::layout::distance(&before.place.centre, &after.place.centre) < 0.03);
+    assert_eq!(PieceSpec { place: before.place, ..after }, before);
 }

@@ -1,6 +1,6 @@
 //! What a parameter is moved by: a switch where it is on or off, a list where there is a choice, a knob otherwise.
 
-use egui::{Align2, Color32, ComboBox, Rect, Sense, Stroke, Ui, UiBuilder, pos2, vec2};
+use egui::{Align2, Color32, ComboBox, FontId, Rect, RichText, Sense, Stroke, Ui, UiBuilder, pos2, vec2};
 
 use super::gesture::Gesture;
 use super::knob;
@@ -58,11 +58,11 @@ fn switch(ui: &mut Ui, rect: Rect, item: &Item<'_>, accent: Color32, set: &mut d
 
 fn list(ui: &mut Ui, rect: Rect, item: &Item<'_>, choices: &[&str], set: &mut dyn FnMut(usize, Gesture)) {
     knob::label(ui, rect, item.parameter.label);
-    let width = (rect.width() - 8.0).min(108.0);
+    let width = (rect.width() - 2.0).min(108.0);
     let body = Rect::from_center_size(rect.center(), vec2(width, 24.0));
     let low = item.limits().0;
     ui.scope_builder(UiBuilder::new().max_rect(body).id_salt(("choice", item.index)), |ui| {
-        let chosen = item.text(item.plain());
+        let chosen = fitting(ui, item.text(item.plain()), width);
         let shown = ComboBox::from_id_salt("choices").width(width).truncate().selected_text(chosen);
         let shown = shown.show_ui(ui, |ui| {
             for place in 0..choices.len() {
@@ -79,6 +79,18 @@ fn list(ui: &mut Ui, rect: Rect, item: &Item<'_>, choices: &[&str], set: &mut dy
     });
 }
 
+/// A choice in the largest letters in which a list of this width shows it whole.
+fn fitting(ui: &Ui, text: String, width: f32) -> RichText {
+    let spacing = ui.spacing();
+    let room = width - 2.0 * spacing.button_padding.x - spacing.icon_width - spacing.icon_spacing;
+    let fits = |font: &FontId| {
+        let galley = ui.painter().layout_no_wrap(text.clone(), font.clone(), Color32::WHITE);
+        galley.size().x <= room
+    };
+    let font = [theme::body(), theme::caption()].into_iter().find(fits).unwrap_or_else(theme::small);
+    RichText::new(text).font(font)
+}
+
 /// What a parameter is and what it can be.
 fn tip(item: &Item<'_>) -> String {
     let usual = item.text(item.usual());
@@ -88,4 +100,30 @@ fn tip(item: &Item<'_>) -> String {
         item.parameter.label,
         item.parameter.choices.join(", ")
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_shorter_choices_of_sticks_are_shown_whole() {
+        let context = egui::Context::default();
+        theme::apply(&context);
+        // Narrower than a cell of the page.
+        const WIDTH: f32 = 94.0;
+        let mut room = 0.0;
+        let mut widths = Vec::new();
+        let mut output = context.run_ui(egui::RawInput::default(), |ui| {
+            let spacing = ui.spacing();
+            room = WIDTH - 2.0 * spacing.button_padding.x - spacing.icon_width - spacing.icon_spacing;
+            for text in ["as mapped", "stick", "shoulder", "felt-beater"] {
+                let chosen = egui::WidgetText::from(fitting(ui, text.to_owned(), WIDTH));
+                let galley = chosen.into_galley(ui, None, f32::INFINITY, theme::body());
+                widths.push((text, galley.size().x));
+            }
+        });
+        output.textures_delta.clear();
+        assert!(widths.iter().all(|(_, width)| *width <= room), "{widths:?} in {room}");
+    }
 }

@@ -8,11 +8,12 @@
 use std::cell::UnsafeCell;
 use std::ffi::{CStr, c_char, c_void};
 use std::ptr;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, OnceLock};
 
 use clap_sys::audio_buffer::clap_audio_buffer;
 use clap_sys::entry::clap_plugin_entry;
+use clap_sys::ext::audio_ports::CLAP_EXT_AUDIO_PORTS;
 use clap_sys::ext::gui::CLAP_EXT_GUI;
 use clap_sys::ext::note_name::{CLAP_EXT_NOTE_NAME, clap_note_name, clap_plugin_note_name};
 use clap_sys::ext::params::{CLAP_EXT_PARAMS, clap_plugin_params};
@@ -38,6 +39,7 @@ use crate::plugin::{Overhear, OverhearMulti};
 
 mod guard;
 mod input;
+mod names;
 mod steps;
 mod table;
 
@@ -147,6 +149,7 @@ unsafe fn guarded<P: ClapPlugin>(host: *const clap_host) -> *const clap_plugin {
         start_processing: Some(start_processing),
         process: Some(timed_process),
         get_extension: Some(get_extension),
+        on_main_thread: Some(names::on_main_thread),
         ..framework
     };
     let (input, scratch) = (Input::new(), Scratch::new(ports));
@@ -154,13 +157,21 @@ unsafe fn guarded<P: ClapPlugin>(host: *const clap_host) -> *const clap_plugin {
     let parameters = host_parameters::take_latest();
     let (values, outputs) = (OnceLock::new(), UnsafeCell::new(outputs));
     let sample_rate = AtomicU64::new(0);
-    let guard = Guard { table, framework, host, parameters, sample_rate, values, outputs };
+    let renamed = Arc::new(AtomicBool::new(false));
+    if let Some(parameters) = &parameters {
+        parameters.tell_by(names::teller(host, renamed.clone()));
+    }
+    let guard = Guard { table, framework, host, parameters, renamed, sample_rate, values, outputs };
     Box::into_raw(Box::new(guard)).cast()
 }
 
 unsafe extern "C" fn destroy(plugin: *const clap_plugin) {
     // SAFETY: the host's last call: the box comes back, after the framework has had its turn.
     unsafe {
+        // The host is not called any more.
+        if let Some(parameters) = &guard(plugin).parameters {
+            parameters.tell_by(None);
+        }
         if let Some(destroy) = guard(plugin).framework.destroy {
             destroy(plugin);
         }
@@ -347,6 +358,9 @@ unsafe extern "C" fn get_extension(plugin: *const clap_plugin, id: *const c_char
             return ptr::from_ref(&TAIL_TOLD).cast();
         }
         let found = guard.framework.get_extension.map_or(ptr::null(), |get| get(plugin, id));
+        if !found.is_null() && CStr::from_ptr(id) == CLAP_EXT_AUDIO_PORTS {
+            return ptr::from_ref(&names::PORTS).cast();
+        }
         if found.is_null() || id.is_null() || CStr::from_ptr(id) != CLAP_EXT_PARAMS {
             return found;
         }
@@ -368,25 +382,21 @@ unsafe fn has_windows(host: *const clap_host) -> bool {
 }
 
 /// Notes with names, as the parameters and the user have them now.
-fn names(guard: &Guard) -> Vec<(u8, String)> {
+fn note_names(guard: &Guard) -> Vec<(u8, String)> {
     let named = || guard.parameters.as_ref().map(|parameters| parameters.note_names()).unwrap_or_default();
     caught("note_names", Vec::new(), named)
 }
 
 unsafe extern "C" fn note_count(plugin: *const clap_plugin) -> u32 {
     // SAFETY: see `guard`.
-    names(unsafe { guard(plugin) }).len() as u32
+    note_names(unsafe { guard(plugin) }).len() as u32
 }
 
 unsafe extern "C" fn note_name(plugin: *const clap_plugin, index: u32, into: *mut clap_note_name) -> bool {
     // SAFETY: see `guard`; `into` is null or valid.
-    let (named, into) = unsafe { (names(guard(plugin)), into.as_mut()) };
+    let (named, into) = unsafe { (note_names(guard(plugin)), into.as_mut()) };
     let (Some((note, name)), Some(into)) = (named.get(index as usize), into) else { return false };
-    into.name.fill(0);
-    let room = into.name.len() - 1;
-    for (to, from) in into.name[..room].iter_mut().zip(name.bytes()) {
-        *to = from as c_char;
-    }
+    names::write(name, &mut into.name);
     (into.port, into.key, into.channel) = (-1, i16::from(*note), -1);
     true
 }

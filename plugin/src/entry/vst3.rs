@@ -37,7 +37,7 @@ use super::TAIL;
 use super::scratch::{CHANNELS, Scratch};
 use crate::guard::caught;
 use crate::host_parameters::{self, HostParameters};
-use crate::outputs::Used;
+use crate::outputs::{self, Used};
 use crate::plugin::{Overhear, OverhearMulti};
 use overhear_player::decimation;
 
@@ -147,9 +147,30 @@ impl<P: Vst3Plugin> IComponentTrait for Guard<P> {
     pass_on!(@ IComponentTrait getControllerClassId(class: *mut TUID) -> tresult);
     pass_on!(@ IComponentTrait setIoMode(mode: IoMode) -> tresult);
     pass_on!(@ IComponentTrait getBusCount(media: MediaType, direction: BusDirection) -> int32);
-    pass_on!(@ IComponentTrait getBusInfo(
-        media: MediaType, direction: BusDirection, index: int32, info: *mut BusInfo
-    ) -> tresult);
+
+    unsafe fn getBusInfo(
+        &self,
+        media: MediaType,
+        direction: BusDirection,
+        index: int32,
+        info: *mut BusInfo,
+    ) -> tresult {
+        // SAFETY: passed on; `info` is null or valid.
+        caught("IComponentTrait::getBusInfo", kInternalError, || unsafe {
+            let result = self.framework.getBusInfo(media, direction, index, info);
+            let kit = self.parameters.as_ref().map(|parameters| parameters.document());
+            if let (true, 0, 1, Ok(bus @ 1..), Some(kit), Some(info)) =
+                (result == kResultOk, media, direction, usize::try_from(index), kit, info.as_mut())
+                && let Some(title) = outputs::title(bus - 1, &kit.kit)
+            {
+                info.name.fill(0);
+                let units = title.encode_utf16().take(info.name.len() - 1);
+                info.name.iter_mut().zip(units).for_each(|(to, unit)| *to = unit);
+            }
+            result
+        })
+    }
+
     pass_on!(@ IComponentTrait getRoutingInfo(input: *mut RoutingInfo, output: *mut RoutingInfo) -> tresult);
 
     unsafe fn activateBus(

@@ -130,6 +130,23 @@ fn a_likeness_is_that_of_the_changed_piece() {
 }
 
 #[test]
+fn a_cymbal_that_is_only_said_to_be_like_another_is_put_where_there_is_room() {
+    let document = changed("[pieces.crash-2]\nlike = \"crash\"\n[pieces.crash-3]\nlike = \"crash\"");
+    let standard = KitSpec::standard();
+    let place = |name: &str| piece(&document, name).place;
+    assert_eq!(place("crash"), standard.find("crash").unwrap().1.place);
+    let [second, third] = ["crash-2", "crash-3"].map(place);
+    assert!(second != place("crash") && third != second && third != place("crash"));
+    for moved in [second, third] {
+        let way = overhear_engine::layout::distance(&moved.centre, &place("crash").centre);
+        assert!(way < 0.05, "{moved:?}");
+    }
+    // Cymbals that overlap without meeting stay where they are.
+    let ride = changed("[pieces.crash-2]\nlike = \"crash\"\nplace.centre_m = [-0.6, 1.3, 0.0]");
+    assert_eq!(piece(&ride, "crash-2").place.centre, [-0.6, 1.3, 0.0]);
+}
+
+#[test]
 fn a_removed_piece_is_there_to_be_like() {
     let document =
         changed("remove = [\"crash\"]\n[pieces.left]\nlike = \"crash\"\n[pieces.crash]\nlike = \"crash\"");

@@ -183,7 +183,7 @@ fn every_error_names_the_line_the_field_and_what_is_accepted() {
         ),
         (
             "format = 1\n[pieces.snare-2]\nlike = \"snare\"",
-            "2: pieces.snare-2.place.centre_m puts its middle 0.00 m",
+            "2: pieces.snare-2.place.centre_m is [-0.40, 0.66, -0.40], inside `snare`, accepted: [",
         ),
         ("format = 1\n[pieces.kick]\nslot = 10", "3: pieces.kick.slot is 10, accepted: 1 to 9"),
         ("format = 1\n[pieces.kick]\nslot = 0", "3: pieces.kick.slot is 0, accepted: 1 to 9"),
@@ -352,5 +352,105 @@ fn what_no_such_instrument_can_be_is_refused_with_the_nearest_that_can_be_built(
         let [least, most] = range.split_once(" to ").map(|(least, most)| [least, most]).expect(&refused);
         let nearest = if value < least.parse().unwrap() { least } else { most };
         assert!(read("my.toml", &text(nearest)).is_ok(), "{refused}, but {nearest} is refused too");
+    }
+}
+
+/// What a refusal names: the field that is refused and those that have to follow it, each with a value that is accepted.
+fn named(refused: &str) -> Vec<(String, f64)> {
+    let (path, _) = refused.split_once(": ").unwrap().1.split_once(" is ").expect(refused);
+    let accepted = refused.split_once("accepted: ").expect(refused).1;
+    let (piece, field) = path.split_at(path.match_indices('.').nth(1).unwrap().0);
+    let field = &field[1..];
+    let values = format!("{field} {accepted}");
+    let named = values.split(", with ").map(|one| {
+        let (field, value) = one.split_once(' ').unwrap();
+        let value = value.trim_start_matches("up to ").trim_end_matches(" or more");
+        (format!("{piece}.{field}"), value.parse().unwrap_or_else(|_| panic!("{refused}")))
+    });
+    named.collect()
+}
+
+#[test]
+fn heads_that_would_tear_or_not_be_held_are_refused_with_pitches_that_all_heads_accept() {
+    let pitches = |piece: &str, [lowest, pitch, highest]: [f64; 3]| {
+        let path = format!("pieces.{piece}");
+        vec![
+            (format!("{path}.lowest_pitch_hz"), lowest),
+            (format!("{path}.pitch_hz"), pitch),
+            (format!("{path}.highest_pitch_hz"), highest),
+        ]
+    };
+    let with = |mut all: Vec<(String, f64)>, field: &str, value: f64| {
+        all.push((field.to_owned(), value));
+        all
+    };
+    let thick = |pitches| with(pitches, "pieces.rack-tom.batter.thickness_m", 2e-3);
+    for (mut fields, expected) in [
+        (pitches("rack-tom", [310.0, 310.0, 1_100.0]), "resonant head would be strained by"),
+        // The other head is the tighter one.
+        (
+            with(pitches("rack-tom", [310.0, 310.0, 1_100.0]), "pieces.rack-tom.resonant.pitch_ratio", 0.8),
+            "batter head would be strained by",
+        ),
+        // The pitch, and even the lowest, are beyond it as well.
+        (pitches("rack-tom", [400.0, 1_400.0, 1_500.0]), ", with pitch_hz up to"),
+        (pitches("rack-tom", [1_000.0, 1_000.0, 1_100.0]), ", with lowest_pitch_hz up to"),
+        (pitches("kick", [400.0, 500.0, 900.0]), "head would be strained by"),
+        (pitches("timpani", [400.0, 500.0, 1_500.0]), "batter head would be strained by"),
+        // Films that are plates.
+        (thick(pitches("rack-tom", [30.0, 100.0, 120.0])), "batter head would be held by its stiffness"),
+        (thick(pitches("rack-tom", [15.0, 16.0, 17.0])), ", with pitch_hz "),
+        // No pitch at all suits both heads.
+        (
+            with(
+                with(
+                    thick(pitches("rack-tom", [60.0, 100.0, 200.0])),
+                    "pieces.rack-tom.batter.material.youngs_modulus_pa",
+                    1e12,
+                ),
+                "pieces.rack-tom.resonant.material.youngs_modulus_pa",
+                1e8,
+            ),
+            "rack-tom.batter.thickness_m is 0.002, ",
+        ),
+    ] {
+        let text = |fields: &[(String, f64)]| {
+            let lines = fields.iter().map(|(field, value)| format!("{field} = {value:?}\n"));
+            format!("format = 1\n{}", lines.collect::<String>())
+        };
+        let refused = error(&text(&fields));
+        assert!(refused.contains(expected), "{refused}\n{expected}");
+        for (field, value) in named(&refused) {
+            let of_field = fields.iter_mut().find(|(name, _)| *name == field).expect(&field);
+            of_field.1 = value;
+        }
+        let again = read("my.toml", &text(&fields)).map(|_| ());
+        assert_eq!(again, Ok(()), "{refused}");
+    }
+}
+
+#[test]
+fn what_is_put_inside_another_piece_is_refused_with_the_nearest_place_that_is_free() {
+    let text = |piece: &str, centre: &str| {
+        format!("format = 1\n[pieces.{piece}]\nlike = \"crash\"\nplace.centre_m = {centre}")
+    };
+    for (inside, centre) in [
+        ("crash", "[-0.64, 1.2, 0.0]"),
+        ("crash", "[-0.62, 1.2, 0.0]"),
+        ("ride", "[0.68, 1.06, -0.04]"),
+        // Inside a drum.
+        ("floor-tom", "[0.47, 0.50, -0.34]"),
+        ("kick", "[0.0, 0.30, 0.0]"),
+        ("hi-hat", "[-0.72, 0.861, -0.30]"),
+    ] {
+        let refused = error(&text("crash-2", centre));
+        assert!(refused.starts_with("4: pieces.crash-2.place.centre_m is ["), "{refused}");
+        let (_, accepted) = refused.split_once(&format!("inside `{inside}`, accepted: ")).expect(&refused);
+        let free = &accepted[..=accepted.find(']').expect(&refused)];
+        assert!(read("my.toml", &text("crash-2", free)).is_ok(), "{refused}");
+    }
+    // Crashes over a ride and over one another, as drummers hang them.
+    for centre in ["[0.5, 1.2, -0.04]", "[-0.64, 1.26, 0.0]", "[-0.5, 1.2, 0.35]"] {
+        assert!(read("my.toml", &text("crash-2", centre)).is_ok(), "{centre}");
     }
 }

@@ -232,6 +232,7 @@ fn two_hi_hats_have_pedals_of_their_own_and_share_the_controller() {
     let hat = standard_slot("hi-hat");
     let mut other = document.kit.piece(hat).unwrap().clone();
     other.name = "hi-hat-2".to_owned();
+    other.place.centre[1] += 0.1;
     document.kit.pieces.push(other);
     let second = Slot::ALL[hat.index() + 1];
     let mut row = document.notes.row(44).unwrap().clone();

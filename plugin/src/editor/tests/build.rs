@@ -128,7 +128,7 @@ fn pieces_are_moved_by_hand_and_by_arrow_keys_and_not_into_one_another() {
     window.drag(tom, snare - tom, PointerButton::Primary);
     window.frame(Vec::new());
     assert_eq!(window.kit(), kit, "the kit that sounds is untouched");
-    assert!(window.says("inside it, accepted:"), "{:?}", window.texts);
+    assert!(window.says("inside `snare`, accepted:"), "{:?}", window.texts);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! What stands in front of one instrument of the framework.
 
 use std::cell::UnsafeCell;
-use std::sync::atomic::AtomicU64;
+use std::sync::atomic::{AtomicBool, AtomicU64};
 use std::sync::{Arc, OnceLock};
 
 use clap_sys::audio_buffer::clap_audio_buffer;
@@ -23,6 +23,8 @@ pub struct Guard {
     /// Lives as long as the plugin.
     pub host: *const clap_host,
     pub parameters: Option<Arc<HostParameters>>,
+    /// Whether the host has not been told that pieces and notes have other names.
+    pub renamed: Arc<AtomicBool>,
     /// Of the latest activation, Hz: bits of a double precision number.
     pub sample_rate: AtomicU64,
     /// The framework's table of parameters, but for their values.

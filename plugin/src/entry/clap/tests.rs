@@ -14,6 +14,7 @@ use overhear_player::kit_document::standard_slot;
 
 mod calls;
 pub(in crate::entry) mod expressions;
+mod kits;
 mod panics;
 mod sweep;
 

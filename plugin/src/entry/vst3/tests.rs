@@ -228,3 +228,31 @@ fn the_factory_makes_both_instruments_and_no_other() {
         assert_eq!(made, kInvalidArgument);
     }
 }
+
+#[test]
+fn outputs_have_the_titles_of_the_kit_s_pieces() {
+    let guard = multi();
+    let name = |bus: usize| {
+        // SAFETY: a structure of numbers, and the call a host makes.
+        let info = unsafe {
+            let mut info: BusInfo = std::mem::zeroed();
+            assert_eq!(guard.getBusInfo(0, 1, bus as int32, &mut info), kResultOk);
+            info
+        };
+        let units: Vec<u16> = info.name.iter().copied().take_while(|unit| *unit != 0).collect();
+        String::from_utf16(&units).unwrap()
+    };
+    let before: Vec<String> = (0..BUSES).map(name).collect();
+    assert_eq!(before[1..4], ["Kick", "Snare", "Rack tom"]);
+    let parameters = guard.parameters.clone().unwrap();
+    let mut document = (*parameters.document()).clone();
+    document.kit.pieces[1].title = "Gr\u{f6}\u{df}te Trommel".to_owned();
+    parameters.set_document(Arc::new(document)).unwrap();
+    let after: Vec<String> = (0..BUSES).map(name).collect();
+    assert_eq!(after[2], "Gr\u{f6}\u{df}te Trommel");
+    assert_eq!((&after[..2], &after[3..]), (&before[..2], &before[3..]));
+    // SAFETY: what the host asks for is refused, not written.
+    unsafe {
+        assert_ne!(guard.getBusInfo(0, 1, BUSES as int32, &mut std::mem::zeroed()), kResultOk);
+    }
+}
