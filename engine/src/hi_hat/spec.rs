@@ -87,6 +87,12 @@ impl HiHatSpec {
                     "is given, accepted: none, the rims of a hi-hat meet by the orders of turned cymbals",
                 ));
             }
+            if half.rivets.is_some() {
+                return Err(SpecError::refused(
+                    &format!("{name}.rivets"),
+                    "is given, accepted: none, rivets are in cymbals on stands",
+                ));
+            }
         }
         // Rims of different radii would not meet.
         let widths = (self.bottom.diameter - self.top.diameter).abs();

@@ -1,4 +1,4 @@
-//! Attachments of struck bodies: a rim, snare wires, a second cymbal.
+//! Attachments of struck bodies: a rim, snare wires, a second cymbal, rivets.
 //!
 //! A sample calls the methods of an attachment in this order. The defaults do nothing:
 //!
@@ -120,6 +120,12 @@ pub trait Attachment: Any + Send {
 
     /// Whether every sample must be solved without any exciter present.
     fn is_engaged(&self) -> bool {
+        false
+    }
+
+    /// Whether it is [engaged](Self::is_engaged) although nothing of it touches the body in this sample, so that the body rings as if by
+    /// itself.
+    fn is_aloft(&self) -> bool {
         false
     }
 
