@@ -5,10 +5,15 @@
 use overhear_engine::cymbal::CymbalSpec;
 use overhear_engine::kit_spec::{InstrumentSpec, KitSpec, PieceSpec};
 use overhear_engine::plate::{Bell, Flange};
+use overhear_engine::surface::rivets::RivetsSpec;
 
 /// Where a china's rim begins to turn up and how far it does, shares of the radius. *Judgement*: the china of the kit files'
 /// documentation.
 const CHINA: (f64, f64) = (0.8, 0.09);
+
+/// Rivets as they are put into rides: six, evenly around, an inch from the rim of one of 20 in. *Judgement*: what is sold.
+const RIVETS: RivetsSpec =
+    RivetsSpec { number: 6, radius: 0.9, arc: None, toward: 0.0, mass: 1.5e-3, play: 2.5e-3 };
 
 /// What can be switched.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,11 +26,14 @@ pub enum Feature {
     Hammering,
     /// Uneven tension of a drum's heads.
     UnevenHead,
+    /// Rivets in a cymbal on a stand.
+    Rivets,
 }
 
 impl Feature {
     /// All of them.
-    pub const ALL: [Feature; 4] = [Feature::Bell, Feature::Flange, Feature::Hammering, Feature::UnevenHead];
+    pub const ALL: [Feature; 5] =
+        [Feature::Bell, Feature::Flange, Feature::Hammering, Feature::UnevenHead, Feature::Rivets];
 
     /// What it is called on screen.
     pub fn label(self) -> &'static str {
@@ -34,6 +42,7 @@ impl Feature {
             Feature::Flange => "China rim",
             Feature::Hammering => "Hammered",
             Feature::UnevenHead => "Uneven lugs",
+            Feature::Rivets => "Rivets",
         }
     }
 
@@ -45,6 +54,7 @@ impl Feature {
             (Feature::Bell, InstrumentSpec::Cymbal(cymbal)) => Some(cymbal.bell.is_some()),
             (Feature::Flange, InstrumentSpec::Cymbal(cymbal)) => Some(cymbal.flange.is_some()),
             (Feature::Hammering, InstrumentSpec::Cymbal(cymbal)) => Some(cymbal.hammering.is_some()),
+            (Feature::Rivets, InstrumentSpec::Cymbal(cymbal)) => Some(cymbal.rivets.is_some()),
             _ => None,
         }
     }
@@ -78,6 +88,7 @@ impl Feature {
                 cymbal.flange = on.then_some(flange);
             }
             Feature::Hammering => cymbal.hammering = usual.and_then(|usual| usual.hammering),
+            Feature::Rivets => cymbal.rivets = on.then_some(RIVETS),
             Feature::UnevenHead => {}
         }
     }

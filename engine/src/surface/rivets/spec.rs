@@ -18,7 +18,7 @@ pub struct RivetsSpec {
     pub number: u32,
     /// Where the holes are, a share of the cymbal's radius, 0.3 to 0.98.
     pub radius: f64,
-    /// Arc that they are spread over from the first to the last, rad, 0.01 to 6; without it they are spread evenly all around.
+    /// Arc that they are spread over from the first to the last, rad, 0.01 to 6.2; without it they are spread evenly all around.
     #[serde(rename = "arc_rad", default, skip_serializing_if = "Option::is_none")]
     pub arc: Option<f64>,
     /// Toward where the middle of the arc is, or the first of all around, from the player's side on, rad, -2 pi to 2 pi.
@@ -36,7 +36,7 @@ impl Numbers for RivetsSpec {
     fn visit(&mut self, visitor: &mut dyn Visitor) {
         visitor.number("radius", &mut self.radius, 0.3..=0.98);
         if let Some(arc) = &mut self.arc {
-            visitor.number("arc_rad", arc, 0.01..=6.0);
+            visitor.number("arc_rad", arc, 0.01..=6.2);
         }
         visitor.number("toward_rad", &mut self.toward, -TAU..=TAU);
         visitor.number("mass_kg", &mut self.mass, 3e-4..=5e-3);
