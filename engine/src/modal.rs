@@ -200,19 +200,6 @@ impl ModalBody {
         self.kernels.rotate(&mut self.state.re, &mut self.state.im, turn_re, turn_im);
     }
 
-    /// Advances one sample without force, [detuned](Self::detune) as [`ring`](Self::ring) is.
-    ///
-    /// # Real-time
-    /// Linear in the number of modes.
-    pub fn step_detuned(&mut self) {
-        let Some(DetunedTurns { turn_re, turn_im, .. }) =
-            self.detuning.as_ref().filter(|turns| turns.is_active)
-        else {
-            return self.step();
-        };
-        self.kernels.rotate(&mut self.state.re, &mut self.state.im, turn_re, turn_im);
-    }
-
     /// Adds the effect of a force (N) that was held over the sample just stepped.
     pub fn push(&mut self, input: &InputVector, force: f32) {
         self.kernels.axpy(&mut self.state.re, &input.gain_re, force);

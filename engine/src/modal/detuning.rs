@@ -5,8 +5,8 @@
 //! `s^2 T t`, and a line becomes a Lorentzian whose coherence falls by `exp(-D t)`, `D = s^2 T / 2`. Displacement and velocity have
 //! no steps, and no energy changes.
 //!
-//! Only [`ModalBody::ring`] and [`ModalBody::step_detuned`] are detuned. Where forces of contacts act, by [`ModalBody::step`], the
-//! modes turn by their equation, as otherwise the work of a force would not be what the modes get.
+//! Only [`ModalBody::ring`] is detuned. Where forces of contacts act, by [`ModalBody::step`], the modes turn by their equation, as
+//! otherwise the work of a force would not be what the modes get.
 
 use fastrand::Rng;
 
@@ -190,22 +190,5 @@ mod tests {
         ring(&mut body, &weights);
         ring(&mut still, &weights);
         assert_eq!(body.displacements(), still.displacements());
-    }
-
-    #[test]
-    fn a_detuned_step_turns_as_a_body_that_rings_does() {
-        let (mut body, weights) = body();
-        let (mut stepped, _) = self::body();
-        for body in [&mut body, &mut stepped] {
-            body.detune(0, 300.0, &mut Rng::with_seed(2));
-        }
-        ring(&mut body, &weights);
-        (0..RUN).for_each(|_| stepped.step_detuned());
-        assert_eq!(body.displacements(), stepped.displacements());
-        body.end_detuning();
-        stepped.end_detuning();
-        ring(&mut body, &weights);
-        (0..RUN).for_each(|_| stepped.step_detuned());
-        assert_eq!(body.displacements(), stepped.displacements());
     }
 }

@@ -123,12 +123,6 @@ pub trait Attachment: Any + Send {
         false
     }
 
-    /// Whether it is [engaged](Self::is_engaged) although nothing of it touches the body in this sample, so that the body rings as if by
-    /// itself.
-    fn is_aloft(&self) -> bool {
-        false
-    }
-
     /// Whether it may drive the body without any exciter present.
     fn drives_body(&self) -> bool {
         false

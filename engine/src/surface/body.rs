@@ -250,13 +250,8 @@ impl StruckBody {
         self.air.iter_mut().for_each(|air| air.follow(modal, receiver));
     }
 
-    /// Steps under the air and the nonlinear force alone; phases wander if nothing touches.
-    pub(super) fn step(
-        &mut self,
-        sample: usize,
-        incident: Option<IncidentPressure<'_>>,
-        touches: bool,
-    ) -> FreeStep {
+    /// Steps under the air and the nonlinear force alone.
+    pub(super) fn step(&mut self, sample: usize, incident: Option<IncidentPressure<'_>>) -> FreeStep {
         let SoundingBody { modal, receiver } = &mut self.sound;
         let Some(force) = self.nonlinear_force.as_mut().filter(|force| force.is_active()) else {
             modal.step();
@@ -264,11 +259,7 @@ impl StruckBody {
             return FreeStep { mean: 0.0, divisor: 1.0, recoupled: true, heard };
         };
         let recoupled = force.begin(modal, receiver);
-        if touches {
-            modal.step()
-        } else {
-            modal.step_detuned()
-        }
+        modal.step();
         let heard = self.press(incident, sample);
         let Some(force) = &mut self.nonlinear_force else {
             return FreeStep { mean: 0.0, divisor: 1.0, recoupled, heard };

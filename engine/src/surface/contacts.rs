@@ -186,11 +186,6 @@ impl Contacts {
         self.exciters[..MAX_STRIKERS].iter().any(|striker| striker.present)
     }
 
-    /// Whether any point touches at the end of the latest sample.
-    pub fn is_touched(&self) -> bool {
-        self.present().iter().any(|&i| self.points[i].touching)
-    }
-
     /// Speed of arrival of the fastest striker present, m/s.
     pub fn fastest_striker(&self) -> Option<f64> {
         let about = self.exciters[..MAX_STRIKERS].iter().filter(|striker| striker.present);

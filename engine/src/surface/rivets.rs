@@ -19,12 +19,9 @@
 //! is computed by itself. Once they have come to lie and the plate moves too little to throw any, the
 //! plate rings in blocks, as if it had none, until its motion or a stroke can throw them.
 //!
-//! Phases above the coupled modes wander ([`transport`](crate::transport)) in samples that no rivet touches at the beginning of. In one in
-//! which it lands the plate turns by a little more or less than the work of the force knows of, at random: by a ten thousandth of what the landing
-//! moves.
-//!
 //! Neglected: that rivets turn and rattle in their holes sideways, the size of a head (a point at the hole's middle), the holes,
-//! and the inertia of rivets that lie: some grams on some kilograms.
+//! the inertia of rivets that lie, some grams on some kilograms, and the wandering of phases above the coupled modes
+//! ([`transport`](crate::transport)) while rivets are not at rest: with it forces would do other work than the plate gets.
 
 mod motion;
 mod mutual;
@@ -315,10 +312,6 @@ impl Attachment for Rivets {
 
     fn is_engaged(&self) -> bool {
         self.engaged
-    }
-
-    fn is_aloft(&self) -> bool {
-        self.engaged && self.aloft() == self.rivets.len()
     }
 
     fn drives_body(&self) -> bool {

@@ -74,8 +74,7 @@ impl Surface {
 
     /// Renders sample `sample` of a run with contacts, under the incident pressure of the run. Returns the pressure, Pa.
     pub(super) fn step(&mut self, sample: usize, incident: Option<IncidentPressure<'_>>) -> Pressure {
-        let touches = self.contacts.is_touched() || !self.attachments.iter().any(|other| other.is_aloft());
-        let free = self.body.step(sample, incident, touches);
+        let free = self.body.step(sample, incident);
         self.contacts.stiffen(&self.body, &free);
         for attachment in &mut self.attachments {
             if free.recoupled {
