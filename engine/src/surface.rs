@@ -5,7 +5,7 @@
 //! ```text
 //! exciters (strikers, wires) --> contacts --> body: modes, nonlinear force --> receivers --> pressure
 //!                                  |  |              |                            |
-//!                                  |  +-------- attachments: rim, wires, second cymbal
+//!                                  |  +-------- attachments: rim, wires, second cymbal, rivets
 //!                                  +--> observers (high bands) -------------------+
 //! ```
 //!
@@ -23,6 +23,7 @@ pub mod oscillator;
 mod pitch_glide;
 pub mod local_compliance;
 pub mod rim;
+pub mod rivets;
 mod sample;
 mod strike_log;
 mod striking;

@@ -17,6 +17,7 @@ use overhear_engine::drum::{DrumSpec, HeadContact, HeadSpec, PitchOf, ShellSpec}
 use overhear_engine::hi_hat::HiHatSpec;
 use overhear_engine::kit_spec::{InstrumentSpec, PieceSpec};
 use overhear_engine::numbers::{Numbers, Visitor};
+use overhear_engine::surface::rivets::{self, RivetsSpec};
 
 use crate::{Chance, spec};
 
@@ -112,6 +113,7 @@ fn draw(
         piece.defaults.muffle = if chance.happens(0.5) { 0.0 } else { chance.unit() };
         let few = modes(&piece.instrument) < MOST_MODES;
         if few && piece.drum().is_none_or(is_below_its_air) && piece.check().is_ok() {
+            rivet(&mut piece.instrument);
             return piece;
         }
     }
@@ -177,6 +179,25 @@ fn reshaped(cymbal: CymbalSpec, chance: &mut Chance) -> CymbalSpec {
     CymbalSpec { bell, taper, ..cymbal }
 }
 
+/// Puts rivets into a cymbal on a stand, now and then. Whether and which is drawn from the cymbal itself, so that whatever is drawn after
+/// it is the same with rivets and without.
+fn rivet(instrument: &mut InstrumentSpec) {
+    let InstrumentSpec::Cymbal(cymbal) = instrument else { return };
+    let mut chance = Chance::new(cymbal.mass.to_bits());
+    if chance.happens(0.4) {
+        let mut rivets = RivetsSpec {
+            number: 1 + chance.below(rivets::MOST) as u32,
+            radius: 0.9,
+            arc: chance.happens(0.3).then_some(0.5),
+            toward: 0.0,
+            mass: 1.5e-3,
+            play: 2.5e-3,
+        };
+        rivets.visit(&mut Shaker(&mut chance));
+        cymbal.rivets = Some(rivets);
+    }
+}
+
 /// How many modes there are, roughly: of a membrane `(k a / 2)^2` to the highest, of a plate by the density of its
 /// bending waves.
 fn modes(instrument: &InstrumentSpec) -> f64 {
@@ -219,5 +240,11 @@ mod tests {
             assert_eq!(drawn(seed), drawn(seed));
             assert_ne!(drawn(seed), drawn(seed + 1));
         }
+        let drawn = (0..200).map(|seed| cymbal(&mut Chance::new(seed)));
+        let riveted = drawn.filter(|piece| match piece.instrument {
+            InstrumentSpec::Cymbal(cymbal) => cymbal.rivets.is_some(),
+            _ => false,
+        });
+        assert!((50..110).contains(&riveted.count()));
     }
 }

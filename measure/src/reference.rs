@@ -14,7 +14,7 @@ use crate::{altered, spec};
 
 /// The plate as a spherical cap, as thick everywhere: diameter (m), mass (kg), rise (m). It is not hammered.
 fn cap(cymbal: CymbalSpec, diameter: f64, mass: f64, rise: f64) -> CymbalSpec {
-    CymbalSpec { diameter, mass, bow: rise, bell: None, taper: 1.0, hammering: None, ..cymbal }
+    CymbalSpec { diameter, mass, bow: rise, bell: None, taper: 1.0, hammering: None, rivets: None, ..cymbal }
 }
 
 /// A cymbal of the standard kit, renamed, its plate a cap.

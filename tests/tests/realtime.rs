@@ -8,12 +8,13 @@ use std::path::Path;
 
 use assert_no_alloc::{AllocDisabler, assert_no_alloc, reset_violation_count, violation_count};
 use overhear_engine::kit::{Arrangement, Control, Kit};
-use overhear_engine::kit_spec::KitSpec;
+use overhear_engine::kit_spec::{InstrumentSpec, KitSpec};
 use overhear_engine::piece::Piece;
 use overhear_engine::slot::Slot;
 use overhear_engine::snapshot::KitSnapshot;
 use overhear_engine::strike::Strike;
-use overhear_tests::{Chance, kit, member, slot, standard};
+use overhear_engine::surface::rivets::{self, RivetsSpec};
+use overhear_tests::{Chance, kit_of, member, slot, standard};
 
 #[global_allocator]
 static ALLOCATOR: AllocDisabler = AllocDisabler;
@@ -44,6 +45,18 @@ fn elsewhere() -> KitSpec {
     kit
 }
 
+/// The standard kit with as many rivets in its splash as fit.
+fn riveted() -> KitSpec {
+    let mut kit = standard();
+    let splash = kit.pieces.iter_mut().find(|piece| piece.name == "splash").expect("a splash");
+    if let InstrumentSpec::Cymbal(cymbal) = &mut splash.instrument {
+        let number = rivets::MOST as u32;
+        cymbal.rivets =
+            Some(RivetsSpec { number, radius: 0.9, arc: None, toward: 0.0, mass: 1e-3, play: 2e-3 });
+    }
+    kit
+}
+
 /// Numbers that no control expects.
 const ODD: [f64; 10] =
     [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0, 0.0, -0.0, 1e-310, 1e300, -1e300, f64::MAX];
@@ -51,10 +64,10 @@ const ODD: [f64; 10] =
 impl Stage {
     fn new(seed: u64) -> Stage {
         Stage {
-            kit: kit(RATE),
+            kit: kit_of(&riveted(), RATE),
             slots: standard().slots().map(|(slot, piece)| (slot, piece.instrument.tunings())).collect(),
             spares: ["snare", "splash", "timpani"]
-                .map(|name| Box::new(member(&standard(), slot(name), RATE)))
+                .map(|name| Box::new(member(&riveted(), slot(name), RATE)))
                 .into(),
             arrangement: Some(Box::new(Arrangement::new(RATE, &elsewhere()))),
             snapshot: KitSnapshot::default(),

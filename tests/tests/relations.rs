@@ -64,6 +64,12 @@ impl Recorded {
         analysis::octave_decays(&self.0, RATE)[at].expect("an octave that falls")
     }
 
+    /// Level above a frequency (Hz) between two times (s), dB.
+    fn level(&self, above: f64, from: f64, to: f64) -> f64 {
+        let part = &self.0[(from * RATE) as usize..(to * RATE) as usize];
+        10.0 * PowerSpectrum::hann(part, RATE).band(above, 20_000.0).log10()
+    }
+
     /// How much more the first 30 ms have than all that follows, dB: the stick over the wash.
     fn ping(&self) -> f64 {
         let (first, rest) = self.0.split_at((0.03 * RATE) as usize);
@@ -195,6 +201,19 @@ fn a_heavier_ride_is_higher_drier_and_lasts_longer() {
     println!("ping over wash, dB: {ping:.1?}");
     assert!(ping[2] > ping[0] + 1.0, "{ping:?}");
     rises("decay at 500 Hz, s", &tipped.each_ref().map(|ride| ride.decay(500.0)), 0.1);
+}
+
+/// Rivets make the wash louder and more penetrating, and take sustain: where too little energy is left to lift them, the sound ends sharply.
+/// en.wikipedia.org/wiki/Sizzle_cymbal.
+#[test]
+fn rivets_make_a_ride_sizzle_until_too_little_is_left_to_lift_them() {
+    let rivets = "rivets = { number = 6, radius = 0.9, toward_rad = 0, mass_g = 1.5, play_mm = 2.5 }";
+    let rides = ["", rivets].map(|change| ride(change, stroke(STICK, 3.0, 0.7, 0.3)));
+    rises("what rings, mean frequency, Hz", &rides.each_ref().map(Recorded::ring), 0.1);
+    let wash = rides.each_ref().map(|ride| ride.level(6000.0, 0.7, 1.7));
+    let tail = rides.each_ref().map(|ride| ride.level(6000.0, 3.0, 4.0));
+    println!("above 6 kHz, dB: {wash:.1?} from .7 s, {tail:.1?} from 3 s");
+    assert!(wash[1] > wash[0] + 6.0 && tail[1] < tail[0] - 6.0);
 }
 
 /// The higher the profile, the higher the pitch: bloodyrich.net/cymbal.html. N. H. Fletcher, T. D. Rossing, 1998, ch. 20.

@@ -26,6 +26,7 @@ use crate::receiver::{POINTS, Receivers};
 use crate::schema::SCHEMA;
 use crate::shapes::{ShapeIndex, ShapeTable};
 use crate::split::Splitting;
+use crate::surface::rivets::Rivets;
 use crate::surface::swing::Swing;
 use crate::surface::{Surface, SurfaceParts};
 use crate::transport::TransportSpec;
@@ -406,6 +407,10 @@ impl PlateShapes {
                     interval: BLOCK as f64 / options.sample_rate,
                 });
             }
+        }
+        if let Some(rivets) = &spec.rivets {
+            let dt = 1.0 / options.sample_rate;
+            surface.attach(Rivets::new(rivets, &spec.alloy.material(), ideal.lossless, dt));
         }
         surface
     }

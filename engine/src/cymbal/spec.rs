@@ -9,6 +9,7 @@ use crate::error::SpecError;
 use crate::numbers::{self, Numbers, Visitor};
 use crate::plate::{Bell, Flange, PlateSpec};
 use crate::split::Splitting;
+use crate::surface::rivets::RivetsSpec;
 
 use super::alloy::Alloy;
 use super::hammering::HammeringSpec;
@@ -48,6 +49,9 @@ pub struct CymbalSpec {
     /// How it is hammered, if it is; none of a hi-hat's cymbal.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hammering: Option<HammeringSpec>,
+    /// Its rivets, if it has any; none of a hi-hat's cymbal.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rivets: Option<RivetsSpec>,
 }
 
 /// A cymbal stand: felts the plate bounces and rocks on.
@@ -106,6 +110,9 @@ impl Numbers for CymbalSpec {
         if let Some(hammering) = &mut self.hammering {
             hammering.visit_part("hammering", visitor);
         }
+        if let Some(rivets) = &mut self.rivets {
+            rivets.visit_part("rivets", visitor);
+        }
     }
 }
 
@@ -136,6 +143,9 @@ impl CymbalSpec {
         numbers::check(self)?;
         if let Muffler::Pillow { .. } | Muffler::Ring { .. } = self.muffler {
             return Err(SpecError::refused("muffler.kind", "is of drums, accepted for a cymbal: gel"));
+        }
+        if let Some(rivets) = &self.rivets {
+            rivets.check().map_err(|error| error.inside("rivets"))?;
         }
         self.plate().check()
     }

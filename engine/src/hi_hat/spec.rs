@@ -103,6 +103,12 @@ impl HiHatSpec {
                     "is given, accepted: none, the rims of a hi-hat meet by the orders of turned cymbals",
                 ));
             }
+            if half.rivets.is_some() {
+                return Err(SpecError::refused(
+                    &format!("{name}.rivets"),
+                    "is given, accepted: none, rivets are in cymbals on stands",
+                ));
+            }
         }
         // Rims of different radii would not meet; the upper cymbal of a stack stands on the lower one.
         let most = if self.pressed.is_some() { WIDEST_STACK } else { 1.01 };

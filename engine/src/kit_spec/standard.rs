@@ -378,6 +378,7 @@ fn bronze(diameter_in: f64, mass: f64, bow: f64, (radius, rise): (f64, f64)) -> 
         muffler: Muffler::Gel { sigma: fitted::CYMBAL_TAPE_SIGMA, radius: 0.85, angle: 2.3 },
         evenness: Splitting::CYMBAL,
         hammering: None,
+        rivets: None,
     }
 }
 

@@ -29,6 +29,15 @@ impl ModalBody {
         (0..self.modes.len()).map(|k| 0.5 * self.modes[k].mass * self.velocity(k).powi(2)).sum()
     }
 
+    /// Sum over the modes of a weight (`[mode]`, padded) times the square of the amplitude, in the unit of the weights times m2.
+    ///
+    /// # Real-time
+    /// Linear in the number of modes.
+    pub fn weighted_square(&self, weights: &[f32]) -> f64 {
+        let sum = |state| f64::from(self.kernels.dot_square(weights, state));
+        sum(&self.state.re) + sum(&self.state.im)
+    }
+
     fn mode_energy(&self, k: usize) -> f64 {
         let (mode, q) = (&self.modes[k], f64::from(self.state.im[k]));
         0.5 * mode.mass * (self.velocity(k).powi(2) + (mode.omega * q).powi(2))

@@ -1,4 +1,4 @@
-//! Attachments of struck bodies: a rim, snare wires, a second cymbal.
+//! Attachments of struck bodies: a rim, snare wires, a second cymbal, rivets.
 //!
 //! A sample calls the methods of an attachment in this order. The defaults do nothing:
 //!

@@ -7,6 +7,7 @@ use overhear_engine::cymbal::CymbalSpec;
 use overhear_engine::drum::lugs::LugsSpec;
 use overhear_engine::kit_spec::{InstrumentSpec, KitSpec, PieceSpec};
 use overhear_engine::plate::{Bell, Flange};
+use overhear_engine::surface::rivets::RivetsSpec;
 
 /// Where a china's rim begins to turn up and how far it does, shares of the radius. *Judgement*: the china of the kit files'
 /// documentation.
@@ -14,6 +15,9 @@ const CHINA: (f64, f64) = (0.8, 0.09);
 
 /// Distance of tension rods along the rim, m. *Trade sizes*: five on a 10 in tom, six on 12 in, eight on 16 in, ten on kicks.
 const ROD_DISTANCE: f64 = 0.16;
+/// Rivets as they are put into rides: six, evenly around, an inch from the rim of one of 20 in. *Judgement*: what is sold.
+const RIVETS: RivetsSpec =
+    RivetsSpec { number: 6, radius: 0.9, arc: None, toward: 0.0, mass: 1.5e-3, play: 2.5e-3 };
 
 /// What can be switched.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,12 +32,20 @@ pub enum Feature {
     UnevenHead,
     /// Lugs that are counted, and where a drum's heads are pulled.
     Lugs,
+    /// Rivets in a cymbal on a stand.
+    Rivets,
 }
 
 impl Feature {
     /// All of them.
-    pub const ALL: [Feature; 5] =
-        [Feature::Bell, Feature::Flange, Feature::Hammering, Feature::UnevenHead, Feature::Lugs];
+    pub const ALL: [Feature; 6] = [
+        Feature::Bell,
+        Feature::Flange,
+        Feature::Hammering,
+        Feature::Rivets,
+        Feature::UnevenHead,
+        Feature::Lugs,
+    ];
 
     /// What it is called on screen.
     pub fn label(self) -> &'static str {
@@ -43,6 +55,7 @@ impl Feature {
             Feature::Hammering => "Hammered",
             Feature::UnevenHead => "Uneven head",
             Feature::Lugs => "Lugs counted",
+            Feature::Rivets => "Rivets",
         }
     }
 
@@ -55,6 +68,7 @@ impl Feature {
             (Feature::Bell, InstrumentSpec::Cymbal(cymbal)) => Some(cymbal.bell.is_some()),
             (Feature::Flange, InstrumentSpec::Cymbal(cymbal)) => Some(cymbal.flange.is_some()),
             (Feature::Hammering, InstrumentSpec::Cymbal(cymbal)) => Some(cymbal.hammering.is_some()),
+            (Feature::Rivets, InstrumentSpec::Cymbal(cymbal)) => Some(cymbal.rivets.is_some()),
             _ => None,
         }
     }
@@ -94,6 +108,7 @@ impl Feature {
                 cymbal.flange = on.then_some(flange);
             }
             Feature::Hammering => cymbal.hammering = usual.and_then(|usual| usual.hammering),
+            Feature::Rivets => cymbal.rivets = on.then_some(RIVETS),
             Feature::UnevenHead | Feature::Lugs => {}
         }
     }

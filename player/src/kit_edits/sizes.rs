@@ -1,10 +1,13 @@
-//! Sizes of a piece as drummers say them: in inches or millimetres, grams, hertz.
+//! Sizes of a piece as drummers say them: in inches or millimetres, grams, hertz, degrees.
+
+use std::f64::consts::TAU;
 
 use overhear_engine::cymbal::CymbalSpec;
 use overhear_engine::drum::spec::{DrumSpec, ShellSpec};
 use overhear_engine::error::SpecError;
 use overhear_engine::kit_spec::{InstrumentSpec, PieceSpec};
 use overhear_engine::slot::Slot;
+use overhear_engine::surface::rivets::RivetsSpec;
 
 use crate::kit_document::KitDocument;
 
@@ -53,6 +56,16 @@ pub enum Size {
     Lugs,
     /// How far the pulls of a drum's lugs are apart.
     LugTuning,
+    /// How many rivets a cymbal has.
+    Rivets,
+    /// Of one of them.
+    RivetWeight,
+    /// Where they are, a share of the radius.
+    RivetPlace,
+    /// The arc that they are spread over; all of the circle if they are spread evenly.
+    RivetArc,
+    /// How far one can rise.
+    RivetPlay,
     /// To the drummer's right, from the middle of the kit.
     Right,
     /// Over the floor.
@@ -73,6 +86,9 @@ enum Measure {
     Percent,
     Count,
     Force,
+    /// Of what weighs a gram or two.
+    Grams,
+    Angle,
 }
 
 /// Units of lengths on screen.
@@ -96,7 +112,7 @@ pub struct Refusal {
 
 impl Size {
     /// All of them.
-    pub const ALL: [Size; 23] = [
+    pub const ALL: [Size; 28] = [
         Size::Diameter,
         Size::Depth,
         Size::Volume,
@@ -117,6 +133,11 @@ impl Size {
         Size::Unevenness,
         Size::Lugs,
         Size::LugTuning,
+        Size::Rivets,
+        Size::RivetWeight,
+        Size::RivetPlace,
+        Size::RivetArc,
+        Size::RivetPlay,
         Size::Right,
         Size::Height,
         Size::Forward,
@@ -145,6 +166,11 @@ impl Size {
             Size::Unevenness => "Uneven tension",
             Size::Lugs => "Lugs",
             Size::LugTuning => "Lugs differ by",
+            Size::Rivets => "Rivets",
+            Size::RivetWeight => "Rivet weight",
+            Size::RivetPlace => "Rivets at",
+            Size::RivetArc => "Rivets along",
+            Size::RivetPlay => "Rivet play",
             Size::Right => "Right",
             Size::Height => "Height",
             Size::Forward => "Forward",
@@ -157,10 +183,12 @@ impl Size {
             Size::Weight | Size::LowerWeight => Measure::Mass,
             Size::Pitch => Measure::Pitch,
             Size::PitchRatio => Measure::Ratio,
-            Size::Rim => Measure::Thickness,
-            Size::Hammering | Size::Unevenness | Size::LugTuning => Measure::Percent,
-            Size::Lugs => Measure::Count,
+            Size::Rim | Size::RivetPlay => Measure::Thickness,
+            Size::Hammering | Size::Unevenness | Size::LugTuning | Size::RivetPlace => Measure::Percent,
+            Size::Lugs | Size::Rivets => Measure::Count,
             Size::Pressed => Measure::Force,
+            Size::RivetWeight => Measure::Grams,
+            Size::RivetArc => Measure::Angle,
             _ => Measure::Length,
         }
     }
@@ -184,6 +212,11 @@ impl Size {
             Size::Unevenness => "tension_field.rms",
             Size::Lugs => "lugs.count",
             Size::LugTuning => "lugs.rms",
+            Size::Rivets => "rivets.number",
+            Size::RivetWeight => "rivets.mass_kg",
+            Size::RivetPlace => "rivets.radius",
+            Size::RivetArc => "rivets.arc_rad",
+            Size::RivetPlay => "rivets.play_m",
             Size::Right => "centre_m.x",
             Size::Height => "centre_m.y",
             Size::Forward => "centre_m.z",
@@ -231,6 +264,11 @@ impl Size {
             Size::Flange => cymbal.flange.map(|flange| 2.0 * flange.radius),
             Size::FlangeRise => cymbal.flange.map(|flange| flange.rise),
             Size::Hammering => cymbal.hammering.map(|hammering| hammering.rms),
+            Size::Rivets => cymbal.rivets.map(|rivets| f64::from(rivets.number)),
+            Size::RivetWeight => cymbal.rivets.map(|rivets| rivets.mass),
+            Size::RivetPlace => cymbal.rivets.map(|rivets| rivets.radius),
+            Size::RivetArc => cymbal.rivets.map(|rivets| rivets.arc.unwrap_or(TAU)),
+            Size::RivetPlay => cymbal.rivets.map(|rivets| rivets.play),
             _ => None,
         }
     }
@@ -306,6 +344,18 @@ impl Size {
             Size::Flange => cymbal.flange.iter_mut().for_each(|flange| flange.radius = 0.5 * value),
             Size::FlangeRise => cymbal.flange.iter_mut().for_each(|flange| flange.rise = value),
             Size::Hammering => cymbal.hammering.iter_mut().for_each(|hammering| hammering.rms = value),
+            _ => cymbal.rivets.iter_mut().for_each(|rivets| self.set_rivets(rivets, value)),
+        }
+    }
+
+    fn set_rivets(self, rivets: &mut RivetsSpec, value: f64) {
+        match self {
+            Size::Rivets => rivets.number = value.round() as u32,
+            Size::RivetWeight => rivets.mass = value,
+            Size::RivetPlace => rivets.radius = value,
+            // All of the circle, within half a degree.
+            Size::RivetArc => rivets.arc = Some(value).filter(|&arc| arc < 0.999 * TAU),
+            Size::RivetPlay => rivets.play = value,
             _ => {}
         }
     }
@@ -321,12 +371,14 @@ impl Size {
     /// The value that a text stands for, in SI units: a number, with or without a unit.
     pub fn parse(self, text: &str, units: Units) -> Option<f64> {
         let text = text.trim();
-        let end = text.find(|c: char| c.is_alphabetic() || "\"%".contains(c)).unwrap_or(text.len());
+        let end = text.find(|c: char| c.is_alphabetic() || "\"%°".contains(c)).unwrap_or(text.len());
         let (number, unit) = text.split_at(end);
         let number: f64 = number.trim().replace(',', ".").parse().ok()?;
         let scale = match (self.measure(), unit.trim()) {
             (_, "") => self.unit(units).0,
             (Measure::Percent, "%") => 1e-2,
+            (Measure::Grams, "g") => 1e-3,
+            (Measure::Angle, "°" | "deg") => DEGREE,
             (Measure::Thickness, "mm") => 1e-3,
             (Measure::Length, "in" | "\"") => INCH,
             (Measure::Length, "mm") | (Measure::Mass, "g") | (Measure::Volume, "l") => 1e-3,
@@ -353,6 +405,8 @@ impl Size {
             (Measure::Percent, _) => (1e-2, "%", 1),
             (Measure::Count, _) => (1.0, "", 0),
             (Measure::Force, _) => (1.0, "N", 1),
+            (Measure::Grams, _) => (1e-3, "g", 2),
+            (Measure::Angle, _) => (DEGREE, "°", 0),
         }
     }
 
@@ -368,6 +422,9 @@ impl Size {
 
 /// An inch, m.
 const INCH: f64 = 0.0254;
+
+/// A degree, rad.
+const DEGREE: f64 = TAU / 360.0;
 
 /// Thickness of a cymbal at its rim, m. It falls evenly from the middle to the rim, so that the mean over the disc is the middle's
 /// by `(1 + 2 taper) / 3`.

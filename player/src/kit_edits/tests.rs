@@ -1,3 +1,5 @@
+use overhear_engine::kit_spec::InstrumentSpec;
+
 use super::sizes::{Size, Units, resize};
 use super::*;
 use crate::library;
@@ -154,4 +156,37 @@ fn sizes_are_read_as_they_are_shown() {
     assert_eq!(Size::Diameter.parse("wide", Units::Inches), None);
     assert_eq!(Size::Diameter.text(0.3302, Units::Inches), "13 in");
     assert_eq!(Size::Weight.text(1.1, Units::Inches), "1100 g");
+}
+
+#[test]
+fn rivets_are_put_in_and_sized() {
+    let document = standard();
+    let ride = slot(&document, "ride");
+    let put_in =
+        change(&document, ride, |piece| features::Feature::Rivets.switch(piece, true)).unwrap().document;
+    let rivets = |document: &KitDocument| match document.kit.piece(ride).unwrap().instrument {
+        InstrumentSpec::Cymbal(cymbal) => cymbal.rivets.unwrap(),
+        _ => unreachable!("a ride is a cymbal"),
+    };
+    let of = |size: Size, text: &str| {
+        resize(&put_in, ride, size, size.parse(text, Units::Inches).unwrap(), Units::Inches)
+    };
+    assert_eq!(rivets(&of(Size::Rivets, "3").unwrap().document).number, 3);
+    assert_eq!(rivets(&of(Size::RivetWeight, "2 g").unwrap().document).mass, 2e-3);
+    assert_eq!(rivets(&of(Size::RivetPlay, "1.5").unwrap().document).play, 1.5e-3);
+    assert_eq!(rivets(&of(Size::RivetPlace, "85 %").unwrap().document).radius, 0.85);
+    let arc = rivets(&of(Size::RivetArc, "30 °").unwrap().document).arc.unwrap();
+    assert!((arc - std::f64::consts::PI / 6.0).abs() < 1e-12);
+    assert_eq!(rivets(&of(Size::RivetArc, "360").unwrap().document).arc, None);
+    for (size, text, says, nearest) in [
+        (Size::Rivets, "20", "Rivets is 20, accepted: 1 to 12", "12"),
+        (Size::Rivets, "0", "Rivets is 0, accepted: 1 to 12", "1"),
+        (Size::RivetWeight, "9", "Rivet weight is 9 g, accepted: 0.3 g to 5 g", "4.99 g"),
+        (Size::RivetArc, "357", "accepted: 1 ° to 355 °", "360 °"),
+        (Size::RivetPlace, "99", "accepted: 30 % to 98 %", "98 %"),
+    ] {
+        let refused = of(size, text).unwrap_err();
+        assert!(refused.words.contains(says), "{}", refused.words);
+        assert_eq!(size.text(refused.nearest.unwrap(), Units::Inches), nearest, "{}", refused.words);
+    }
 }

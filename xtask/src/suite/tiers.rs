@@ -12,7 +12,7 @@ pub enum Tier {
 }
 
 /// Every integration test of the workspace by its target: when it is run, and why then.
-pub const TARGETS: [(&str, Tier, &str); 37] = [
+pub const TARGETS: [(&str, Tier, &str); 38] = [
     ("acoustics", Tier::Quick, "figures of modes, computed rather than played"),
     ("automation", Tier::Whole, "plays the kit under every parameter"),
     ("command_line", Tier::Quick, "the program for users, in an empty folder"),
@@ -48,6 +48,7 @@ pub const TARGETS: [(&str, Tier, &str); 37] = [
     ("realtime", Tier::Traps, "counts allocations, with an allocator of its own"),
     ("recordings", Tier::Whole, "plays the kit softly to hard"),
     ("relations", Tier::Whole, "builds some thirty pieces"),
+    ("rivets", Tier::Quick, "two cymbals, some seconds each"),
     ("sleep", Tier::Quick, "rests more than it plays"),
     ("strokes", Tier::Quick, "single strokes"),
     ("swap", Tier::Quick, "exchanges a piece while it plays"),

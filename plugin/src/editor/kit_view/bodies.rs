@@ -10,6 +10,7 @@ use overhear_engine::drum::{DrumSpec, ShellSpec};
 use overhear_engine::kit_spec::{InstrumentSpec, KitSpec, PieceSpec};
 use overhear_engine::layout::Placement;
 use overhear_engine::plate::PlateSpec;
+use overhear_engine::surface::rivets::RivetsSpec;
 
 use super::vector::{V3, add, cross, dot, scale, sub, unit};
 
@@ -37,6 +38,8 @@ pub struct Body {
     pub radius: f32,
     pub kind: Kind,
     pub support: Support,
+    /// Of a cymbal.
+    pub rivets: Option<RivetsSpec>,
 }
 
 /// What kind of thing it is.
@@ -184,7 +187,11 @@ impl Body {
         let (frame, kind) = (Frame::of(&piece.placement()), Kind::of(piece));
         let radius = piece.instrument.radius() as f32;
         let wires = piece.drum().is_some_and(|drum| drum.wires.is_some());
-        Body { frame, radius, kind, support: Support::of(&kind, &frame, radius, wires) }
+        let rivets = match &piece.instrument {
+            InstrumentSpec::Cymbal(cymbal) => cymbal.rivets,
+            _ => None,
+        };
+        Body { frame, radius, kind, support: Support::of(&kind, &frame, radius, wires), rivets }
     }
 
     /// The pieces of a kit where they stand, in the order of their slots.

@@ -7,7 +7,7 @@ use egui::Color32;
 use super::bodies::{Body, Frame};
 use super::light::{Finish, lit, shade};
 use super::scene::Scene;
-use super::vector::{V3, cross, dot, scale, sub, unit};
+use super::vector::{V3, add, cross, dot, scale, sub, unit};
 use crate::editor::field::{ANGLES, RADII, Refined};
 use crate::editor::theme::Palette;
 
@@ -66,6 +66,28 @@ pub fn moving(scene: &mut Scene, body: &Body, motion: &Motion<'_>, palette: &Pal
         lit
     });
     edge(scene, &points[RADII], finish, palette);
+    rivets(scene, body, motion.heights, seen_from_above, palette);
+}
+
+/// Draws the heads of rivets, or their lower ends from below, where the surface is.
+fn rivets(scene: &mut Scene, body: &Body, heights: &Refined, seen_from_above: bool, palette: &Palette) {
+    /// Radius of a head and how far it rises, m, and how much nearer it is painted than the plate that it lies on.
+    const HEAD: (f32, f32, f32) = (0.0045, 0.003, 0.03);
+    let Some(rivets) = body.rivets else { return };
+    let radius = rivets.radius as f32;
+    let colours = [shade(palette.bronze, 0.7, 0.0), shade(palette.bronze, 1.3, 0.1)];
+    let side = if seen_from_above { 1.0 } else { -1.0 };
+    scene.lift += HEAD.2;
+    for angle in rivets.angles() {
+        let (sin, cos) = (angle as f32).sin_cos();
+        // Its angle counts from the player's side, that of the grid from the right.
+        let [x, y] = [radius * sin, -radius * cos];
+        let spoke = (y.atan2(x).rem_euclid(TAU) / TAU * ANGLES as f32).round() as usize % ANGLES;
+        let ring = ((radius * RADII as f32).round() as usize).min(RADII);
+        let at = body.surface(x, y, heights[ring][spoke]);
+        scene.rod(at, add(at, scale(body.frame.normal, side * HEAD.1)), HEAD.0, colours);
+    }
+    scene.lift -= HEAD.2;
 }
 
 /// Draws a plate that does not move.
