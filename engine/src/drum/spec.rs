@@ -9,6 +9,7 @@ use crate::diffraction::Outside;
 use crate::drum::tension_field::TensionFieldSpec;
 use crate::error::SpecError;
 use crate::membrane::MembraneSpec;
+use crate::membrane::dot::DotSpec;
 use crate::numbers::{self, Numbers, Visitor};
 use crate::rim::HoopSpec;
 use crate::shell::{Cylinder, WallSpec};
@@ -97,6 +98,9 @@ pub struct HeadSpec {
     pub loss: LossLaw,
     /// Its own modes up to this enter the drum's, in the middle of the range of pitches, Hz, 100 to 4000.
     pub modes_to_hz: f64,
+    /// What is glued to its middle; none of a head without a dot.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dot: Option<DotSpec>,
 }
 
 /// The head that is not struck.
@@ -119,6 +123,9 @@ pub struct ResonantSpec {
     /// Diameter of a hole in it, m, 0.01 to half of the head's; none of a whole head.
     #[serde(default, rename = "port_diameter_m", skip_serializing_if = "Option::is_none")]
     pub port_diameter: Option<f64>,
+    /// What is glued to its middle; none of a head without a dot.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dot: Option<DotSpec>,
 }
 
 /// What the heads are stretched over.
@@ -147,11 +154,17 @@ pub enum ShellSpec {
 }
 
 impl HeadSpec {
-    fn visit_numbers(&mut self, visitor: &mut dyn Visitor) {
+    /// Shows the numbers of a head so wide, m.
+    fn visit_numbers(&mut self, diameter: f64, visitor: &mut dyn Visitor) {
         visitor.number("thickness_m", &mut self.thickness, THICKNESS);
         self.material.visit_part("material", visitor);
         self.loss.visit_part("loss", visitor);
         visitor.number("modes_to_hz", &mut self.modes_to_hz, MODES_TO_HZ);
+        if let Some(dot) = &mut self.dot {
+            visitor.enter("dot");
+            dot.visit_numbers(diameter, visitor);
+            visitor.leave();
+        }
     }
 }
 
@@ -185,15 +198,15 @@ impl Numbers for DrumSpec {
         visitor.number("highest_pitch_hz", &mut self.highest_pitch_hz, 1.01 * lowest..=4.0 * lowest);
         visitor.number("pitch_hz", &mut self.pitch_hz, lowest..=self.highest_pitch_hz);
         visitor.enter("batter");
-        self.batter.visit_numbers(visitor);
+        self.batter.visit_numbers(self.diameter, visitor);
         visitor.leave();
         if let Some(resonant) = &mut self.resonant {
             visitor.enter("resonant");
             visitor.number("pitch_ratio", &mut resonant.pitch_ratio, 0.5..=2.5);
             let mut head = resonant.head();
-            head.visit_numbers(visitor);
-            let HeadSpec { thickness, plies, material, loss, modes_to_hz } = head;
-            *resonant = ResonantSpec { thickness, plies, material, loss, modes_to_hz, ..*resonant };
+            head.visit_numbers(self.diameter, visitor);
+            let HeadSpec { thickness, plies, material, loss, modes_to_hz, dot } = head;
+            *resonant = ResonantSpec { thickness, plies, material, loss, modes_to_hz, dot, ..*resonant };
             if let Some(port) = &mut resonant.port_diameter {
                 visitor.number("port_diameter_m", port, 0.01..=0.5 * self.diameter);
             }
@@ -222,8 +235,8 @@ impl Numbers for DrumSpec {
 impl ResonantSpec {
     /// The head by itself.
     pub fn head(&self) -> HeadSpec {
-        let ResonantSpec { thickness, plies, material, loss, modes_to_hz, .. } = *self;
-        HeadSpec { thickness, plies, material, loss, modes_to_hz }
+        let ResonantSpec { thickness, plies, material, loss, modes_to_hz, dot, .. } = *self;
+        HeadSpec { thickness, plies, material, loss, modes_to_hz, dot }
     }
 }
 
@@ -256,8 +269,8 @@ impl DrumSpec {
 
     /// A head as a membrane.
     pub fn membrane(&self, head: &HeadSpec) -> MembraneSpec {
-        let HeadSpec { thickness, plies, material, loss, .. } = *head;
-        MembraneSpec { radius: self.radius(), thickness, plies, material, loss, edge: self.edge }
+        let HeadSpec { thickness, plies, material, loss, dot, .. } = *head;
+        MembraneSpec { radius: self.radius(), thickness, plies, material, loss, edge: self.edge, dot }
     }
 
     /// The enclosed air; none of a head on its own.
@@ -346,9 +359,9 @@ impl DrumSpec {
         let (m, n) = self.pitch_of.mode();
         let membrane = self.membrane(head);
         let zero = crate::math::bessel::zero(m, n);
-        let bending = membrane.flexural_rigidity() * (zero / membrane.radius).powi(2);
+        let bending = membrane.moved(m, zero).1 * (zero / membrane.radius).powi(2);
         // Without the air, which makes it need more.
-        let tension = |hz| crate::membrane::vacuum_tension(&membrane, zero, ratio * hz);
+        let tension = |hz| crate::membrane::vacuum_tension(&membrane, (m, zero), ratio * hz);
         let bent = bending / tension(self.lowest_pitch_hz);
         if bent > MOST_BENDING {
             let lowest = self.lowest_pitch_hz * (bent / MOST_BENDING).sqrt();
