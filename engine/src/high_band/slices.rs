@@ -427,3 +427,31 @@ fn gain(spec: &HighBandSpec, omega: f64) -> f64 {
         Outside::Free { .. } => diffraction::near_gain(ka, point.fills(spec.head.radius)),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::Material;
+    use crate::damping::LossLaw;
+    use crate::membrane::dot::DotSpec;
+
+    #[test]
+    fn a_dot_holds_back_where_heads_bend_and_not_where_they_are_only_stretched() {
+        let dot = DotSpec { diameter: 0.127, thickness: 0.25e-3, loss: LossLaw::NONE };
+        let head = MembraneSpec {
+            radius: 0.1778,
+            thickness: 0.25e-3,
+            plies: 1,
+            material: Material::FILM,
+            loss: LossLaw::NONE,
+            edge: None,
+            dot: Some(dot),
+        };
+        let share = |hz: f64, tension: f64| on_dot(&head, TAU * hz, tension);
+        assert!((share(100.0, 1e6) - 1.0).abs() < 1e-3);
+        // Twice the mass, eight times the rigidity: the mobility of a plate, `1 / (8 sqrt(D s))`, is a quarter.
+        assert!((share(10_000.0, 1e-3) - 0.5).abs() < 1e-6, "{}", share(10_000.0, 1e-3));
+        assert_eq!(on_dot(&MembraneSpec { dot: None, ..head }, 1.0, 1.0), 1.0);
+        assert!(lies_on_dot(&head, 0.3) && !lies_on_dot(&head, 0.4));
+    }
+}

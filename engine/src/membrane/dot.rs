@@ -52,7 +52,7 @@ impl DotSpec {
 /// What a dot adds to a head, per area that it covers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Added {
-    /// Its radius over the head's.
+    /// Its radius, share of the head's.
     pub reach: f64,
     /// Mass, kg/m2.
     pub density: f64,

@@ -349,6 +349,20 @@ mod tests {
     }
 
     #[test]
+    fn a_tip_on_a_dot_meets_film_and_dot_and_beside_it_the_film() {
+        let dot = LocalDot { reach: 0.36, density: 0.35, rigidity: 0.16, stretching: 0.0 };
+        let head = LocalHeadCompliance { dot: Some(dot), ..HEAD };
+        assert_eq!(LocalHeadCompliance { dot: None, ..head.at(0.4) }, HEAD);
+        let on_it = head.at(0.1);
+        assert_eq!((on_it.density, on_it.rigidity), (HEAD.density + dot.density, dot.rigidity));
+        let yields = |head: LocalHeadCompliance| -> f64 {
+            let (bands, count) = head.bands(0.1, &Press::lightly(0.002), false, 1e-4);
+            bands[..count].iter().map(Oscillator::compliance).sum()
+        };
+        assert!(yields(on_it) < yields(HEAD), "{} {}", yields(on_it), yields(HEAD));
+    }
+
+    #[test]
     fn a_hard_stroke_meets_a_stiffer_head() {
         let head = LocalHeadCompliance { stretching: 1.6e6, ..HEAD };
         let yields = |force: f64| -> f64 {
