@@ -54,7 +54,9 @@ use tuned::{ModeAtPitch, PitchPosition};
 /// What a drum's modes and their shapes follow from: the key of the cache.
 fn modes_key(spec: &DrumSpec) -> impl Serialize {
     let DrumSpec { diameter, pitch_of, batter, resonant, shell, edge, .. } = *spec;
-    (diameter, spec.pitches(), pitch_of, batter, resonant, shell, edge, spec.is_uneven())
+    // In binary form a part that is missing leaves no trace by itself.
+    let dots = (batter.dot.is_some(), resonant.is_some_and(|head| head.dot.is_some()));
+    (diameter, spec.pitches(), pitch_of, batter, resonant, shell, edge, (spec.is_uneven(), dots))
 }
 
 /// What has been worked out of late.

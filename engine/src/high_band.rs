@@ -43,6 +43,9 @@
 //! is a baffle: what they lack of the sheet (two thirds, of a drum that stands free; *converged*) follows the force through a
 //! high-pass filter of first order from there.
 //!
+//! A [dot](crate::membrane::dot) takes its share of the losses by its area, weighs where it is struck directly, and gives way to a force as
+//! an endless head of its thickness does; that waves on it are of another speed is neglected.
+//!
 //! Limits: a chance shape per slice is right for the mean over slices and places, not for one.
 //!
 //! Source: Weyl's law as in Rossing & Fletcher, Principles of Vibration and Sound, ch. 3; Cremer, Heckl &
@@ -67,8 +70,8 @@ use force_sums::{ForceSums, interleaved};
 use point_band::PointBand;
 pub use slices::{HighBandSpec, HighMuffling, Receiver, SLICES, SLICES_UNDER_WIRES};
 use slices::{
-    Slice, SliceTable, TunedSlice, UnderPad, Waves, away, endless_sheet, rim_strip, slices, taken,
-    tension_share, top_hz, walk_rate,
+    Slice, SliceTable, TunedSlice, UnderPad, Waves, away, endless_sheet, lies_on_dot, rim_strip, slices,
+    taken, tension_share, top_hz, walk_rate,
 };
 use walk::Walk;
 
@@ -278,6 +281,9 @@ impl HighBand {
         );
         for (k, (shape, slice)) in shape.iter_mut().zip(&*slices).enumerate() {
             *shape *= known.map_or_else(|| taken(spec, slice, patch), |known| known.get(k)) as f32;
+        }
+        if lies_on_dot(&spec.head, radius) {
+            shape.iter_mut().zip(&*slices).for_each(|(shape, slice)| *shape *= slice.on_dot as f32);
         }
         places.connect_one(i, body, pickup);
     }

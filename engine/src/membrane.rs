@@ -11,33 +11,24 @@
 //! The added mass depends on the frequency, which is found by fixed point. Losses are the film's
 //! own; what a head sends out depends on what it is part of, see [`drum`](crate::drum).
 //!
+//! A [dot](dot) mixes modes of one order; [`ringing`](Membrane::ringing) is then a mode's by itself, and
+//! [`tension_for`](Membrane::tension_for) solves for the mixture.
+//!
 //! Source: Morse & Ingard, Theoretical Acoustics, ch. 5; Rossing, Science of Percussion Instruments.
 
+pub mod dot;
+mod spec;
+
+use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
 use crate::air_load::{self, MassCurve, MassCurves, MembraneAir};
-use crate::contact::Material;
-use crate::damping::{EdgeSpec, LossLaw};
 use crate::error::SpecError;
-use crate::fitted;
 use crate::math::bessel::{self, JTable};
+use crate::math::eigen;
 
-/// A drum head.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct MembraneSpec {
-    /// Radius of the vibrating part, m.
-    pub radius: f64,
-    /// Thickness of the film, m, of all plies together.
-    pub thickness: f64,
-    /// Films that lie on one another: 1 or 2.
-    pub plies: u32,
-    /// What the film is made of.
-    pub material: Material,
-    /// Losses in the film.
-    pub loss: LossLaw,
-    /// What carries it at the rim; `None` for a rim that does not yield.
-    pub edge: Option<EdgeSpec>,
-}
+use dot::AtEdge;
+pub use spec::MembraneSpec;
 
 /// What stands on the two faces of a head.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -70,6 +61,8 @@ pub struct MembraneMode {
     pub norm: f64,
     /// Load of one face.
     load: MassCurve,
+    /// At the edge of the dot.
+    at_dot: AtEdge,
 }
 
 /// Where a mode rings at some tension.
@@ -98,6 +91,7 @@ pub struct Ringing {
 ///     material: Material::FILM,
 ///     loss: LossLaw::NONE,
 ///     edge: None,
+///     dot: None,
 /// };
 /// let range = ModeRange { reference_tension: 2729.0, limit_hz: 600.0 };
 /// let head = Membrane::new(spec, Surroundings::Air, &range)?;
@@ -114,53 +108,6 @@ pub struct Ringing {
 pub struct Membrane {
     spec: MembraneSpec,
     modes: Vec<MembraneMode>,
-}
-
-/// Flexural rigidity of two plies that slide on one another over that of one film as thick, dimensionless: 1/4 if nothing
-/// held them together. *Fitted*.
-const BOND: f64 = fitted::PLY_BOND;
-
-impl MembraneSpec {
-    /// Checks every number.
-    ///
-    /// # Errors
-    /// [`SpecError`] naming the field.
-    pub fn validated(self) -> Result<MembraneSpec, SpecError> {
-        SpecError::check("head radius (m)", self.radius, 0.05, 1.0)?;
-        SpecError::check("head thickness (m)", self.thickness, 1e-5, 2e-3)?;
-        SpecError::check("plies", f64::from(self.plies), 1.0, 2.0)?;
-        SpecError::check("film density (kg/m3)", self.material.density, 100.0, 25_000.0)?;
-        Ok(self)
-    }
-
-    /// Area, m2.
-    pub fn area(&self) -> f64 {
-        std::f64::consts::PI * self.radius * self.radius
-    }
-
-    /// Mass per area, kg/m2.
-    pub fn area_density(&self) -> f64 {
-        self.material.density * self.thickness
-    }
-
-    /// Decay rate by what the edge takes from a wave of wavenumber `k` (1/m) on a head of tension `T` (N/m) that
-    /// weighs `mass` (kg/m2) with its air, 1/s: `T^2 k^2 Re Y / (a mass omega^2)`.
-    pub fn edge_sigma(&self, tension: f64, k: f64, mass: f64, omega: f64) -> f64 {
-        let Some(edge) = &self.edge else { return 0.0 };
-        (tension * k / omega).powi(2) * edge.mobility(omega) / (self.radius * mass)
-    }
-
-    /// Flexural rigidity `D = E h^3 / (12 (1 - nu^2))`, N m.
-    pub fn flexural_rigidity(&self) -> f64 {
-        let Material { youngs_modulus, poisson_ratio, .. } = self.material;
-        youngs_modulus * self.thickness.powi(3) / (12.0 * (1.0 - poisson_ratio * poisson_ratio))
-    }
-
-    /// The same where a tip bends it sharply, N m: two plies slide on one another there, which waves of some micrometres
-    /// hardly make them do.
-    pub fn dented_rigidity(&self) -> f64 {
-        if self.plies > 1 { BOND * self.flexural_rigidity() } else { self.flexural_rigidity() }
-    }
 }
 
 /// Most modes (pairs count twice) a head carries; beyond it the highest are left out. *Derived*: 1,200 fill
@@ -191,8 +138,9 @@ impl Membrane {
         curves: &mut MassCurves,
     ) -> Result<Membrane, SpecError> {
         let spec = spec.validated()?;
-        // Without air a head rings highest; nothing above this zero can ring below the limit.
-        let speed = (range.reference_tension / spec.area_density()).sqrt();
+        // Without air a head rings highest, and lowest if all of it weighs what its dot does; nothing above this zero can ring below the limit.
+        let most = spec.area_density() + spec.added_by_dot().map_or(0.0, |dot| dot.density);
+        let speed = (range.reference_tension / most).sqrt();
         let most = std::f64::consts::TAU * range.limit_hz * spec.radius / speed * 1.3;
         let mut candidates: Vec<(u32, u32, f64)> = (0..)
             .map(|m| (m, zeros_to(m, most)))
@@ -215,7 +163,8 @@ impl Membrane {
                 Surroundings::Vacuum => MassCurve::VACUUM,
                 Surroundings::Air => curves.get(&MembraneAir::new(m, &tables[m as usize]), zero),
             };
-            let mode = MembraneMode { m, n, zero, norm, load };
+            let at_dot = spec.at_dot(m, zero);
+            let mode = MembraneMode { m, n, zero, norm, load, at_dot };
             let frequency = membrane.ringing(&mode, range.reference_tension).omega / std::f64::consts::TAU;
             if frequency <= range.limit_hz {
                 membrane.modes.push(mode);
@@ -249,7 +198,15 @@ impl Membrane {
         self.modes.iter().flat_map(|mode| radii.iter().map(|&r| shape(mode, r)).collect::<Vec<_>>()).collect()
     }
 
-    /// Stiffness of a mode at a tension (N/m), N/m.
+    /// Mass (kg) and stiffness (N/m) that the dot adds between two modes of one order, or to one.
+    pub fn added(&self, one: &MembraneMode, other: &MembraneMode) -> (f64, f64) {
+        let Some(dot) = self.spec.added_by_dot() else { return (0.0, 0.0) };
+        let covered = self.spec.area() * dot::overlap(one.m, dot.reach, one.at_dot, other.at_dot);
+        let waves = (one.zero * other.zero / self.spec.radius.powi(2)).powi(2);
+        (dot.density * covered, dot.rigidity * waves * covered)
+    }
+
+    /// Stiffness of a mode at a tension (N/m) without the dot's, N/m.
     pub fn restoring(&self, mode: &MembraneMode, tension: f64) -> f64 {
         self.stiffness(mode, tension) * self.spec.area()
     }
@@ -285,15 +242,16 @@ impl Membrane {
         self.spec.area_density() * self.spec.area() + 2.0 * self.face_mass(mode, omega)
     }
 
-    /// Where a mode rings at a tension (N/m).
+    /// Where a mode rings at a tension (N/m), not mixed with others by a dot.
     pub fn ringing(&self, mode: &MembraneMode, tension: f64) -> Ringing {
-        let force = self.stiffness(mode, tension) * self.spec.area();
-        let film = self.spec.area_density() * self.spec.area();
+        let (weight, stiffness) = self.added(mode, mode);
+        let force = self.restoring(mode, tension) + stiffness;
+        let film = self.spec.area_density() * self.spec.area() + weight;
         let mut omega = (force / film).sqrt();
         let mut mass = film;
         // The mass falls slowly with frequency: each round gains two digits or more.
         for _ in 0..40 {
-            mass = self.mass(mode, omega);
+            mass = self.mass(mode, omega) + weight;
             let next = (force / mass).sqrt();
             let settled = (next / omega - 1.0).abs() < 1e-13;
             omega = next;
@@ -311,9 +269,30 @@ impl Membrane {
     pub fn tension_for(&self, m: u32, n: u32, frequency_hz: f64) -> Option<f64> {
         let mode = self.modes.iter().find(|mode| (mode.m, mode.n) == (m, n))?;
         let omega = std::f64::consts::TAU * frequency_hz;
+        if self.spec.dot.is_some() {
+            return self.tension_under_dot(m, n, omega);
+        }
         let k2 = (mode.zero / self.spec.radius).powi(2);
         let force = omega * omega * self.mass(mode, omega) / self.spec.area();
         Some(force / k2 - self.spec.flexural_rigidity() * k2)
+    }
+
+    /// The tension (N/m) that puts the mode of `n` circles among those that the dot makes of the order `m` at an angular frequency: at one
+    /// frequency, `T k^2` balances what is left of the inertia, and the mode of fewest circles needs the most tension.
+    fn tension_under_dot(&self, m: u32, n: u32, omega: f64) -> Option<f64> {
+        let modes: Vec<&MembraneMode> = self.modes.iter().filter(|mode| mode.m == m).collect();
+        let (area, bare) = (self.spec.area(), |mode| self.restoring(mode, 0.0));
+        let balance = DMatrix::from_fn(modes.len(), modes.len(), |i, j| {
+            let (one, other) = (modes[i], modes[j]);
+            let (mut mass, mut stiffness) = self.added(one, other);
+            if i == j {
+                mass += self.mass(one, omega);
+                stiffness += bare(one);
+            }
+            let waves = one.zero * other.zero / self.spec.radius.powi(2);
+            (omega * omega * mass - stiffness) / (waves * area)
+        });
+        eigen::symmetric(balance).values.into_iter().rev().nth(n as usize - 1)
     }
 }
 
@@ -324,104 +303,11 @@ fn zeros_to(m: u32, most: f64) -> Vec<f64> {
     bessel::zeros(m, guess).into_iter().filter(|&zero| zero <= most).collect()
 }
 
-/// Tension of a head in vacuum whose mode of zero `zero` is at `frequency_hz`, N/m: where to start
+/// Tension of a head in vacuum whose mode of the order `m` and of zero `zero` is at `frequency_hz`, N/m: where to start
 /// looking, and a lower bound for a head in air.
-pub fn vacuum_tension(spec: &MembraneSpec, zero: f64, frequency_hz: f64) -> f64 {
-    spec.area_density() * (std::f64::consts::TAU * frequency_hz * spec.radius / zero).powi(2)
+pub fn vacuum_tension(spec: &MembraneSpec, (m, zero): (u32, f64), frequency_hz: f64) -> f64 {
+    spec.moved(m, zero).0 * (std::f64::consts::TAU * frequency_hz * spec.radius / zero).powi(2)
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn timpani() -> MembraneSpec {
-        MembraneSpec {
-            radius: 0.3302,
-            thickness: 0.19e-3,
-            plies: 1,
-            material: Material::FILM,
-            loss: LossLaw::NONE,
-            edge: None,
-        }
-    }
-
-    fn range(tension: f64) -> ModeRange {
-        ModeRange { reference_tension: tension, limit_hz: 1500.0 }
-    }
-
-    fn frequency(membrane: &Membrane, m: u32, n: u32, tension: f64) -> f64 {
-        let mode = membrane.modes().iter().find(|mode| (mode.m, mode.n) == (m, n)).unwrap();
-        membrane.ringing(mode, tension).omega / std::f64::consts::TAU
-    }
-
-    #[test]
-    fn second_mode_of_an_ideal_membrane_is_1_593_times_the_first() {
-        let spec = MembraneSpec { thickness: 0.02e-3, ..timpani() };
-        let membrane = Membrane::new(spec, Surroundings::Vacuum, &range(2729.0)).unwrap();
-        let ratio = frequency(&membrane, 1, 1, 2729.0) / frequency(&membrane, 0, 1, 2729.0);
-        assert!((ratio - 1.593_340_5).abs() < 1e-5, "{ratio}");
-    }
-
-    #[test]
-    fn timpani_head_in_air_has_the_measured_ratios() {
-        let membrane = Membrane::new(timpani(), Surroundings::Air, &range(2729.0)).unwrap();
-        assert!((timpani().area_density() * timpani().area() - 0.0904).abs() < 1e-4);
-        let principal = frequency(&membrane, 1, 1, 2729.0);
-        for (m, computed, measured) in
-            [(2, 1.470, 1.48), (3, 1.922, 1.92), (4, 2.363, 2.36), (5, 2.797, 2.78)]
-        {
-            let ratio = frequency(&membrane, m, 1, 2729.0) / principal;
-            assert!((ratio / computed - 1.0).abs() < 0.002, "({m},1): {ratio} for {computed}");
-            assert!((ratio / measured - 1.0).abs() < 0.01, "({m},1): {ratio} for {measured}");
-        }
-    }
-
-    #[test]
-    fn the_tension_for_a_pitch_gives_that_pitch() {
-        let membrane = Membrane::new(timpani(), Surroundings::Air, &range(2729.0)).unwrap();
-        for pitch in [110.0, 130.8, 160.0] {
-            let tension = membrane.tension_for(1, 1, pitch).unwrap();
-            assert!((frequency(&membrane, 1, 1, tension) / pitch - 1.0).abs() < 1e-9);
-        }
-    }
-
-    #[test]
-    fn a_mount_takes_from_modes_that_pull_on_the_whole_drum_alone() {
-        let ringing = |mount| {
-            let edge = EdgeSpec { resistance: 400.0, corner_hz: 200.0, mount };
-            let spec = MembraneSpec { edge: Some(edge), ..timpani() };
-            let membrane = Membrane::new(spec, Surroundings::Air, &range(2729.0)).unwrap();
-            membrane
-                .modes()
-                .iter()
-                .map(|mode| (mode.m, membrane.ringing(mode, 2729.0).sigma))
-                .collect::<Vec<_>>()
-        };
-        for ((m, free), (_, held)) in ringing(0.0).into_iter().zip(ringing(7.0)) {
-            let expected = if m <= 1 { 7.0 } else { 0.0 };
-            assert!((held - free - expected).abs() < 1e-9, "order {m}: {free} to {held} 1/s");
-        }
-    }
-
-    #[test]
-    fn an_edge_takes_the_same_from_every_mode_above_its_corner() {
-        let edge = EdgeSpec { resistance: 400.0, corner_hz: 200.0, mount: 0.0 };
-        let spec = MembraneSpec { thickness: 0.02e-3, edge: Some(edge), ..timpani() };
-        let membrane = Membrane::new(spec, Surroundings::Vacuum, &range(2729.0)).unwrap();
-        for mode in membrane.modes() {
-            let ringing = membrane.ringing(mode, 2729.0);
-            // sigma = T Re Y / a, but for the little that the film's stiffness adds to the frequency.
-            let law = 2729.0 * edge.mobility(ringing.omega) / spec.radius;
-            assert!((ringing.sigma / law - 1.0).abs() < 1e-3, "({}, {}): {ringing:?} {law}", mode.m, mode.n);
-            // Rellich: the mean square slope around the rim is k^2.
-            let around = if mode.m == 0 { 1.0 } else { 0.5 };
-            let k = mode.zero / spec.radius;
-            assert!((around * membrane.rim_slope(mode).powi(2) / (k * k) - 1.0).abs() < 1e-12);
-            let step = 1e-5;
-            let shape = membrane.radial_shapes(&[1.0 - step]);
-            let at = membrane.modes().iter().position(|other| other == mode).unwrap();
-            let slope = -shape[at] / (step * spec.radius);
-            assert!((slope / membrane.rim_slope(mode) - 1.0).abs() < 1e-2, "{slope}");
-        }
-    }
-}
+mod tests;

@@ -12,10 +12,11 @@ use std::ops::RangeInclusive;
 
 use overhear_engine::air_load::SPEED_OF_SOUND;
 use overhear_engine::cymbal::CymbalSpec;
-use overhear_engine::damping::Muffler;
+use overhear_engine::damping::{LossLaw, Muffler};
 use overhear_engine::drum::{DrumSpec, HeadContact, HeadSpec, PitchOf, ShellSpec};
 use overhear_engine::hi_hat::HiHatSpec;
 use overhear_engine::kit_spec::{InstrumentSpec, PieceSpec};
+use overhear_engine::membrane::dot::DotSpec;
 use overhear_engine::numbers::{Numbers, Visitor};
 use overhear_engine::surface::rivets::{self, RivetsSpec};
 
@@ -74,6 +75,28 @@ pub fn drum(chance: &mut Chance) -> PieceSpec {
         InstrumentSpec::Drum(drum) => InstrumentSpec::Drum(few_modes(rebuilt(drum, chance), chance)),
         other => other,
     })
+}
+
+/// A drum whose heads are not of film alone: one of them at least has a dot. The drum is that of [`drum`].
+pub fn dotted(chance: &mut Chance) -> PieceSpec {
+    loop {
+        let mut piece = drum(chance);
+        let InstrumentSpec::Drum(drum) = &mut piece.instrument else { continue };
+        let wide = drum.diameter;
+        let mut dot = || DotSpec {
+            diameter: chance.between(0.05, 0.9) * wide,
+            thickness: 2e-5 * 25.0_f64.powf(chance.unit()),
+            loss: LossLaw { constant: chance.between(0.0, 5.0), per_khz: chance.between(0.0, 20.0) },
+        };
+        drum.batter.dot = Some(dot());
+        let far = dot();
+        if chance.happens(0.3) {
+            drum.resonant.iter_mut().for_each(|head| head.dot = Some(far));
+        }
+        if piece.check().is_ok() {
+            return piece;
+        }
+    }
 }
 
 /// A cymbal on a stand.

@@ -97,16 +97,19 @@ fn drift(piece: &mut Piece, strike: &Strike) -> [f64; 2] {
 
 #[test]
 fn without_losses_linear_random_pieces_keep_their_energy() {
-    over_seeds(Chance::chosen(&[101, 102, 1007, 1008, 1009]), 15, random::piece, |spec, chance| {
-        let spec = spec.clone().lossless().linear();
-        let mut piece = build(&spec, &BuildOptions::new(RATE));
-        for _ in 0..3 {
-            set(&mut piece, chance, true);
-            let strike = stroke(chance, fastest(&spec));
-            let [gain, loss] = drift(&mut piece, &strike);
-            assert!(gain < 1e-3 && loss < 1e-3, "{strike:?}: gains {gain:.1e}, loses {loss:.1e}");
-        }
-    });
+    over_seeds(Chance::chosen(&[101, 102, 1007, 1008, 1009]), 15, random::piece, keeps_its_energy);
+    over_seeds(Chance::chosen(&[301, 302]), 10, random::dotted, keeps_its_energy);
+}
+
+fn keeps_its_energy(spec: &PieceSpec, chance: &mut Chance) {
+    let spec = spec.clone().lossless().linear();
+    let mut piece = build(&spec, &BuildOptions::new(RATE));
+    for _ in 0..3 {
+        set(&mut piece, chance, true);
+        let strike = stroke(chance, fastest(&spec));
+        let [gain, loss] = drift(&mut piece, &strike);
+        assert!(gain < 1e-3 && loss < 1e-3, "{strike:?}: gains {gain:.1e}, loses {loss:.1e}");
+    }
 }
 
 /// What bends far yields, what its stretching holds is left when that rests, and where its scheme strays it is brought
@@ -127,27 +130,30 @@ fn without_losses_random_pieces_that_stretch_gain_nothing() {
 #[test]
 fn no_strike_leaves_a_random_piece_faster_than_it_came() {
     // A few strokes on thin plates gain (docs/limits.md).
-    over_seeds(Chance::chosen(&[3, 5, 6]), 15, random::piece, |spec, chance| {
-        let mut piece = build(spec, &BuildOptions::new(RATE));
-        for _ in 0..6 {
-            set(&mut piece, chance, false);
-            let strike = stroke(chance, fastest(spec));
-            let at_rest = piece.energy();
-            piece.strike(&strike);
-            for waited in 0.. {
-                render(&mut piece, 0.002, RATE);
-                if piece.striker_energy() == 0.0 {
-                    break;
-                }
-                assert!(waited < 1000, "{strike:?}: still there");
-                let share = balance(&mut piece, at_rest);
-                assert!(share <= 1.0 + 1e-5, "{strike:?}: {share} of what was brought");
+    over_seeds(Chance::chosen(&[3, 5, 6]), 15, random::piece, lets_strikers_go);
+    over_seeds(Chance::chosen(&[303, 304]), 10, random::dotted, lets_strikers_go);
+}
+
+fn lets_strikers_go(spec: &PieceSpec, chance: &mut Chance) {
+    let mut piece = build(spec, &BuildOptions::new(RATE));
+    for _ in 0..6 {
+        set(&mut piece, chance, false);
+        let strike = stroke(chance, fastest(spec));
+        let at_rest = piece.energy();
+        piece.strike(&strike);
+        for waited in 0.. {
+            render(&mut piece, 0.002, RATE);
+            if piece.striker_energy() == 0.0 {
+                break;
             }
-            let ratio = f64::from(piece.last_strike().leaving_speed.abs()) / strike.speed;
-            assert!(ratio <= 1.0, "{strike:?}: leaves {ratio} times as fast");
-            assert_eq!(piece.quarantines(), 0);
+            assert!(waited < 1000, "{strike:?}: still there");
+            let share = balance(&mut piece, at_rest);
+            assert!(share <= 1.0 + 1e-5, "{strike:?}: {share} of what was brought");
         }
-    });
+        let ratio = f64::from(piece.last_strike().leaving_speed.abs()) / strike.speed;
+        assert!(ratio <= 1.0, "{strike:?}: leaves {ratio} times as fast");
+        assert_eq!(piece.quarantines(), 0);
+    }
 }
 
 #[test]
@@ -187,16 +193,19 @@ fn act(piece: &mut Piece, chance: &mut Chance) {
 
 #[test]
 fn random_events_on_random_pieces_leave_everything_finite() {
-    over(&[7, 8], 15, random::piece, |spec, chance| {
-        let mut piece = build(spec, &BuildOptions::new(RATE));
-        for _ in 0..100 {
-            act(&mut piece, chance);
-            let sound = render(&mut piece, chance.between(1e-4, 0.01), RATE);
-            assert!(sound.iter().all(|x| x.is_finite()));
-            assert!(piece.energy().is_finite());
-        }
-        assert_eq!(piece.quarantines(), 0);
-    });
+    over(&[7, 8], 15, random::piece, stays_finite);
+    over(&[305], 10, random::dotted, stays_finite);
+}
+
+fn stays_finite(spec: &PieceSpec, chance: &mut Chance) {
+    let mut piece = build(spec, &BuildOptions::new(RATE));
+    for _ in 0..100 {
+        act(&mut piece, chance);
+        let sound = render(&mut piece, chance.between(1e-4, 0.01), RATE);
+        assert!(sound.iter().all(|x| x.is_finite()));
+        assert!(piece.energy().is_finite());
+    }
+    assert_eq!(piece.quarantines(), 0);
 }
 
 /// The drum with another range of pitches inside its own, and its own pitch in there; its heads' modes end as far above.
@@ -226,7 +235,7 @@ fn surely_to(drum: &DrumSpec) -> f64 {
 #[test]
 fn a_random_drum_tuned_while_it_plays_within_a_fifth_is_the_drum_built_at_that_pitch() {
     let (close, compared) = (Cell::new(0), Cell::new(0));
-    over(&[9, 11], 8, random::drum, |spec, chance| {
+    let one = |spec: &PieceSpec, chance: &mut Chance| {
         let spec = spec.clone().round();
         let drum = spec.drum().expect("a drum");
         let context = context(&spec, RATE);
@@ -253,7 +262,9 @@ fn a_random_drum_tuned_while_it_plays_within_a_fifth_is_the_drum_built_at_that_p
             close.set(close.get() + u32::from(off < 2.0));
             compared.set(compared.get() + 1);
         }
-    });
+    };
+    over(&[9, 11], 8, random::drum, one);
+    over_seeds(Chance::chosen(&[306]), 8, random::dotted, one);
     let (close, compared) = (close.get(), compared.get());
     println!("{close} of {compared} modes within 2 cents");
     assert!(compared > 50 && f64::from(close) > 0.97 * f64::from(compared), "{close} of {compared}");

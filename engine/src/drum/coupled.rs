@@ -7,7 +7,8 @@
 //! K = diag(T k^2 + D k^4) A + sum_j kappa_j [c_j; -1] [c_j; -1]^T      M = diag(film + outer air) + inner air
 //! ```
 //!
-//! whose eigenvectors say how much of each head is in each mode of the drum. The heads' outer faces carry
+//! whose eigenvectors say how much of each head is in each mode of the drum; a [dot](crate::membrane::dot) adds its mass and its stiffness
+//! between the modes of its head. The heads' outer faces carry
 //! the air of a baffled disc, less what flows around the rim of a drum that stands free; the inner
 //! faces only the cavity's. Losses are small and added mode by mode: film, cavity, and what the two heads
 //! together send out. With `F_b`, `F_r` the Hankel transforms of their shares,
@@ -168,6 +169,10 @@ impl<'a> OrderProblem<'a> {
                 mass[(i, k)] += cavity.mass[i * heads + k];
             }
         }
+        for (i, k, (weight, stiff)) in dots(parts) {
+            mass[(i, k)] += weight;
+            stiffness[(i, k)] += stiff;
+        }
         for mode in &cavity.modes {
             for i in 0..heads {
                 for k in 0..heads {
@@ -219,6 +224,15 @@ impl<'a> OrderProblem<'a> {
             shares.push(kinetic);
             share[usize::from(part.far)] += kinetic;
             sigma += kinetic * part.head.membrane.spec().loss.sigma(omega);
+        }
+        for (i, k, (weight, _)) in dots(parts) {
+            // The head's motion under its dot carries the film and the dot.
+            let (head, kinetic) = (parts[i].head.membrane.spec(), vector[i] * weight * vector[k]);
+            let Some(dot) = head.added_by_dot() else { continue };
+            shares[i] += kinetic;
+            share[usize::from(parts[i].far)] += kinetic;
+            let both = kinetic * (1.0 + head.area_density() / dot.density);
+            sigma += kinetic * head.loss.sigma(omega) + both * dot.loss.sigma(omega);
         }
         sigma += self.edge_sigma(parts, omega, &vector, share[0] + share[1]);
         if let Some(cavity) = self.cavity {
@@ -309,6 +323,16 @@ impl<'a> OrderProblem<'a> {
         };
         air_load::circle(self.m) * space * u * rule.integrate(power)
     }
+}
+
+/// Mass (kg) and stiffness (N/m) that the heads' dots add to each pair of modes on one head.
+fn dots<'a>(parts: &'a [Part<'a>]) -> impl Iterator<Item = (usize, usize, (f64, f64))> + 'a {
+    let dotted = |part: &Part| part.head.membrane.spec().dot.is_some();
+    let under = parts.iter().enumerate().filter(move |(_, part)| dotted(part));
+    under.flat_map(move |(i, one)| {
+        let on_it = parts.iter().enumerate().filter(|(_, other)| other.far == one.far);
+        on_it.map(move |(k, other)| (i, k, one.head.membrane.added(one.mode, other.mode)))
+    })
 }
 
 /// An eigenvector of the coupled problem.

@@ -1,3 +1,5 @@
+mod dotted;
+
 use super::*;
 use crate::block::BLOCK;
 use crate::build_context::BuildOptions;

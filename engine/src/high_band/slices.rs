@@ -80,6 +80,8 @@ pub(super) struct Slice {
     /// to it.
     pub(super) heard: [[f64; 2]; POINTS],
     pub(super) gain: f64,
+    /// How much more it moves on a dot than beside it.
+    pub(super) on_dot: f64,
 }
 
 /// The slices' waves side by side, `[slice]`.
@@ -135,6 +137,24 @@ pub(super) fn pressed(kb: f64) -> f64 {
     if kb < 0.1 { 1.0 - kb * kb / 16.0 } else { 4.0 * (1.0 - libm::j0(kb)) / (kb * kb) }
 }
 
+/// Amplitude (ratio) of a diffuse field of waves on a dot over that beside it: the square goes with the modes per area and mass,
+/// `k dk/domega / s`, which is how much a point takes of a force.
+fn on_dot(head: &MembraneSpec, omega: f64, tension: f64) -> f64 {
+    let Some(dot) = head.added_by_dot() else { return 1.0 };
+    let mobility = |density: f64, rigidity: f64| {
+        let root = (tension * tension + 4.0 * rigidity * density * omega * omega).sqrt();
+        // `k^2 = 2 s omega^2 / (T + root)`, and `d(k^2)/domega / s` is this.
+        2.0 * omega / root
+    };
+    let (film, rigidity) = (head.area_density(), head.flexural_rigidity());
+    (mobility(film + dot.density, rigidity + dot.rigidity) / mobility(film, rigidity)).sqrt()
+}
+
+/// Whether a place (share of the radius) lies on the dot.
+pub(super) fn lies_on_dot(head: &MembraneSpec, place: f64) -> bool {
+    head.added_by_dot().is_some_and(|dot| place < dot.reach)
+}
+
 /// Highest frequency heard at a sample rate, Hz.
 pub(super) fn top_hz(sample_rate: f64) -> f64 {
     TOP_HZ.min(TOP_OF_RATE * sample_rate)
@@ -171,6 +191,7 @@ pub(super) fn slices(spec: &HighBandSpec) -> Vec<Slice> {
             phase: TAU * draw(2),
             heard: std::array::from_fn(|i| cos_sin(TAU * draw(3 + i as u32))),
             gain: gain(spec, omega),
+            on_dot: on_dot(&spec.head, omega, tension),
         });
         low = high;
     }
@@ -346,7 +367,9 @@ impl SliceTable {
 pub(super) fn mode(spec: &HighBandSpec, slice: &Slice, tension: f64) -> Mode {
     let (omega, radiated, mass) = wave(&spec.head, slice.zero, tension);
     let edge = spec.head.edge_sigma(tension, slice.zero / spec.head.radius, mass, omega);
-    let sigma = if spec.lossless { 0.0 } else { spec.head.loss.sigma(omega) + edge + radiated };
+    // Waves are on the dot for its share of the area.
+    let glue = spec.head.added_by_dot().map_or(0.0, |dot| dot.reach.powi(2) * dot.loss.sigma(omega));
+    let sigma = if spec.lossless { 0.0 } else { spec.head.loss.sigma(omega) + edge + radiated + glue };
     Mode { omega, sigma, mass: mass * spec.head.area() / slice.count }
 }
 
@@ -365,8 +388,10 @@ pub(super) fn endless_sheet(spec: &HighBandSpec, slices: &[Slice], radius: f64, 
     let gain = slices.iter().map(|slice| slice.gain).sum::<f64>() / slices.len() as f64;
     let free = 1.0 - libm::j0(2.0 * first.zero * (1.0 - radius));
     let distance = spec.ear.point.distance_to(radius * spec.head.radius, angle);
+    let dot =
+        spec.head.added_by_dot().filter(|_| lies_on_dot(&spec.head, radius)).map_or(0.0, |dot| dot.density);
     // Into the head is away from the point.
-    -free * gain * DENSITY / (TAU * distance * spec.head.area_density())
+    -free * gain * DENSITY / (TAU * distance * (spec.head.area_density() + dot))
 }
 
 /// Pressure at the point over the acceleration of one real mode, root mean square, Pa s2/m.
@@ -400,5 +425,33 @@ fn gain(spec: &HighBandSpec, omega: f64) -> f64 {
         Outside::Baffle => 1.0,
         Outside::Free { .. } if far => 0.5 * diffraction::toward(ka, -point.inclination.cos()),
         Outside::Free { .. } => diffraction::near_gain(ka, point.fills(spec.head.radius)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::Material;
+    use crate::damping::LossLaw;
+    use crate::membrane::dot::DotSpec;
+
+    #[test]
+    fn a_dot_holds_back_where_heads_bend_and_not_where_they_are_only_stretched() {
+        let dot = DotSpec { diameter: 0.127, thickness: 0.25e-3, loss: LossLaw::NONE };
+        let head = MembraneSpec {
+            radius: 0.1778,
+            thickness: 0.25e-3,
+            plies: 1,
+            material: Material::FILM,
+            loss: LossLaw::NONE,
+            edge: None,
+            dot: Some(dot),
+        };
+        let share = |hz: f64, tension: f64| on_dot(&head, TAU * hz, tension);
+        assert!((share(100.0, 1e6) - 1.0).abs() < 1e-3);
+        // Twice the mass, eight times the rigidity: the mobility of a plate, `1 / (8 sqrt(D s))`, is a quarter.
+        assert!((share(10_000.0, 1e-3) - 0.5).abs() < 1e-6, "{}", share(10_000.0, 1e-3));
+        assert_eq!(on_dot(&MembraneSpec { dot: None, ..head }, 1.0, 1.0), 1.0);
+        assert!(lies_on_dot(&head, 0.3) && !lies_on_dot(&head, 0.4));
     }
 }

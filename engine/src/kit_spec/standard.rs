@@ -184,13 +184,22 @@ const PILLOW_FLOW: f64 = 0.35 * 850.0 / (2.0 * crate::air_load::DENSITY);
 
 /// A head of film: thickness (m), plies, losses.
 fn film(thickness: f64, plies: u32, loss: LossLaw) -> HeadSpec {
-    HeadSpec { thickness, plies, material: Material::FILM, loss, modes_to_hz: BATTER_MODES_TO }
+    HeadSpec { thickness, plies, material: Material::FILM, loss, modes_to_hz: BATTER_MODES_TO, dot: None }
 }
 
 /// A clear single-ply head.
 fn single_ply(pitch_ratio: f64, modes_to_hz: f64) -> ResonantSpec {
     let HeadSpec { thickness, plies, material, loss, .. } = film(0.19e-3, 1, LossLaw::SINGLE_PLY);
-    ResonantSpec { pitch_ratio, thickness, plies, material, loss, modes_to_hz, port_diameter: None }
+    ResonantSpec {
+        pitch_ratio,
+        thickness,
+        plies,
+        material,
+        loss,
+        modes_to_hz,
+        port_diameter: None,
+        dot: None,
+    }
 }
 
 /// Losses of films. *Fitted* within the literature's 2 to 12 1/s per kHz; what the [edge](EDGE) takes is not among them.
@@ -294,7 +303,7 @@ fn kick() -> InstrumentSpec {
 /// are drawn out by some millimetres (*by judgement*: strainers differ), over a bed 10 cm wide (*judgement*). Air alone would leave a Q
 /// of a thousand; cords and coils take more (*by judgement*).
 fn snare() -> InstrumentSpec {
-    let HeadSpec { thickness, plies, material, loss, modes_to_hz } = film(0.076e-3, 1, SNARE_SIDE_LOSS);
+    let HeadSpec { thickness, plies, material, loss, modes_to_hz, dot } = film(0.076e-3, 1, SNARE_SIDE_LOSS);
     let side = ResonantSpec {
         pitch_ratio: 1.50,
         thickness,
@@ -303,6 +312,7 @@ fn snare() -> InstrumentSpec {
         loss,
         modes_to_hz,
         port_diameter: None,
+        dot,
     };
     let drum =
         two_headed([14.0, 5.5], film(0.25e-3, 1, SNARE_LOSS), side, [140.0, fitted::SNARE_PITCH_HZ, 360.0]);

@@ -90,6 +90,21 @@ pub struct LocalHeadCompliance {
     pub reached: f64,
     /// Whether the contact patch grows with the force; otherwise every tip presses on [its own disc](StrikerSpec::patch).
     pub patch_grows: bool,
+    /// A dot in its middle.
+    pub dot: Option<LocalDot>,
+}
+
+/// A dot as a tip on it feels it: waves as short as these know no other film.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LocalDot {
+    /// Its radius, share of the head's.
+    pub reach: f64,
+    /// Mass per area that it adds, kg/m2.
+    pub density: f64,
+    /// Flexural rigidity of film and dot under a tip, N m.
+    pub rigidity: f64,
+    /// Young's modulus times the thickness of film and dot, N/m.
+    pub stretching: f64,
 }
 
 /// `2 exp(1/4 - gamma)`, dimensionless: a point force on a stiff head acts like a disc of so many `sqrt(D / T)`.
@@ -132,10 +147,18 @@ const DENT: f64 = 0.45;
 const ROUNDS: usize = 4;
 
 impl LocalHeadCompliance {
+    /// The head as a tip at a distance from its centre (share of the radius) feels it.
+    pub fn at(self, place: f64) -> LocalHeadCompliance {
+        let Some(dot) = self.dot.filter(|dot| place < dot.reach) else { return self };
+        let LocalDot { density, rigidity, stretching, .. } = dot;
+        LocalHeadCompliance { density: self.density + density, rigidity, stretching, ..self }
+    }
+
     /// As published contacts have it: every tip presses on [its own disc](StrikerSpec::patch), about which the film has no
     /// flexural rigidity and is not stretched.
     pub fn under_fixed_discs(self) -> LocalHeadCompliance {
-        LocalHeadCompliance { rigidity: 0.0, stretching: 0.0, patch_grows: false, ..self }
+        let dot = self.dot.map(|dot| LocalDot { rigidity: 0.0, stretching: 0.0, ..dot });
+        LocalHeadCompliance { rigidity: 0.0, stretching: 0.0, patch_grows: false, dot, ..self }
     }
 
     /// How a stroke at `speed` (m/s) presses.
@@ -259,6 +282,7 @@ mod tests {
         stretching: 0.0,
         reached: 18_850.0,
         patch_grows: true,
+        dot: None,
     };
 
     #[test]
@@ -322,6 +346,20 @@ mod tests {
         let depth: f64 = (0..far).map(|i| 0.5 * step * (n[i].recip() + n[i + 1].recip())).sum();
         let disc = x[far] * (0.25 - depth).exp();
         assert!((disc / DENT - 1.0).abs() < 0.05, "{disc}");
+    }
+
+    #[test]
+    fn a_tip_on_a_dot_meets_film_and_dot_and_beside_it_the_film() {
+        let dot = LocalDot { reach: 0.36, density: 0.35, rigidity: 0.16, stretching: 0.0 };
+        let head = LocalHeadCompliance { dot: Some(dot), ..HEAD };
+        assert_eq!(LocalHeadCompliance { dot: None, ..head.at(0.4) }, HEAD);
+        let on_it = head.at(0.1);
+        assert_eq!((on_it.density, on_it.rigidity), (HEAD.density + dot.density, dot.rigidity));
+        let yields = |head: LocalHeadCompliance| -> f64 {
+            let (bands, count) = head.bands(0.1, &Press::lightly(0.002), false, 1e-4);
+            bands[..count].iter().map(Oscillator::compliance).sum()
+        };
+        assert!(yields(on_it) < yields(HEAD), "{} {}", yields(on_it), yields(HEAD));
     }
 
     #[test]

@@ -69,12 +69,13 @@ impl Surface {
         let point = &mut self.contacts.points[tip];
         point.arrive(Ground::Body, law, weights);
         let lightly = Press::lightly(spec.patch);
-        let press = self.local_compliance.map_or(lightly, |head| head.press(&spec, speed));
+        let local = self.local_compliance.map(|head| head.at(radius));
+        let press = local.map_or(lightly, |head| head.press(&spec, speed));
         let patch = press.disc;
-        let disc = self.local_compliance.map_or(0.0, |head| patch / head.radius);
+        let disc = local.map_or(0.0, |head| patch / head.radius);
         self.body.shapes().fill_pressed(radius, strike.angle, disc, point.port.shape_mut());
         self.observers.put(tip, radius, strike.angle, patch);
-        if let Some(head) = self.local_compliance {
+        if let Some(head) = local {
             (point.bands, point.band_count) = head.bands(radius, &press, !lossless, dt);
         }
         point.origin = -self.body.modal().displacement_at(&point.port);

@@ -324,8 +324,9 @@ impl Attachment for SnareWires {
             (point.present, point.touching, point.lambda) = (true, true, lambda);
             (point.compression, point.force) = (point.static_compression, point.preload);
             if let Some(head) = self.head {
+                let place = x.hypot(y);
                 (point.bands, point.band_count) =
-                    head.bands(x.hypot(y), &Press::lightly(self.patch()), !self.lossless, self.dt);
+                    head.at(place).bands(place, &Press::lightly(self.patch()), !self.lossless, self.dt);
             }
             point.origin = -site.body.modal().displacement_at(&point.port);
             point.stale = true;

@@ -273,8 +273,9 @@ fn ideal_head() -> Surface {
         material: Material::FILM,
         loss: LossLaw::NONE,
         edge: None,
+        dot: None,
     };
-    let tension = vacuum_tension(&spec, ZEROS[0], 100.0);
+    let tension = vacuum_tension(&spec, (0, ZEROS[0]), 100.0);
     let range = ModeRange { reference_tension: tension, limit_hz: 1500.0 };
     let membrane = Membrane::new(spec, Surroundings::Vacuum, &range).expect("a head that can be");
     let (mut modes, mut index) = (Vec::new(), Vec::new());

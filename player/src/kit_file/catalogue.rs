@@ -13,7 +13,7 @@ use overhear_engine::kit_spec::KitSpec;
 use toml::{Table, Value};
 
 use super::error::quoted;
-use super::laying::lay_over;
+use super::laying::{NONE, lay_over};
 use super::source::Source;
 use super::text;
 
@@ -31,6 +31,9 @@ const KINDS: [(&str, &str); 6] = [
     ("alloy", "alloys"),
     ("wires", "wires"),
 ];
+
+/// Fields that some parts of a kind have; those that have not take them away from what they are laid over.
+const OPTIONAL: [(&str, &[&str]); 1] = [("heads", &["dot"])];
 
 /// A part that a table is like, but the library does not have.
 pub(super) struct Missing {
@@ -75,19 +78,28 @@ pub(super) fn fill_in(table: &mut Table) -> Result<(), Missing> {
         fill_in(inner).map_err(|missing| Missing { path: format!("{key}.{}", missing.path), ..missing })?;
         let kind = KINDS.iter().find(|(own, _)| own == key).map(|(_, kind)| *kind);
         let Some((kind, like)) = kind.and_then(|kind| Some((kind, inner.remove("like")?))) else { continue };
-        let part = like.as_str().and_then(|like| parts(kind).get(like)?.as_table());
-        let Some(part) = part else {
+        let part = like.as_str().and_then(|like| self::part(kind, like));
+        let Some(mut fields) = part else {
             let given = like.as_str().map_or_else(|| "no text".to_owned(), quoted);
             let known: Vec<&str> = parts(kind).keys().map(String::as_str).collect();
             let reason = format!("is {given}, accepted: {}", known.join(", "));
             return Err(Missing { path: format!("{key}.like"), reason });
         };
-        let mut fields = part.clone();
-        fields.remove("about");
         lay_over(&mut fields, std::mem::take(inner));
         *inner = fields;
     }
     Ok(())
+}
+
+/// What a part of a kind lays over a table.
+pub(super) fn part(kind: &str, name: &str) -> Option<Table> {
+    let mut fields = parts(kind).get(name)?.as_table()?.clone();
+    fields.remove("about");
+    let optional = OPTIONAL.iter().filter(|(own, _)| *own == kind).flat_map(|(_, keys)| *keys);
+    for key in optional {
+        fields.entry(*key).or_insert_with(|| Value::String(NONE.to_owned()));
+    }
+    Some(fields)
 }
 
 /// The parts of a kind by their names: `heads`, `walls`, `hoops`, `alloys`, `wires`.

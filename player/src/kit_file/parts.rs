@@ -5,7 +5,7 @@ use toml::{Table, Value};
 
 use super::catalogue;
 use super::drafts::Draft;
-use super::laying::lay_over;
+use super::laying::{NONE, lay_over};
 use super::pieces;
 use super::source::Origins;
 use super::text;
@@ -82,10 +82,10 @@ impl Part {
     pub fn chosen(&self, piece: &PieceSpec) -> Option<&'static str> {
         let fields = text::fields(piece);
         let own = self.found(&fields)?;
-        let known = catalogue::parts(self.kind).iter();
+        let known = catalogue::parts(self.kind).keys();
         known
-            .filter_map(|(name, made)| Some((name, made.as_table()?)))
-            .find_map(|(name, made)| agrees(own, made).then_some(name.as_str()))
+            .filter_map(|name| Some((name, catalogue::part(self.kind, name)?)))
+            .find_map(|(name, made)| agrees(own, &made).then_some(name.as_str()))
     }
 
     fn found<'a>(&self, fields: &'a Table) -> Option<&'a Table> {
@@ -103,12 +103,10 @@ impl Part {
     pub fn fitted(&self, piece: &PieceSpec, name: Option<&str>) -> Result<PieceSpec, String> {
         let mut changes = Table::new();
         match name {
-            None => changes.insert("like".to_owned(), Value::String("none".to_owned())),
+            None => changes.insert("like".to_owned(), Value::String(NONE.to_owned())),
             Some(name) => {
-                let made = catalogue::parts(self.kind).get(name).and_then(Value::as_table);
-                let mut made = made.cloned().ok_or_else(|| format!("{name} is not in the library"))?;
-                made.remove("about");
-                changes = made;
+                let made = catalogue::part(self.kind, name);
+                changes = made.ok_or_else(|| format!("{name} is not in the library"))?;
                 None
             }
         };
@@ -145,13 +143,13 @@ impl Part {
     }
 }
 
-/// Whether a table has all that another says, beside the line on what it is.
+/// Whether a table has all that another says, and not what that takes away.
 fn agrees(own: &Table, made: &Table) -> bool {
     let number = |value: &Value| value.as_float().or(value.as_integer().map(|whole| whole as f64));
-    made.iter().filter(|(key, _)| *key != "about").all(|(key, made)| match (own.get(key), made) {
+    made.iter().all(|(key, made)| match (own.get(key), made) {
         (Some(Value::Table(own)), Value::Table(made)) => agrees(own, made),
         (Some(own), made) => own == made || number(own).is_some_and(|own| Some(own) == number(made)),
-        (None, _) => false,
+        (None, made) => made.as_str() == Some(NONE),
     })
 }
 
@@ -198,6 +196,17 @@ mod tests {
             }
         }
         assert!(fitted > 100, "{fitted}");
+    }
+
+    #[test]
+    fn an_ordinary_head_takes_the_dot_away() {
+        let snare = standard("snare");
+        let dotted = BATTER.fitted(&snare, Some("coated-10-dot")).unwrap();
+        assert!(dotted.drum().unwrap().batter.dot.is_some());
+        assert_eq!(BATTER.chosen(&dotted), Some("coated-10-dot"));
+        let plain = BATTER.fitted(&dotted, Some("coated-10")).unwrap();
+        assert_eq!(plain.drum().unwrap().batter.dot, None);
+        assert_eq!(BATTER.chosen(&plain), Some("coated-10"));
     }
 
     #[test]

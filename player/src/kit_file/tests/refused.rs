@@ -18,6 +18,10 @@ fn every_error_names_the_line_the_field_and_what_is_accepted() {
             "3: pieces.snare.batter.thickness_mm is nan, accepted",
         ),
         (
+            "format = 1\n[pieces.snare]\nbatter.dot = { diameter_in = 13, thickness_mm = 0.1, loss = { constant_1_s = 0, per_khz_1_s = 0 } }",
+            "3: pieces.snare.batter.dot.diameter_in is 13, accepted: 0.7875 to 12.6",
+        ),
+        (
             "format = 1\npieces.kick.defaults.pan = inf",
             "2: pieces.kick.defaults.pan is inf, accepted: -1 to 1",
         ),
