@@ -38,6 +38,7 @@ pub struct PieceSpec {
 /// What a piece is.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
+#[expect(clippy::large_enum_variant, reason = "a kit has sixteen at most")]
 pub enum InstrumentSpec {
     /// A drum: kick, snare, tom, timpani.
     Drum(DrumSpec),
