@@ -37,15 +37,16 @@ use crate::rim::{Rim, RimPart};
 use crate::schema::SCHEMA;
 use crate::shapes::ShapeTable;
 use crate::surface::contacts::STRIKER_PLACES;
+use crate::surface::incident_field::Volume;
 use crate::surface::rim::AttachedRim;
 use crate::surface::wires::{PRELOAD, SnareWires};
 use crate::surface::{Surface, SurfaceParts};
 
-use body::{BodyMode, all_around, describe, long_wave, sampled};
+use body::{BodyMode, all_around, describe, sampled};
 use losses::{Losses, palm};
 use mixing::MixedModes;
 use mode_transfer::{ModeTransfer, ModeTransfers};
-use modes::DrumModes;
+use modes::{DrumModes, most_volume};
 use muffler::MufflerCoefs;
 pub use spec::{DrumSpec, HeadContact, HeadSpec, PitchOf, ResonantSpec, ShellSpec};
 use stretch::StretchModel;
@@ -98,16 +99,17 @@ struct Stale {
 /// What becomes of the modes of even heads.
 struct Mixing {
     modes: Shared<MixedModes>,
-    /// What is heard of the even modes and of the body's: pressure at each point (real, imaginary), volume, and the share of
-    /// the sound that goes all around.
+    /// What is heard of the even modes and of the body's: pressure at each point (real, imaginary), volume, and of the pressure at the
+    /// first far point what goes all around.
     even: Vec<HeardRow>,
     heard: Vec<HeardRow>,
 }
 
-/// What is heard of a mode; the places in it of the volume and of the share that goes all around.
+/// What is heard of a mode; the places in it of the first far point, of the volume and of what goes all around.
 type HeardRow = [f32; 2 * POINTS + 2];
+const FAR: usize = 2;
 const VOLUME: usize = 2 * POINTS;
-const SHARE: usize = VOLUME + 1;
+const ALL_AROUND: usize = VOLUME + 1;
 
 impl Mixing {
     fn new(modes: Shared<MixedModes>) -> Mixing {
@@ -293,7 +295,7 @@ impl Drum {
             hearing.transfers(&built.modes, place, pitch).map(move |transfer| transfer.map(|h| h * scale))
         });
         let Some(Mixing { modes: mixed, even, heard }) = mixing else {
-            surface.set_volumes(volumes);
+            surface.set_volumes(volumes.map(|(volume, share)| Volume { volume, share, all_around: 0.0 }));
             surface.set_transfers(transfers);
             return;
         };
@@ -302,21 +304,22 @@ impl Drum {
             for (heard, transfers) in heard.as_chunks_mut::<2>().0.iter_mut().zip(&mut transfers) {
                 *heard = transfers.next().unwrap_or_default().map(|h| h as f32);
             }
-            rest.copy_from_slice(&[volume, share].map(|value| value as f32));
+            rest.copy_from_slice(&[volume as f32, share as f32 * heard[FAR]]);
         }
         surface.body().kernels().vectorized(
             #[inline(always)]
             || mixed.mixture.apply_rows(even, heard),
         );
         let kept = mixed.mixture.kept();
-        for ((heard, now), part) in
-            heard[kept..].iter_mut().zip(&at_pitch[built.kept..]).zip(&mixed.without_diameters)
-        {
-            heard[SHARE] = part * long_wave(built, now.omega) as f32;
+        for (heard, now) in heard[kept..].iter_mut().zip(&at_pitch[built.kept..]) {
+            // What parts of a mixture send out may add up to more than the mixture is made to lose.
+            let most = most_volume(now) as f32;
+            heard[VOLUME] = heard[VOLUME].clamp(-most, most);
         }
         let pick = |i: usize| heard.iter().map(move |row| f64::from(row[i]));
         let pair = |i: usize| pick(i).zip(pick(i + 1)).map(|(a, b)| [a, b]);
-        surface.set_volumes(pick(VOLUME).zip(pick(SHARE)));
+        let volumes = pick(VOLUME).zip(pick(ALL_AROUND));
+        surface.set_volumes(volumes.map(|(volume, all_around)| Volume { volume, share: 0.0, all_around }));
         surface.set_transfers(std::array::from_fn(|point| pair(2 * point)));
     }
 

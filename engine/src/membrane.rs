@@ -11,7 +11,7 @@
 //! The added mass depends on the frequency, which is found by fixed point. Losses are the film's
 //! own; what a head sends out depends on what it is part of, see [`drum`](crate::drum).
 //!
-//! A [dot](dot) mixes modes of one order; [`ringing`](Membrane::ringing) is then a mode's by itself, and
+//! A [dot] mixes modes of one order; [`ringing`](Membrane::ringing) is then a mode's by itself, and
 //! [`tension_for`](Membrane::tension_for) solves for the mixture.
 //!
 //! Source: Morse & Ingard, Theoretical Acoustics, ch. 5; Rossing, Science of Percussion Instruments.

@@ -46,7 +46,7 @@ use crate::transport::{Transport, TransportSpec};
 use attachment::{Attachment, Site};
 use body::{SoundingBody, StruckBody};
 use contacts::{Contacts, MAX_STRIKERS};
-use incident_field::IncidentPressure;
+use incident_field::{IncidentPressure, Volume};
 use local_compliance::LocalHeadCompliance;
 use observer::ForceObservers;
 use rim::AttachedRim;
@@ -280,10 +280,8 @@ impl Surface {
         self.body.enter_air();
     }
 
-    /// Volume by which each mode compresses the drum, per modal displacement, m2, and the omnidirectional share of its sound,
-    /// `[mode]`; the rest goes to other pieces as to the far field. [`set_transfers`](Self::set_transfers) must be called
-    /// after.
-    pub fn set_volumes(&mut self, volumes: impl Iterator<Item = (f64, f64)>) {
+    /// By how much each mode compresses the drum, `[mode]`. [`set_transfers`](Self::set_transfers) must be called after.
+    pub fn set_volumes(&mut self, volumes: impl Iterator<Item = Volume>) {
         self.body.set_volumes(volumes);
     }
 

@@ -87,7 +87,7 @@ pub fn read(file_name: &str, text: &str) -> Result<KitDocument, KitFileError> {
     read.map_err(|fault| KitFileError::at(file_name, text.as_bytes(), fault.at, &fault.reason))
 }
 
-/// Reads what [`write`] wrote and a project has stored, also where pieces stand inside one another, as a former version wrote
+/// Reads what [`write()`] wrote and a project has stored, also where pieces stand inside one another, as a former version wrote
 /// it: the later ones are moved to the nearest place that is free.
 ///
 /// # Errors

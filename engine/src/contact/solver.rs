@@ -6,8 +6,8 @@
 //!
 //! If all contacts follow Hertz's law, each step solves its linear system by two sweeps of Jacobi's method, in all lanes at
 //! once. A point yields more to its own force than to all others, by three to five times under snare wires and by twenty-five
-//! around a hi-hat's rim, so a step leaves about a fiftieth of the error at most. If that does not converge, further steps use
-//! elimination, as all steps for other laws do. If Newton's method does not converge, as may happen where a contact opens,
+//! around a hi-hat's rim, so a step leaves about a fiftieth of the error at most. Where contacts are closer to each other, and if that does
+//! not converge, further steps use elimination, as all steps for other laws do. If Newton's method does not converge, as may happen where a contact opens,
 //! single contacts are solved in turn (Gauss-Seidel), each between bounds.
 
 use super::force::ContactLanes;
@@ -22,6 +22,9 @@ const MAX_STEPS: usize = 12;
 
 /// Sweeps of Jacobi's method in each step.
 const JACOBI_SWEEPS: usize = 2;
+
+/// What Jacobi's method may miss of a step's change, relative; if it misses more, contacts are too close to each other for it.
+const MOST_MISSED: f64 = 0.25;
 
 /// Change of a compression, relative, in the last step. A fiftieth of it is left, less than the rounding of the forces that
 /// modes receive.
@@ -116,7 +119,7 @@ fn newton<const N: usize, const ALL_HERTZ: bool>(
         std::array::from_fn(|i| free[i] - moved[i])
     };
     let mut d = compressions(&lanes.force, &lanes.free);
-    let by_jacobi = if ALL_HERTZ { MAX_STEPS } else { 0 };
+    let mut by_jacobi = if ALL_HERTZ { MAX_STEPS } else { 0 };
     for step in 0..by_jacobi + MAX_STEPS {
         let (force, slope) = lanes.gradient::<ALL_HERTZ>(&roots, &d);
         let moved = compressions(&force, &lanes.free);
@@ -128,16 +131,22 @@ fn newton<const N: usize, const ALL_HERTZ: bool>(
         };
         lanes.force = std::array::from_fn(|i| force[i] + slope[i] * change[i]);
         let found = compressions(&lanes.force, &lanes.free);
-        // NaN does not count as settled.
-        let mut settled = true;
+        // NaN does not count as settled. The bodies alone may agree while the law does not, where a change is far from the solution.
+        let (mut settled, mut changed, mut missed) = (true, 0.0, 0.0);
         for i in 0..N {
             let scale = LAST_STEP * lanes.before[i].abs().max(lanes.free[i].abs());
-            settled &= (found[i] - d[i]).abs() <= scale;
+            let step = found[i] - d[i];
+            settled &= step.abs() <= scale && change[i].abs() <= 2.0 * scale;
+            changed += change[i].abs();
+            missed += (step - change[i]).abs();
         }
         d = found;
         if settled {
             lanes.force.iter_mut().for_each(|force| *force = force.max(0.0));
             return true;
+        }
+        if missed > MOST_MISSED * changed {
+            by_jacobi = 0;
         }
     }
     false

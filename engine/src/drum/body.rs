@@ -99,7 +99,7 @@ pub fn all_around(drum: &DrumModes, mode: &TunedMode, place: &PitchPosition) -> 
 }
 
 /// How much of a motion of volume at an angular frequency (rad/s) goes all around, 0 to 1.
-pub fn long_wave(drum: &DrumModes, omega: f64) -> f64 {
+fn long_wave(drum: &DrumModes, omega: f64) -> f64 {
     let u = omega * drum.heads.batter.membrane.spec().radius / SPEED_OF_SOUND;
     (LONG_WAVE[1] - u).clamp(0.0, LONG_WAVE[1] - LONG_WAVE[0]) / (LONG_WAVE[1] - LONG_WAVE[0])
 }

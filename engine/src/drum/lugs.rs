@@ -17,7 +17,7 @@
 //! ```
 //!
 //! So a hoop carries the rods' pull well where it is stiff and they are many: six rods on a 12 in hoop of bent steel leave 5 % in six periods, ten
-//! on a 14 in one 1 %. Uneven tuning passes in its lowest periods.
+//! on a 14 in one half a percent. Uneven tuning passes in its lowest periods.
 //!
 //! Limits: the difference of the two principal tensions is left out, and the collar's own give; rods pull the hoop straight down, and the
 //! film moves outward over the bearing edge by as much without friction. Only modes that are [mixed](super::mixing) feel it: pairs below are split by

@@ -36,8 +36,6 @@ pub struct MixedModes {
     pub mixture: ModeMixture,
     /// `[mixed mode]`: the even mode that it is most of.
     pub names: Vec<u32>,
-    /// `[mixed mode]`: share of its energy in modes without nodal diameters.
-    pub without_diameters: Vec<f32>,
     /// `[mixed mode][pitch of the coarse grid]`.
     entries: Vec<Entry>,
 }
@@ -172,14 +170,8 @@ impl MixedModes {
                 .map(|(i, coef)| coef * (mass / reference[even[kept + first + i].pair].mass).sqrt());
             coefs.push((kept + first, scaled.collect()));
         }
-        let without = |(first, row): &(usize, Vec<f64>)| -> f32 {
-            let parts = row.iter().enumerate();
-            let round = parts.filter(|(i, _)| drum.modes[even[kept + first + i].pair].m == 0);
-            round.map(|(_, coef)| (coef * coef) as f32).sum()
-        };
-        let without_diameters = rows.iter().map(without).collect();
         let names = named(&rows).into_iter().map(|name| (kept + name) as u32).collect();
-        MixedModes { mixture: ModeMixture::new(kept, &coefs), names, without_diameters, entries }
+        MixedModes { mixture: ModeMixture::new(kept, &coefs), names, entries }
     }
 }
 

@@ -50,6 +50,8 @@ struct Entry {
     resonant: f64,
     /// Share that is in air going along the drum.
     flow: f64,
+    /// Area of the monopole in a baffle that radiates as the mode does at a modal mass of 1 kg, m2.
+    monopole_area: f64,
 }
 
 /// One mode (or pair) of the drum against pitch.
@@ -175,6 +177,12 @@ impl TunedMode {
         place.of(self.grid).blend(|pitch| f64::from(self.outlet[pitch]))
     }
 
+    /// Area of the monopole in a baffle that radiates as the mode does at a modal mass of 1 kg, m2.
+    pub fn monopole_area(&self, place: &PitchPosition) -> f64 {
+        let row = &self.entries;
+        place.of(self.grid).blend(|pitch| row[pitch].monopole_area).max(0.0)
+    }
+
     /// The pitches it is worked out at.
     pub fn grid(&self) -> Grid {
         self.grid
@@ -224,6 +232,7 @@ pub fn follow(
                 batter: mode.share[0],
                 resonant: mode.share[1],
                 flow: mode.flow,
+                monopole_area: mode.monopole_area,
             };
             outlet[pitch] = (sign * mode.outlet / size) as f32;
             for (share, x) in shares[pitch * heads..][..heads].iter_mut().zip(&mode.vector) {

@@ -11,7 +11,7 @@ use crate::receiver::POINTS;
 use crate::shapes::ShapeTable;
 use crate::transport::{Transport, TransportSpec};
 
-use super::incident_field::{AirLoad, IncidentPressure};
+use super::incident_field::{AirLoad, IncidentPressure, Volume};
 use super::pitch_glide::PitchGlide;
 
 /// Adds at every receiver, Pa.
@@ -215,8 +215,8 @@ impl StruckBody {
         self.sound.receiver.attend(self.sound.modal.len());
     }
 
-    /// Volume by which each mode compresses the body, per modal displacement, m2, and the omnidirectional share of its sound.
-    pub(super) fn set_volumes(&mut self, volumes: impl Iterator<Item = (f64, f64)>) {
+    /// By how much each mode compresses the body.
+    pub(super) fn set_volumes(&mut self, volumes: impl Iterator<Item = Volume>) {
         if let Some(air) = &mut self.air {
             air.set_volumes(volumes);
         }

@@ -22,11 +22,24 @@ pub type IncidentPressure<'a> = &'a [f32];
 /// Incident pressure above which a sleeping piece wakes, Pa.
 pub const AUDIBLE: f32 = 0.02;
 
+/// By how much a mode compresses its drum, and how much of its sound goes all around.
+///
+/// What goes all around reaches other pieces as that of a point of this volume, the rest as it reaches the first far point.
+#[derive(Debug, Clone, Copy)]
+pub struct Volume {
+    /// Volume per modal displacement, m2.
+    pub volume: f64,
+    /// Share of the mode's sound that goes all around, 0 to 1.
+    pub share: f64,
+    /// What goes all around beside that share, as pressure at the first far point, Pa s2/m.
+    pub all_around: f64,
+}
+
 /// Load of the air on a drum.
 pub(super) struct AirLoad {
     port: InputVector,
-    /// Omnidirectional share of each mode's sound.
-    shares: Vec<f32>,
+    /// `[mode]`: the share of its sound that goes all around, and what does beside it, Pa s2/m.
+    all_around: Vec<[f32; 2]>,
     /// Pressure at each receiver proportional to the incident pressure, per unit of it.
     direct: Pressure,
 }
@@ -34,25 +47,26 @@ pub(super) struct AirLoad {
 impl AirLoad {
     /// A load of zero on so many modes. Allocates.
     pub(super) fn new(modes: usize) -> AirLoad {
-        AirLoad { port: InputVector::new(modes), shares: vec![0.0; modes], direct: [0.0; RECEIVERS] }
+        AirLoad { port: InputVector::new(modes), all_around: vec![[0.0; 2]; modes], direct: [0.0; RECEIVERS] }
     }
 
-    /// Volume by which each mode compresses the drum, per modal displacement, m2, and the omnidirectional share of its sound,
-    /// `[mode]`.
-    pub(super) fn set_volumes(&mut self, volumes: impl Iterator<Item = (f64, f64)>) {
-        let rows = self.port.shape_mut().iter_mut().zip(&mut self.shares);
-        for ((shape, share), (volume, all_around)) in rows.zip(volumes) {
-            (*shape, *share) = (volume as f32, all_around as f32);
+    /// By how much each mode compresses the drum, `[mode]`.
+    pub(super) fn set_volumes(&mut self, volumes: impl Iterator<Item = Volume>) {
+        let rows = self.port.shape_mut().iter_mut().zip(&mut self.all_around);
+        for ((shape, around), Volume { volume, share, all_around }) in rows.zip(volumes) {
+            *shape = volume as f32;
+            *around = [share as f32, all_around as f32];
         }
     }
 
     /// Updates the transfers to other pieces.
     pub(super) fn send(&self, receiver: &mut ReceiverWeights) {
-        for (k, share) in self.shares.iter().enumerate() {
-            let far = receiver.transfer_mut(1)[k];
-            let (volume, left) = (f64::from(self.port.shape()[k]), 1.0 - f64::from(*share));
+        for (k, &around) in self.all_around.iter().enumerate() {
+            let [real, imaginary] = receiver.transfer_mut(1)[k];
+            let [share, all_around] = around.map(f64::from);
+            let (volume, left) = (f64::from(self.port.shape()[k]), 1.0 - share);
             receiver.transfer_mut(RECEIVERS - 1)[k] =
-                [left * far[0] - DENSITY * volume / (4.0 * PI), left * far[1]];
+                [left * real - all_around - DENSITY * volume / (4.0 * PI), left * imaginary];
         }
     }
 

@@ -426,24 +426,31 @@ pub fn resize(
         Err(error) => error,
     };
     let present = document.kit.piece(slot).and_then(|piece| size.of(piece));
-    let nearest = present.map(|present| {
+    let field = format!(".{}", size.field());
+    let range = match &error {
+        SpecError::OutOfRange { field: refused, min, max, .. } if refused.ends_with(&field) => {
+            Some((*min, *max))
+        }
+        _ => None,
+    };
+    let bound = range.map(|(min, max)| value.clamp(min, max)).filter(|&bound| attempt(bound).is_ok());
+    let nearest = bound.or_else(|| {
+        let present = present?;
         // What there is works; what was asked for does not.
         let (mut works, mut fails) = (present, value);
         for _ in 0..40 {
             let middle = 0.5 * (works + fails);
             if attempt(middle).is_ok() { works = middle } else { fails = middle }
         }
-        rounded(size, works, present, units)
+        Some(rounded(size, works, present, units))
     });
     let title = document.kit.piece(slot).map_or("", |piece| piece.title.as_str());
     let label = size.label();
     let given = size.text(value, units);
-    let why = match &error {
-        SpecError::OutOfRange { field, min, max, .. } if field.ends_with(&format!(".{}", size.field())) => {
-            format!("accepted: {} to {}", size.text(*min, units), size.text(*max, units))
-        }
-        error => error.to_string(),
-    };
+    let why = range.map_or_else(
+        || error.to_string(),
+        |(min, max)| format!("accepted: {} to {}", size.text(min, units), size.text(max, units)),
+    );
     let near = nearest.map_or(String::new(), |nearest| {
         format!("; the nearest that works is {}", size.text(nearest, units))
     });

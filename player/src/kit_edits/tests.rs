@@ -181,8 +181,8 @@ fn rivets_are_put_in_and_sized() {
     for (size, text, says, nearest) in [
         (Size::Rivets, "20", "Rivets is 20, accepted: 1 to 12", "12"),
         (Size::Rivets, "0", "Rivets is 0, accepted: 1 to 12", "1"),
-        (Size::RivetWeight, "9", "Rivet weight is 9 g, accepted: 0.3 g to 5 g", "4.99 g"),
-        (Size::RivetArc, "357", "accepted: 1 ° to 355 °", "360 °"),
+        (Size::RivetWeight, "9", "Rivet weight is 9 g, accepted: 0.3 g to 5 g", "5 g"),
+        (Size::RivetArc, "357", "accepted: 1 ° to 355 °", "355 °"),
         (Size::RivetPlace, "99", "accepted: 30 % to 98 %", "98 %"),
     ] {
         let refused = of(size, text).unwrap_err();
