@@ -8,6 +8,9 @@
 //! path. Coupled drums therefore only lose energy. Modes with nodal diameters, or with waves shorter than the drum, receive
 //! nothing. Others receive the far field of the first direction.
 //!
+//! Limits: a mode's radiation loss is that at its own frequency at rest. A head that is stretched far, or driven above its resonance, sends
+//! out more than it loses by.
+//!
 //! Neglected: scattering by the drum (up to 6 dB where it is large against the wavelength), modes that change no volume, and the
 //! delay between both heads.
 
