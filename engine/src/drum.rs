@@ -57,7 +57,8 @@ fn modes_key(spec: &DrumSpec) -> impl Serialize {
     let DrumSpec { diameter, pitch_of, batter, resonant, shell, edge, .. } = *spec;
     // In binary form a part that is missing leaves no trace by itself.
     let dots = (batter.dot.is_some(), resonant.is_some_and(|head| head.dot.is_some()));
-    (diameter, spec.pitches(), pitch_of, batter, resonant, shell, edge, (spec.is_uneven(), dots))
+    let there = (spec.is_uneven(), dots, batter.mesh.is_some());
+    (diameter, spec.pitches(), pitch_of, batter, resonant, shell, edge, there)
 }
 
 /// What has been worked out of late.

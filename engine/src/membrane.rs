@@ -11,12 +11,13 @@
 //! The added mass depends on the frequency, which is found by fixed point. Losses are the film's
 //! own; what a head sends out depends on what it is part of, see [`drum`](crate::drum).
 //!
-//! A [dot] mixes modes of one order; [`ringing`](Membrane::ringing) is then a mode's by itself, and
+//! A [mesh] moves the air on it by a part only. A [dot] mixes modes of one order; [`ringing`](Membrane::ringing) is then a mode's by itself, and
 //! [`tension_for`](Membrane::tension_for) solves for the mixture.
 //!
 //! Source: Morse & Ingard, Theoretical Acoustics, ch. 5; Rossing, Science of Percussion Instruments.
 
 pub mod dot;
+pub mod mesh;
 mod spec;
 
 use nalgebra::DMatrix;
@@ -28,6 +29,7 @@ use crate::math::bessel::{self, JTable};
 use crate::math::eigen;
 
 use dot::AtEdge;
+use mesh::Slip;
 pub use spec::MembraneSpec;
 
 /// What stands on the two faces of a head.
@@ -70,7 +72,7 @@ pub struct MembraneMode {
 pub struct Ringing {
     /// Undamped angular frequency, rad/s.
     pub omega: f64,
-    /// Decay rate by the losses of the film and the edge, 1/s.
+    /// Decay rate by the losses of the film and the edge, and by the flow through a mesh, 1/s.
     pub sigma: f64,
     /// Modal mass with the air it carries, kg.
     pub mass: f64,
@@ -92,6 +94,7 @@ pub struct Ringing {
 ///     loss: LossLaw::NONE,
 ///     edge: None,
 ///     dot: None,
+///     mesh: None,
 /// };
 /// let range = ModeRange { reference_tension: 2729.0, limit_hz: 600.0 };
 /// let head = Membrane::new(spec, Surroundings::Air, &range)?;
@@ -216,8 +219,19 @@ impl Membrane {
         2.0 * self.spec.area() * mode.norm * libm::j1(mode.zero) / mode.zero
     }
 
-    /// Mass of the air on one face at an angular frequency, kg.
+    /// How far the air on both faces follows a mode at an angular frequency, rad/s.
+    pub fn slip(&self, mode: &MembraneMode, omega: f64) -> Slip {
+        let air = |mode| 2.0 * self.air_mass(mode, omega) / self.spec.area();
+        self.spec.mesh.map_or(Slip::NONE, |mesh| Slip::new(&mesh, self.spec.thickness, air(mode), omega))
+    }
+
+    /// Mass of the air on one face that the mode feels at an angular frequency, kg.
     pub fn face_mass(&self, mode: &MembraneMode, omega: f64) -> f64 {
+        self.air_mass(mode, omega) * self.slip(mode, omega).mass
+    }
+
+    /// Mass of the air that moves with one face of a tight film, kg.
+    fn air_mass(&self, mode: &MembraneMode, omega: f64) -> f64 {
         let u = omega * self.spec.radius / air_load::SPEED_OF_SOUND;
         air_load::DENSITY * self.spec.radius.powi(3) * mode.load.at(u)
     }
@@ -262,7 +276,8 @@ impl Membrane {
         let k = mode.zero / self.spec.radius;
         let edge = self.spec.edge_sigma(tension, k, mass / self.spec.area(), omega);
         let mount = self.spec.edge.map_or(0.0, |edge| edge.mount_sigma(mode.m));
-        Ringing { omega, sigma: self.spec.loss.sigma(omega) + edge + mount, mass }
+        let flow = 0.5 * self.slip(mode, omega).resistance * self.spec.area() / mass;
+        Ringing { omega, sigma: self.spec.loss.sigma(omega) + edge + mount + flow, mass }
     }
 
     /// The tension (N/m) that puts mode `(m, n)` at a frequency (Hz); `None` if there is no such mode.

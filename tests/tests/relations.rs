@@ -167,6 +167,24 @@ fn a_dot_takes_from_the_overtones() {
     }
 }
 
+/// A mesh moves without pushing much air: johnlambdrums.com/remo-silentstrokes; by how much is not said. The air between the threads is
+/// inert, and least so for slow waves: P. M. Morse, K. U. Ingard, Theoretical Acoustics, 1968, ch. 6.
+#[test]
+fn a_mesh_is_much_softer_than_a_film_most_of_all_in_the_lows() {
+    let heads = ["clear-10", "mesh"].map(|head| {
+        let piece = format!("like = \"concert-tom-12\"\nbatter.like = \"{head}\"");
+        struck(&piece, stroke(STICK, 3.0, 0.3, 0.0), 1.0)
+    });
+    let softer = |above| {
+        let levels = heads.each_ref().map(|head| head.level(above, 0.0, 0.25));
+        println!("level above {above} Hz, dB: {levels:.1?}");
+        levels[0] - levels[1]
+    };
+    let [all, highs] = [20.0, 2000.0].map(softer);
+    assert!((20.0..60.0).contains(&all) && (10.0..40.0).contains(&highs), "{all} {highs}");
+    assert!(highs < all - 5.0, "{all} {highs}");
+}
+
 /// A pillow takes ring and boom and leaves a punch: drumbeatsonline.com/blog/bass-drum-dampening-how-to-control-your-kick-drum-sound;
 /// musicalinstrumentworld.com/archives/16175.
 #[test]

@@ -39,6 +39,7 @@ use crate::cavity::{CavityOrder, PORT_Q};
 use crate::diffraction::{self, Outside};
 use crate::math::bessel::JTable;
 use crate::math::{eigen, quadrature};
+use crate::membrane::mesh::Slip;
 use crate::membrane::{Membrane, MembraneMode};
 
 /// A head stretched to a tension (N/m).
@@ -235,6 +236,11 @@ impl<'a> OrderProblem<'a> {
             sigma += kinetic * head.loss.sigma(omega) + both * dot.loss.sigma(omega);
         }
         sigma += self.edge_sigma(parts, omega, &vector, share[0] + share[1]);
+        let slips: Vec<Slip> = parts.iter().map(|part| part.head.membrane.slip(part.mode, omega)).collect();
+        let area = self.batter.membrane.spec().area();
+        sigma += slips.iter().zip(&vector).map(|(slip, x)| 0.5 * slip.resistance * area * x * x).sum::<f64>();
+        // What of the heads' motion the air follows.
+        let followed: Vec<f64> = slips.iter().zip(&vector).map(|(slip, x)| slip.velocity * x).collect();
         if let Some(cavity) = self.cavity {
             let springs = cavity.modes.iter().filter(|mode| mode.omega > 0.0);
             for (mode, y) in springs.zip(&vector[heads..]) {
@@ -252,8 +258,11 @@ impl<'a> OrderProblem<'a> {
                 sigma += kinetic * omega / (2.0 * PORT_Q);
             }
         }
-        let outlet = self.outlet(&vector, heads);
-        let resistance = self.resistance((parts, shapes), omega, &vector, outlet);
+        let outlet = match self.cavity {
+            Some(cavity) => self.outlet(cavity, &vector, heads),
+            None => self.through(parts, &followed),
+        };
+        let resistance = self.resistance((parts, shapes), omega, &followed, outlet);
         let radius = self.batter.membrane.spec().radius;
         sigma += 0.5 * DENSITY * omega * radius.powi(3) * resistance;
         let monopole_area = air_load::monopole_area(radius, resistance, omega);
@@ -274,9 +283,16 @@ impl<'a> OrderProblem<'a> {
         0.5 * around * square * edge.mobility(omega) / (omega * omega) + share * edge.mount_sigma(self.m)
     }
 
+    /// Displacement of the air at the open end of a shell under a mesh: all that passes the one passes the other.
+    fn through(&self, parts: &[Part], followed: &[f64]) -> f64 {
+        let Outside::Free { .. } = self.outside else { return 0.0 };
+        let volume = |(part, x): (&Part, &f64)| x * part.head.membrane.volume(part.mode);
+        let volume: f64 = if self.m == 0 { parts.iter().zip(followed).map(volume).sum() } else { 0.0 };
+        volume / self.batter.membrane.spec().area()
+    }
+
     /// Displacement of the air at an open end or in a port.
-    fn outlet(&self, vector: &[f64], heads: usize) -> f64 {
-        let Some(cavity) = self.cavity else { return 0.0 };
+    fn outlet(&self, cavity: &CavityOrder, vector: &[f64], heads: usize) -> f64 {
         let springs = cavity.modes.iter().filter(|mode| mode.omega > 0.0).map(|mode| mode.outlet);
         let volume: f64 = springs.zip(&vector[heads..]).map(|(outlet, y)| outlet * y).sum();
         let plug: f64 = cavity.outlet.iter().zip(vector).map(|(outlet, q)| outlet * q).sum();

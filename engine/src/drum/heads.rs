@@ -13,6 +13,7 @@ use crate::drum::tuned::{PITCHES, PitchPosition, PitchScale};
 use crate::error::SpecError;
 use crate::high_band::{HighBandSpec, Receiver};
 use crate::math::bessel::{self, JTable};
+use crate::membrane::mesh::Slip;
 use crate::membrane::{self, Membrane, MembraneMode, MembraneSpec, ModeRange, Surroundings};
 use crate::surface::local_compliance::{LocalDot, LocalHeadCompliance};
 
@@ -97,6 +98,7 @@ impl TunedHead {
         // Waves that fine move the air within their own length only: rho / k on either face.
         let bare = spec.area_density();
         let air = 2.0 * DENSITY * (now / bare).sqrt() / reached;
+        let air = air * spec.mesh.map_or(1.0, |mesh| Slip::new(&mesh, spec.thickness, air, reached).mass);
         LocalHeadCompliance {
             radius: spec.radius,
             tension: now,

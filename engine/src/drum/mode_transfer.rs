@@ -177,12 +177,19 @@ impl<'a> HeadTransfers<'a> {
         HeadTransfers { drum, spec, near, far, near_shapes, far_shapes, lag, fills }
     }
 
-    /// A head's motion in a mode, along the radius: head modes `first..first + count` of the head, `skip..` of the
-    /// mode's shares.
-    fn radial(&self, mode: &TunedMode, place: &PitchPosition, shapes: &[f64], head: [usize; 3]) -> Vec<f64> {
+    /// A head's motion in a mode as the air follows it, along the radius: head modes `first..first + count` of the head, `skip..` of the
+    /// mode's shares, each followed by so much.
+    fn radial(
+        &self,
+        mode: &TunedMode,
+        place: &PitchPosition,
+        shapes: &[f64],
+        head: [usize; 3],
+        followed: impl Fn(usize) -> f64,
+    ) -> Vec<f64> {
         let nodes = self.near.radii().len();
         let [first, count, skip] = head;
-        let shares: Vec<f64> = (0..count).map(|i| mode.share(skip + i, place)).collect();
+        let shares: Vec<f64> = (0..count).map(|i| mode.share(skip + i, place) * followed(i)).collect();
         let mut radial = vec![0.0; nodes];
         for (i, share) in shares.iter().enumerate() {
             let row = &shapes[(first + i) * nodes..][..nodes];
@@ -195,7 +202,10 @@ impl<'a> HeadTransfers<'a> {
     fn transfer(&self, mode: &TunedMode, place: &PitchPosition) -> [f32; 2] {
         let omega = mode.at(place).omega;
         let (first, count) = self.drum.heads.batter.order(mode.m);
-        let radial = self.radial(mode, place, &self.near_shapes, [first, count, 0]);
+        let head = &self.drum.heads.batter.membrane;
+        let slip = |i: usize| head.slip(&head.modes()[first + i], omega);
+        let followed = |i| slip(i).velocity;
+        let radial = self.radial(mode, place, &self.near_shapes, [first, count, 0], followed);
         let [mut re, mut im] = self.near.transfer(&Radiator { m: mode.m, radial: &radial, omega });
         if let Outside::Free { .. } = self.spec.outside() {
             let radius = self.spec.radius();
@@ -206,7 +216,7 @@ impl<'a> HeadTransfers<'a> {
             let radial = match (&self.drum.heads.resonant, &self.far_shapes) {
                 (Some(head), Some(shapes)) => {
                     let (far_first, far_count) = head.order(mode.m);
-                    let mut radial = self.radial(mode, place, shapes, [far_first, far_count, count]);
+                    let mut radial = self.radial(mode, place, shapes, [far_first, far_count, count], |_| 1.0);
                     if mode.m == 0 {
                         let port = mode.outlet(place);
                         radial.iter_mut().for_each(|moved| *moved += port);
@@ -227,7 +237,12 @@ impl<'a> HeadTransfers<'a> {
                 im += gain * (far_im * cos - far_re * sin);
             }
         }
-        [re as f32, im as f32]
+        // The air on a mesh is late, by what it is in the part that moves most.
+        let size = |i: usize| mode.share(i, place).abs();
+        let most = (0..count).max_by(|&i, &k| size(i).total_cmp(&size(k)));
+        let lag = most.map_or(0.0, |i| slip(i).lag);
+        let (sin, cos) = lag.sin_cos();
+        [(re * cos + im * sin) as f32, (im * cos - re * sin) as f32]
     }
 }
 

@@ -10,6 +10,7 @@ use crate::drum::lugs::LugsSpec;
 use crate::drum::tension_field::{TensionFieldSpec, Unevenness};
 use crate::membrane::MembraneSpec;
 use crate::membrane::dot::DotSpec;
+use crate::membrane::mesh::MeshSpec;
 use crate::numbers::{Numbers, Visitor};
 use crate::rim::HoopSpec;
 use crate::shell::{Cylinder, WallSpec};
@@ -106,6 +107,9 @@ pub struct HeadSpec {
     /// What is glued to its middle; none of a head without a dot.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dot: Option<DotSpec>,
+    /// How it lets air through, if it is woven; none of a tight film.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mesh: Option<MeshSpec>,
 }
 
 /// The head that is not struck.
@@ -165,6 +169,9 @@ impl HeadSpec {
         self.material.visit_part("material", visitor);
         self.loss.visit_part("loss", visitor);
         visitor.number("modes_to_hz", &mut self.modes_to_hz, MODES_TO_HZ);
+        if let Some(mesh) = &mut self.mesh {
+            mesh.visit_part("mesh", visitor);
+        }
         if let Some(dot) = &mut self.dot {
             visitor.enter("dot");
             dot.visit_numbers(diameter, visitor);
@@ -210,7 +217,7 @@ impl Numbers for DrumSpec {
             visitor.number("pitch_ratio", &mut resonant.pitch_ratio, 0.5..=2.5);
             let mut head = resonant.head();
             head.visit_numbers(self.diameter, visitor);
-            let HeadSpec { thickness, plies, material, loss, modes_to_hz, dot } = head;
+            let HeadSpec { thickness, plies, material, loss, modes_to_hz, dot, .. } = head;
             *resonant = ResonantSpec { thickness, plies, material, loss, modes_to_hz, dot, ..*resonant };
             if let Some(port) = &mut resonant.port_diameter {
                 visitor.number("port_diameter_m", port, 0.01..=0.5 * self.diameter);
@@ -244,7 +251,7 @@ impl ResonantSpec {
     /// The head by itself.
     pub fn head(&self) -> HeadSpec {
         let ResonantSpec { thickness, plies, material, loss, modes_to_hz, dot, .. } = *self;
-        HeadSpec { thickness, plies, material, loss, modes_to_hz, dot }
+        HeadSpec { thickness, plies, material, loss, modes_to_hz, dot, mesh: None }
     }
 }
 
@@ -289,12 +296,16 @@ impl DrumSpec {
 
     /// A head as a membrane.
     pub fn membrane(&self, head: &HeadSpec) -> MembraneSpec {
-        let HeadSpec { thickness, plies, material, loss, dot, .. } = *head;
-        MembraneSpec { radius: self.radius(), thickness, plies, material, loss, edge: self.edge, dot }
+        let HeadSpec { thickness, plies, material, loss, dot, mesh, .. } = *head;
+        let (radius, edge) = (self.radius(), self.edge);
+        MembraneSpec { radius, thickness, plies, material, loss, edge, dot, mesh }
     }
 
-    /// The enclosed air; none of a head on its own.
+    /// The enclosed air; none of a head on its own, nor under a mesh, which it passes.
     pub fn cavity(&self) -> Option<CavitySpec> {
+        if self.batter.mesh.is_some() {
+            return None;
+        }
         let radius = self.radius();
         Some(match self.shell? {
             ShellSpec::Cylinder { depth, air_q, .. } => {

@@ -1,4 +1,5 @@
 mod dotted;
+mod woven;
 
 use super::*;
 use crate::block::BLOCK;

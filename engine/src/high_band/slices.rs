@@ -10,6 +10,7 @@ use crate::diffraction::Outside;
 use crate::math::cubic::Stencil;
 use crate::math::trigonometry::sin_cos;
 use crate::membrane::MembraneSpec;
+use crate::membrane::mesh::Slip;
 use crate::modal::Mode;
 use crate::patch_factors::PatchFactors;
 use crate::receiver::{DIRECTIONS, POINTS, ReceiverPosition};
@@ -210,7 +211,7 @@ pub(super) fn walk_rate(spec: &HighBandSpec, slice: &Slice, omega: f64) -> f64 {
     0.5 * std::f64::consts::LN_2 / spec.density * omega * (1.0 - 1.0 / slice.count)
 }
 
-/// Undamped angular frequency (rad/s), decay rate by radiation (1/s) and mass per area with its air
+/// Undamped angular frequency (rad/s), decay rate by radiation and by the flow through a mesh (1/s) and mass per area with its air
 /// (kg/m2) of waves on an endless head, `zero` being `k a`.
 pub(super) fn wave(head: &MembraneSpec, zero: f64, tension: f64) -> (f64, f64, f64) {
     let k2 = (zero / head.radius).powi(2);
@@ -224,8 +225,9 @@ pub(super) fn wave(head: &MembraneSpec, zero: f64, tension: f64) -> (f64, f64, f
         // 1 / sqrt(gap - i eta)
         let size = (gap * gap + eta * eta).sqrt();
         let (re, im) = ((0.5 * (size + gap)).sqrt() / size, (0.5 * (size - gap)).max(0.0).sqrt() / size);
-        mass = film + 2.0 * DENSITY * re;
-        sigma = omega * DENSITY * im / (2.0 * mass);
+        let slip = slip(head, 2.0 * DENSITY * re, omega);
+        mass = film + 2.0 * DENSITY * re * slip.mass;
+        sigma = (omega * DENSITY * im * slip.velocity.powi(2) + slip.resistance) / (2.0 * mass);
         let next = (stiffness / mass).sqrt();
         let settled = (next / omega - 1.0).abs() < 1e-7;
         omega = next;
@@ -391,13 +393,29 @@ pub(super) fn endless_sheet(spec: &HighBandSpec, slices: &[Slice], radius: f64, 
     let dot =
         spec.head.added_by_dot().filter(|_| lies_on_dot(&spec.head, radius)).map_or(0.0, |dot| dot.density);
     // Into the head is away from the point.
-    -free * gain * DENSITY / (TAU * distance * (spec.head.area_density() + dot))
+    let followed = followed(&spec.head, first.zero, wave(&spec.head, first.zero, spec.tensions[1]).0);
+    -free * gain * followed * DENSITY / (TAU * distance * (spec.head.area_density() + dot))
 }
 
 /// Pressure at the point over the acceleration of one real mode, root mean square, Pa s2/m.
 pub(super) fn loudness(spec: &HighBandSpec, slice: &Slice, omega: f64) -> f64 {
     let near = spec.ear.point.rim_nearness(spec.head.radius);
-    slice.gain * DENSITY / TAU * rim_strip(spec, slice, omega) * near
+    slice.gain * followed(&spec.head, slice.zero, omega) * DENSITY / TAU
+        * rim_strip(spec, slice, omega)
+        * near
+}
+
+/// Velocity of the air over that of a head in waves of `k a` shorter than sound's, 1 on a tight film.
+fn followed(head: &MembraneSpec, zero: f64, omega: f64) -> f64 {
+    let gap = (zero / head.radius).powi(2) - (omega / SPEED_OF_SOUND).powi(2);
+    // At the speed of sound the air's mass has no end; the rim makes one.
+    let length = gap.max((zero / head.radius).powi(2) / 16.0).sqrt().recip();
+    slip(head, 2.0 * DENSITY * length, omega).velocity
+}
+
+/// How air of that mass (kg/m2) follows a head.
+fn slip(head: &MembraneSpec, air: f64, omega: f64) -> Slip {
+    head.mesh.map_or(Slip::NONE, |mesh| Slip::new(&mesh, head.thickness, air, omega))
 }
 
 /// How much louder the slices are far away, as at a metre, in each direction, than at the point, in the mean: they come by chance
@@ -446,6 +464,7 @@ mod tests {
             loss: LossLaw::NONE,
             edge: None,
             dot: Some(dot),
+            mesh: None,
         };
         let share = |hz: f64, tension: f64| on_dot(&head, TAU * hz, tension);
         assert!((share(100.0, 1e6) - 1.0).abs() < 1e-3);

@@ -184,7 +184,15 @@ const PILLOW_FLOW: f64 = 0.35 * 850.0 / (2.0 * crate::air_load::DENSITY);
 
 /// A head of film: thickness (m), plies, losses.
 fn film(thickness: f64, plies: u32, loss: LossLaw) -> HeadSpec {
-    HeadSpec { thickness, plies, material: Material::FILM, loss, modes_to_hz: BATTER_MODES_TO, dot: None }
+    HeadSpec {
+        thickness,
+        plies,
+        material: Material::FILM,
+        loss,
+        modes_to_hz: BATTER_MODES_TO,
+        dot: None,
+        mesh: None,
+    }
 }
 
 /// A clear single-ply head.
@@ -303,7 +311,8 @@ fn kick() -> InstrumentSpec {
 /// are drawn out by some millimetres (*by judgement*: strainers differ), over a bed 10 cm wide (*judgement*). Air alone would leave a Q
 /// of a thousand; cords and coils take more (*by judgement*).
 fn snare() -> InstrumentSpec {
-    let HeadSpec { thickness, plies, material, loss, modes_to_hz, dot } = film(0.076e-3, 1, SNARE_SIDE_LOSS);
+    let HeadSpec { thickness, plies, material, loss, modes_to_hz, dot, .. } =
+        film(0.076e-3, 1, SNARE_SIDE_LOSS);
     let side = ResonantSpec {
         pitch_ratio: 1.50,
         thickness,

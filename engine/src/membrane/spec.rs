@@ -9,6 +9,7 @@ use crate::error::SpecError;
 use crate::fitted;
 use crate::math::bessel;
 use crate::membrane::dot::{self, Added, AtEdge, DotSpec};
+use crate::membrane::mesh::MeshSpec;
 
 /// A drum head.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -27,6 +28,8 @@ pub struct MembraneSpec {
     pub edge: Option<EdgeSpec>,
     /// What is glued to its middle.
     pub dot: Option<DotSpec>,
+    /// How it lets air through; `None` of a tight film.
+    pub mesh: Option<MeshSpec>,
 }
 
 /// Flexural rigidity of two plies that slide on one another over that of one film as thick, dimensionless: 1/4 if nothing

@@ -1,4 +1,5 @@
 mod dotted;
+mod woven;
 
 use super::*;
 use crate::contact::Material;
@@ -13,6 +14,7 @@ fn timpani() -> MembraneSpec {
         loss: LossLaw::NONE,
         edge: None,
         dot: None,
+        mesh: None,
     }
 }
 

@@ -1,9 +1,10 @@
 //! Parts that no piece of the standard kit has.
 
-use overhear_engine::drum::DrumSpec;
 use overhear_engine::drum::lugs::LugsSpec;
+use overhear_engine::drum::{DrumSpec, HeadSpec};
 use overhear_engine::hi_hat::HiHatSpec;
-use overhear_engine::kit_spec::{InstrumentSpec, PieceSpec};
+use overhear_engine::kit_spec::{Defaults, InstrumentSpec, PieceSpec};
+use overhear_engine::membrane::mesh::MeshSpec;
 
 use crate::Chance;
 
@@ -17,7 +18,9 @@ pub fn added(piece: PieceSpec, chance: &mut Chance) -> PieceSpec {
         InstrumentSpec::HiHat(hat) => InstrumentSpec::HiHat(more_of_pair(hat, chance)),
         other => other,
     };
-    let more = PieceSpec { instrument: more, ..piece.clone() };
+    let preload = piece.defaults.preload.filter(|_| more_has_wires(&more));
+    let defaults = Defaults { preload, ..piece.defaults };
+    let more = PieceSpec { instrument: more, defaults, ..piece.clone() };
     if more.check().is_ok() { more } else { piece }
 }
 
@@ -28,7 +31,18 @@ fn more_of_drum(drum: DrumSpec, chance: &mut Chance) -> DrumSpec {
         rms: chance.between(0.0, 0.3),
         seed: chance.below(1000) as u32,
     });
-    DrumSpec { lugs, ..drum }
+    if !chance.happens(OFTEN) {
+        return DrumSpec { lugs, ..drum };
+    }
+    // Nothing is stretched below a mesh.
+    let mesh =
+        MeshSpec { flow_resistance: 0.5 * 2000.0_f64.powf(chance.unit()), open: chance.between(0.05, 0.9) };
+    let batter = HeadSpec { mesh: Some(mesh), ..drum.batter };
+    DrumSpec { lugs, batter, resonant: None, wires: None, ..drum }
+}
+
+fn more_has_wires(instrument: &InstrumentSpec) -> bool {
+    matches!(instrument, InstrumentSpec::Drum(DrumSpec { wires: Some(_), .. }))
 }
 
 /// A stack of its cymbals, now and then, the lower one as thin and wider.

@@ -274,6 +274,7 @@ fn ideal_head() -> Surface {
         loss: LossLaw::NONE,
         edge: None,
         dot: None,
+        mesh: None,
     };
     let tension = vacuum_tension(&spec, (0, ZEROS[0]), 100.0);
     let range = ModeRange { reference_tension: tension, limit_hz: 1500.0 };

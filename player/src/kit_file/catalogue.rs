@@ -33,7 +33,7 @@ const KINDS: [(&str, &str); 6] = [
 ];
 
 /// Fields that some parts of a kind have; those that have not take them away from what they are laid over.
-const OPTIONAL: [(&str, &[&str]); 1] = [("heads", &["dot"])];
+const OPTIONAL: [(&str, &[&str]); 1] = [("heads", &["dot", "mesh"])];
 
 /// A part that a table is like, but the library does not have.
 pub(super) struct Missing {

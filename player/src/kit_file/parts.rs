@@ -50,6 +50,9 @@ const ALLOY: Part = part("Alloy", &["alloy"], "alloys");
 const HATS: [Part; 2] =
     [part("Top alloy", &["top", "alloy"], "alloys"), part("Bottom alloy", &["bottom", "alloy"], "alloys")];
 
+/// What a head has that is woven.
+const MESH: &str = "mesh";
+
 /// The parts of a piece that can be chosen.
 pub fn of(piece: &PieceSpec) -> Vec<Part> {
     use overhear_engine::drum::spec::ShellSpec;
@@ -70,7 +73,9 @@ impl Part {
             let about = fields.get("about").and_then(Value::as_str).unwrap_or(name);
             Made { name: name.as_str(), title: about.split(':').next().unwrap_or(about) }
         };
-        catalogue::parts(self.kind).iter().map(made).collect()
+        let known = catalogue::parts(self.kind).iter();
+        // Air between two heads would escape through a mesh, and a mesh below a film is no use.
+        known.filter(|(_, fields)| *self != RESONANT || fields.get(MESH).is_none()).map(made).collect()
     }
 
     /// Whether a piece has it.
@@ -126,8 +131,12 @@ impl Part {
             }
             lay_over(table, Table::from_iter([((*last).to_owned(), Value::Table(changes))]));
         }
-        // Wires need a force that presses them on, and a head to lie against.
-        if *self == RESONANT && name.is_none() {
+        // Nothing is stretched below a mesh. Wires need a force that presses them on, and a head to lie against.
+        let mesh = *self == BATTER && self.found(&fields).is_some_and(|head| head.contains_key(MESH));
+        if mesh {
+            fields.remove("resonant");
+        }
+        if mesh || *self == RESONANT && name.is_none() {
             fields.remove("wires");
         }
         preload(&mut fields);
@@ -207,6 +216,22 @@ mod tests {
         let plain = BATTER.fitted(&dotted, Some("coated-10")).unwrap();
         assert_eq!(plain.drum().unwrap().batter.dot, None);
         assert_eq!(BATTER.chosen(&plain), Some("coated-10"));
+    }
+
+    #[test]
+    fn a_mesh_takes_the_head_below_and_its_wires_away() {
+        let snare = standard("snare");
+        let woven = BATTER.fitted(&snare, Some("mesh")).unwrap();
+        let drum = woven.drum().unwrap();
+        assert!(drum.batter.mesh.is_some() && drum.resonant.is_none() && drum.wires.is_none());
+        assert!(woven.defaults.preload.is_none() && woven.check() == Ok(()));
+        assert_eq!(BATTER.chosen(&woven), Some("mesh"));
+        let below = RESONANT.fitted(&woven, Some("snare-side-3")).unwrap();
+        let refused = below.check().unwrap_err().to_string();
+        assert!(refused.contains("none under a mesh"), "{refused}");
+        assert!(RESONANT.choices().iter().all(|made| !made.name.starts_with(MESH)));
+        let plain = BATTER.fitted(&woven, Some("coated-10")).unwrap();
+        assert_eq!(plain.drum().unwrap().batter.mesh, None);
     }
 
     #[test]

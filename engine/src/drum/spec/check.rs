@@ -35,6 +35,12 @@ impl DrumSpec {
                     "is given, accepted: only on a shell that is a cylinder",
                 ));
             }
+            if self.batter.mesh.is_some() {
+                return Err(SpecError::refused(
+                    "resonant",
+                    "is given, accepted: none under a mesh, through which the air between the heads escapes",
+                ));
+            }
         } else if self.wires.is_some() {
             return Err(SpecError::refused(
                 "wires",

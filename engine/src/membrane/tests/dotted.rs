@@ -18,6 +18,7 @@ fn spec(youngs_modulus: f64, dot: Option<DotSpec>) -> MembraneSpec {
         loss: LossLaw::NONE,
         edge: None,
         dot,
+        mesh: None,
     }
 }
 

@@ -11,6 +11,7 @@ macro_rules! files {
 pub(crate) static INSTRUMENTS: &[(&str, &str)] = files!["pieces":
     "kick-16x14",
     "kick-18x14",
+    "kick-18-mesh",
     "kick-20x14",
     "kick-20x16",
     "kick-20x18",
@@ -58,6 +59,7 @@ pub(crate) static INSTRUMENTS: &[(&str, &str)] = files!["pieces":
     "tom-10x8-acrylic",
     "concert-tom-12",
     "concert-tom-14",
+    "tom-12-mesh",
     "tenor-8",
     "tenor-10",
     "tenor-12",
