@@ -236,7 +236,6 @@ mod tests {
             }
         }
         // Where heads and air pass each other a mode is another one at the ends of the range than in the middle.
-        println!("areas differ from those in the middle by up to e^{far:.2}");
         assert!(far > 0.3);
     }
 }

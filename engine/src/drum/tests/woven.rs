@@ -21,7 +21,6 @@ fn a_mesh_sends_out_a_hundredth_and_loses_to_its_flow() {
         let first = |drum: &DrumModes| drum.modes.iter().find(|mode| mode.m == order).cloned().unwrap();
         let (tight, open) = (first(&tight), first(&open));
         let level = 20.0 * (open.monopole_area(&place) / tight.monopole_area(&place)).log10();
-        println!("order {order}: {level:.1} dB, {:?}", open.at(&place));
         assert!((-45.0..-20.0).contains(&level), "order {order}: {level}");
     }
     // At rest in its flow the weave loses R / (2 s) beside what the film does.
