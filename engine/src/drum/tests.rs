@@ -1,4 +1,5 @@
 mod dotted;
+mod vented;
 
 use super::*;
 use crate::block::BLOCK;
