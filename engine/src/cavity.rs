@@ -20,17 +20,26 @@
 //!
 //! A port, a hole of the radius `b` in the far head, is a plug of air of the mass `rho / (2 b)` per volume squared (Rayleigh: what
 //! moves on both sides of a hole in a thin wall) that the modes which do not vary across the drum push on. With the uniform spring it
-//! is Helmholtz's resonator. It is narrow against waves along the head, so that others push on it by little: neglected.
+//! is Helmholtz's resonator. It is narrow against waves along the head, so that others push on it by little: neglected. A vent is such a
+//! hole in the wall half way along a cylinder, where modes with an odd number of half waves do not push on it, or at the bottom of a kettle;
+//! see [`hole`].
 //!
 //! Displacements count along the stroke: the batter's into the drum, the resonant head's out of it.
 //!
 //! Source: Fahy & Gardonio, Sound and Structural Vibration, ch. 7.
+
+pub mod hole;
 
 use std::f64::consts::{PI, TAU};
 
 use crate::air_load::{DENSITY, SPEED_OF_SOUND};
 use crate::fitted;
 use crate::math::bessel;
+
+use hole::{Hole, HoleAir};
+
+/// Holes of a drum at most: a port and a vent.
+pub const HOLES: usize = 2;
 
 /// The enclosed air.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,12 +50,12 @@ pub struct CavitySpec {
     pub volume: f64,
     /// Distance from head to head, or of a cylinder of the same volume, m.
     pub depth: f64,
-    /// Quality factor of its modes: losses at the wall and through the vent. *By ear*.
+    /// Quality factor of its modes: losses at the wall, and through vents that are not described. *By ear*.
     pub q: f64,
     /// Whether the far end is open.
     pub open: bool,
-    /// Radius of a hole in the far head, m.
-    pub port: Option<f64>,
+    /// Its holes, which a vessel with an open end has not.
+    pub holes: [Option<Hole>; HOLES],
 }
 
 /// One mode of the air, of one order.
@@ -64,8 +73,8 @@ pub struct CavityMode {
     pub volume: Vec<f64>,
     /// Volume that leaves an open end per displacement of the mass, m2.
     pub outlet: f64,
-    /// Volume displaced per displacement of a port's air, m2.
-    pub port: f64,
+    /// Volume displaced per displacement of the air of each hole of the order, m2.
+    pub holes: [f64; HOLES],
 }
 
 /// A head mode as the cavity sees it.
@@ -88,19 +97,12 @@ pub struct CavityOrder {
     pub mass: Vec<f64>,
     /// Volume that leaves an open end by the others per modal displacement, m2, `[head mode]`.
     pub outlet: Vec<f64>,
-    /// Mass of a port's air, kg, where its displacement is the volume that leaves over the head's area; none without nodal
-    /// diameters only.
-    pub port: Option<f64>,
+    /// The air of its holes; none of orders with nodal diameters.
+    pub holes: Vec<HoleAir>,
 }
 
 /// Length of air that moves beyond an open end, over the radius (Levine & Schwinger 1948).
 const END: f64 = 0.613_3;
-
-/// Quality factor of a port's air: it leaves as a jet, and the jet's energy is lost. *Derived*: air that moves by `X` in a sharp hole of
-/// the effective length `l = pi b / 2` has `q = 3 pi l / (4 K X)`, with `K` 2.4 (*literature*: Idelchik, Handbook of Hydraulic Resistance,
-/// ch. 4), so that it falls as `1 / (1 + w t / (2 q))`: a hard stroke on a kick (`q` 0.75) to a 26th in 0.3 s, a soft one (1.5) to a 14th. A
-/// linear loss that does the same has a quality of `w t / (2 ln(1 + w t / (2 q)))`, 5.8 and 7.2 at 20 Hz.
-pub const PORT_Q: f64 = 6.0;
 
 /// How far past the heads' finest shape the radial sum for the mass runs.
 const EXTRA_CIRCLES: u32 = 6;
@@ -117,7 +119,7 @@ impl CavitySpec {
             depth,
             q: fitted::AIR_Q,
             open: false,
-            port: None,
+            holes: [None; HOLES],
         }
     }
 
@@ -137,9 +139,9 @@ impl CavitySpec {
             alphas.insert(0, 0.0);
         }
         let area = PI * self.radius * self.radius;
-        let port = self.port.filter(|_| m == 0).map(|radius| 0.5 * DENSITY * area * area / radius);
+        let holes = self.holes.into_iter().flatten().filter(|_| m == 0).map(|hole| hole.air(area)).collect();
         let (mass, outlet) = (vec![0.0; count * count], vec![0.0; count]);
-        let mut order = CavityOrder { modes: Vec::new(), mass, outlet, port };
+        let mut order = CavityOrder { modes: Vec::new(), mass, outlet, holes };
         for (circles, &alpha) in alphas.iter().enumerate() {
             self.add_radial(m, circles as u32, alpha, heads, limit, &mut order);
         }
@@ -187,7 +189,10 @@ impl CavitySpec {
                 let volume = heads.iter().zip(&overlaps).map(|(head, c)| side(head) * c).collect();
                 let own = if alpha == 0.0 && self.open { 2.0 * sign / (half_waves * PI) } else { 0.0 };
                 outlet -= own;
-                let port = if alpha == 0.0 { -sign * PI * self.radius * self.radius } else { 0.0 };
+                let mut holes = [0.0; HOLES];
+                for (own, air) in holes.iter_mut().zip(&order.holes).filter(|_| alpha == 0.0) {
+                    *own = -air.hole.pressure(l) * PI * self.radius * self.radius;
+                }
                 order.modes.push(CavityMode {
                     circles,
                     half_waves: l,
@@ -195,7 +200,7 @@ impl CavitySpec {
                     spring,
                     volume,
                     outlet: own,
-                    port,
+                    holes,
                 });
             } else {
                 even += spring / (omega * omega);

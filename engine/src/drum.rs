@@ -57,7 +57,9 @@ fn modes_key(spec: &DrumSpec) -> impl Serialize {
     let DrumSpec { diameter, pitch_of, batter, resonant, shell, edge, .. } = *spec;
     // In binary form a part that is missing leaves no trace by itself.
     let dots = (batter.dot.is_some(), resonant.is_some_and(|head| head.dot.is_some()));
-    let there = (spec.is_uneven(), dots, batter.mesh.is_some());
+    let port = resonant.is_some_and(|head| head.port_diameter.is_some());
+    let vent = shell.is_some_and(|shell| shell.vent_diameter().is_some());
+    let there = (spec.is_uneven(), dots, batter.mesh.is_some(), port, vent);
     (diameter, spec.pitches(), pitch_of, batter, resonant, shell, edge, there)
 }
 

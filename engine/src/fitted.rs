@@ -86,7 +86,7 @@ fitted! {
     RING_SIGMA = 60.0, "1/s", "ring_sigma";
         to "by ear: a ring as they are sold"; tried "not recorded"; moves "what full muffling takes";
     AIR_Q = 60.0, "1", "pieces.kick.shell.air_q";
-        to "by ear: losses at the wall and through the vent"; tried "not recorded"; moves "decay of modes of the enclosed air";
+        to "by ear: losses at the wall, and through vents that are not described"; tried "not recorded"; moves "decay of modes of the enclosed air";
     // Hoops, sticks, wires.
     HOOP_Q = 50.0, "1", "pieces.snare.hoop.q";
         to "by ear: gaskets, rods and the head take much"; tried "not recorded"; moves "rimshots and cross-sticks";

@@ -159,12 +159,12 @@ fn rebuilt(drum: DrumSpec, chance: &mut Chance) -> DrumSpec {
     // A timpani's pitch is that of the whole drum; a kettle much too small or too large would dominate it.
     let sensible = |chance: &mut Chance| drum.diameter.powi(3) * chance.between(0.3, 0.8);
     match drum.shell {
-        Some(ShellSpec::Kettle { air_q, .. }) => {
-            drum.shell = Some(ShellSpec::Kettle { volume: sensible(chance), air_q });
+        Some(ShellSpec::Kettle { air_q, vent_diameter, .. }) => {
+            drum.shell = Some(ShellSpec::Kettle { volume: sensible(chance), air_q, vent_diameter });
         }
         _ if drum.resonant.is_none() && chance.happens(0.3) => {
-            drum.shell =
-                Some(ShellSpec::Kettle { volume: sensible(chance), air_q: chance.between(10.0, 200.0) });
+            let (volume, air_q) = (sensible(chance), chance.between(10.0, 200.0));
+            drum.shell = Some(ShellSpec::Kettle { volume, air_q, vent_diameter: None });
         }
         _ => {}
     }

@@ -26,7 +26,8 @@
 //!
 //! A shell without its other head sends out at its open end what the enclosed air pushes there, as a piston. A port in the other head
 //! is one more degree of freedom of the modes without nodal diameters, and is heard as such a piston of the same volume: it moves much only
-//! where the wave is longer than the drum is wide.
+//! where the wave is longer than the drum is wide. So is a vent in the wall, of which the same holds; that of a kettle is behind the baffle,
+//! where nothing is heard.
 //!
 //! Limits: the heads' outer air does not couple their modes; losses do not couple modes.
 
@@ -35,7 +36,7 @@ use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
 use crate::air_load::{self, DENSITY, HankelShape, SPEED_OF_SOUND};
-use crate::cavity::{CavityOrder, PORT_Q};
+use crate::cavity::CavityOrder;
 use crate::diffraction::{self, Outside};
 use crate::math::bessel::JTable;
 use crate::math::{eigen, quadrature};
@@ -82,16 +83,19 @@ pub struct CoupledMode {
     pub direction: Vec<f64>,
     /// Share of the kinetic energy that is the batter's, and the resonant head's; the rest is the air's.
     pub share: [f64; 2],
-    /// Such shares of every head mode, of the port's air if there is a port, and of every cavity mode.
+    /// Such shares of every head mode, of the air of every hole, and of every cavity mode.
     pub shares: Vec<f64>,
     /// Share of the kinetic energy that is in air going along the drum as one, from head to head.
     pub flow: f64,
-    /// Displacement of the air at an open end or in a port, along the stroke, as a piston as wide as the head: its ratio to the modal
+    /// Displacement of the air at an open end or in holes, along the stroke, as a piston as wide as the head: its ratio to the modal
     /// displacement.
     pub outlet: f64,
     /// Area of the monopole in a baffle that would radiate its power at unit modal acceleration, m2.
     pub monopole_area: f64,
 }
+
+/// Slower than this nothing is a mode of the drum, rad/s.
+pub const SLOWEST: f64 = 30.0;
 
 /// One head mode with what it brings.
 struct Part<'a> {
@@ -153,12 +157,12 @@ impl<'a> OrderProblem<'a> {
     fn eigenmodes(&self, parts: &[Part], omegas: &[f64]) -> Vec<Solution> {
         let heads = parts.len();
         let (modes, mass) = (Vec::new(), vec![0.0; heads * heads]);
-        let none = CavityOrder { modes, mass, outlet: Vec::new(), port: None };
+        let none = CavityOrder { modes, mass, outlet: Vec::new(), holes: Vec::new() };
         let cavity = self.cavity.unwrap_or(&none);
         let springs: Vec<_> = cavity.modes.iter().filter(|mode| mode.omega > 0.0).collect();
-        // Heads, air, port.
-        let port = heads + springs.len();
-        let size = port + usize::from(cavity.port.is_some());
+        // Heads, air, holes.
+        let holes = heads + springs.len();
+        let size = holes + cavity.holes.len();
         let mut stiffness = DMatrix::zeros(size, size);
         let mut mass = DMatrix::zeros(size, size);
         for (i, (part, own)) in parts.iter().zip(self.head_masses(parts, omegas)).enumerate() {
@@ -190,18 +194,21 @@ impl<'a> OrderProblem<'a> {
                 stiffness[(y, i)] = stiffness[(i, y)];
             }
         }
-        if let Some(own) = cavity.port {
-            mass[(port, port)] = own;
+        for (h, air) in cavity.holes.iter().enumerate() {
+            let x = holes + h;
+            mass[(x, x)] = air.mass;
             for mode in &cavity.modes {
-                stiffness[(port, port)] += mode.spring * mode.port * mode.port;
+                for (k, volume) in mode.holes.iter().enumerate().take(cavity.holes.len()) {
+                    stiffness[(x, holes + k)] += mode.spring * mode.holes[h] * volume;
+                }
                 for i in 0..heads {
-                    stiffness[(i, port)] += mode.spring * mode.volume[i] * mode.port;
-                    stiffness[(port, i)] = stiffness[(i, port)];
+                    stiffness[(i, x)] += mode.spring * mode.volume[i] * mode.holes[h];
+                    stiffness[(x, i)] = stiffness[(i, x)];
                 }
             }
             for (j, mode) in springs.iter().enumerate() {
-                stiffness[(heads + j, port)] = -mode.spring * mode.port;
-                stiffness[(port, heads + j)] = stiffness[(heads + j, port)];
+                stiffness[(heads + j, x)] = -mode.spring * mode.holes[h];
+                stiffness[(x, heads + j)] = stiffness[(heads + j, x)];
             }
         }
         generalized(stiffness, mass)
@@ -252,10 +259,11 @@ impl<'a> OrderProblem<'a> {
                 // A loss factor, not a dashpot: air that only rides along loses as slowly as it moves.
                 sigma += kinetic * omega / (2.0 * self.cavity_q);
             }
-            if let (Some(mass), Some(x)) = (cavity.port, vector.last()) {
-                let kinetic = mass * x * x;
-                shares.insert(heads, kinetic);
-                sigma += kinetic * omega / (2.0 * PORT_Q);
+            let moved = &vector[vector.len() - cavity.holes.len()..];
+            for (k, (air, x)) in cavity.holes.iter().zip(moved).enumerate() {
+                let kinetic = air.mass * x * x;
+                shares.insert(heads + k, kinetic);
+                sigma += kinetic * omega / (2.0 * air.hole.quality(omega));
             }
         }
         let outlet = match self.cavity {
@@ -291,13 +299,13 @@ impl<'a> OrderProblem<'a> {
         volume / self.batter.membrane.spec().area()
     }
 
-    /// Displacement of the air at an open end or in a port.
+    /// Displacement of the air at an open end or in holes.
     fn outlet(&self, cavity: &CavityOrder, vector: &[f64], heads: usize) -> f64 {
         let springs = cavity.modes.iter().filter(|mode| mode.omega > 0.0).map(|mode| mode.outlet);
         let volume: f64 = springs.zip(&vector[heads..]).map(|(outlet, y)| outlet * y).sum();
         let plug: f64 = cavity.outlet.iter().zip(vector).map(|(outlet, q)| outlet * q).sum();
-        let port = cavity.port.and(vector.last()).copied().unwrap_or(0.0);
-        (volume + plug) / self.batter.membrane.spec().area() + port
+        let holes: f64 = vector[vector.len() - cavity.holes.len()..].iter().sum();
+        (volume + plug) / self.batter.membrane.spec().area() + holes
     }
 
     /// Radiation resistance over `rho omega a^3` at unit modal displacement.
@@ -359,10 +367,10 @@ struct Solution {
 }
 
 /// Solves `K x = omega^2 M x` for symmetric `K` and positive `M`: frequencies and vectors of unit
-/// modal mass, ascending. Motions without stiffness are left out.
+/// modal mass, ascending. Motions without stiffness are left out, slow ones are not: a mode that passes [`SLOWEST`] is to be followed.
 fn generalized(stiffness: DMatrix<f64>, mass: DMatrix<f64>) -> Vec<Solution> {
-    /// Slower than this nothing is a mode, rad/s.
-    const SLOWEST: f64 = 30.0;
+    /// Least stiffness over mass, 1/s2. What rounding leaves is less: air that goes in by one hole and out by the other has no stiffness.
+    const LEAST: f64 = 1.0;
     let Some(root) = mass.cholesky() else {
         return Vec::new();
     };
@@ -372,7 +380,7 @@ fn generalized(stiffness: DMatrix<f64>, mass: DMatrix<f64>) -> Vec<Solution> {
     let solved = eigen::symmetric(0.5 * (&reduced + reduced.transpose()));
     let transposed = l.transpose();
     (0..solved.values.len())
-        .filter(|&k| solved.values[k] > SLOWEST * SLOWEST)
+        .filter(|&k| solved.values[k] > LEAST)
         .map(|k| {
             let direction: DVector<f64> = solved.vectors.column(k).into();
             let x = transposed.solve_upper_triangular(&direction).unwrap_or_else(|| direction.clone());

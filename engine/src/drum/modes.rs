@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::air_load::{DENSITY, SPEED_OF_SOUND};
 use crate::build_context::BuildContext;
-use crate::drum::coupled::CoupledMode;
+use crate::drum::coupled::{CoupledMode, SLOWEST};
 use crate::drum::heads::{BareHeads, MIDDLE, TunedHead, TunedHeads};
 use crate::drum::spec::DrumSpec;
 use crate::drum::tension_field::MIXED_FROM;
@@ -50,7 +50,9 @@ fn follow_order(heads: &TunedHeads, spec: &DrumSpec, m: u32, bessel: &JTable) ->
     let solved: Vec<Vec<CoupledMode>> =
         grid.pitches().map(|pitch| heads.solve(spec, m, bessel, air.as_ref(), pitch)).collect();
     let limit = TAU * spec.batter.modes_to_hz;
-    let keep = |mode: &CoupledMode| mode.omega <= limit && mode.share[0] + mode.share[1] > HEARD_SHARE;
+    let keep = |mode: &CoupledMode| {
+        (SLOWEST..=limit).contains(&mode.omega) && mode.share[0] + mode.share[1] > HEARD_SHARE
+    };
     tuned::follow(m, &solved, heads.head_shapes(m).len(), grid, keep)
 }
 

@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::cavity::CavitySpec;
+use crate::cavity::hole::{Hole, Through};
+use crate::cavity::{CavitySpec, HOLES};
 use crate::contact::Material;
 use crate::damping::{EdgeSpec, LossLaw, Muffler};
 use crate::diffraction::Outside;
@@ -146,8 +147,11 @@ pub enum ShellSpec {
         /// Distance from end to end, m, 0.03 to 1.
         #[serde(rename = "depth_m")]
         depth: f64,
-        /// Quality factor of the enclosed air's modes: losses at the wall and through the vent, 1 to 10,000.
+        /// Quality factor of the enclosed air's modes: losses at the wall, and through vents that are not described, 1 to 10,000.
         air_q: f64,
+        /// Diameter of a hole in the wall half way along, m, 0.002 to 0.05 and no more than half of the depth; none of a tight shell.
+        #[serde(default, rename = "vent_diameter_m", skip_serializing_if = "Option::is_none")]
+        vent_diameter: Option<f64>,
         /// Its wall, which sounds when the hoop is struck; none of one that does not.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         wall: Option<WallSpec>,
@@ -159,6 +163,9 @@ pub enum ShellSpec {
         volume: f64,
         /// As of a cylinder.
         air_q: f64,
+        /// Diameter of a hole in the bottom, m, 0.002 to 0.05; none of a tight kettle.
+        #[serde(default, rename = "vent_diameter_m", skip_serializing_if = "Option::is_none")]
+        vent_diameter: Option<f64>,
     },
 }
 
@@ -187,16 +194,24 @@ const MODES_TO_HZ: std::ops::RangeInclusive<f64> = 100.0..=4000.0;
 impl Numbers for ShellSpec {
     fn visit(&mut self, visitor: &mut dyn Visitor) {
         match self {
-            ShellSpec::Cylinder { depth, air_q, wall } => {
+            ShellSpec::Cylinder { depth, air_q, vent_diameter, wall } => {
                 visitor.number("depth_m", depth, 0.03..=1.0);
                 visitor.number("air_q", air_q, 1.0..=10_000.0);
+                if let Some(vent) = vent_diameter {
+                    let [least, most] = ShellSpec::VENT;
+                    visitor.number("vent_diameter_m", vent, least..=most.min(0.5 * *depth));
+                }
                 if let Some(wall) = wall {
                     wall.visit_part("wall", visitor);
                 }
             }
-            ShellSpec::Kettle { volume, air_q } => {
+            ShellSpec::Kettle { volume, air_q, vent_diameter } => {
                 visitor.number("volume_m3", volume, 1e-3..=0.5);
                 visitor.number("air_q", air_q, 1.0..=10_000.0);
+                if let Some(vent) = vent_diameter {
+                    let [least, most] = ShellSpec::VENT;
+                    visitor.number("vent_diameter_m", vent, least..=most);
+                }
             }
         }
     }
@@ -247,6 +262,31 @@ impl Numbers for DrumSpec {
     }
 }
 
+impl ShellSpec {
+    /// Least and greatest diameter of vents, m.
+    const VENT: [f64; 2] = [0.002, 0.05];
+
+    /// Diameter of its vent, m, if it has one.
+    pub fn vent_diameter(&self) -> Option<f64> {
+        match *self {
+            ShellSpec::Cylinder { vent_diameter, .. } | ShellSpec::Kettle { vent_diameter, .. } => {
+                vent_diameter
+            }
+        }
+    }
+
+    /// The shell with a vent of that diameter, m, or with none.
+    #[must_use]
+    pub fn vented(mut self, diameter: Option<f64>) -> ShellSpec {
+        match &mut self {
+            ShellSpec::Cylinder { vent_diameter, .. } | ShellSpec::Kettle { vent_diameter, .. } => {
+                *vent_diameter = diameter;
+            }
+        }
+        self
+    }
+}
+
 impl ResonantSpec {
     /// The head by itself.
     pub fn head(&self) -> HeadSpec {
@@ -267,6 +307,9 @@ impl PitchOf {
 
 /// Accepted lowest pitches, Hz.
 const LOWEST_PITCH_HZ: std::ops::RangeInclusive<f64> = 15.0..=1000.0;
+
+/// Length of a vent's hole where no wall is described, m. *Trade sizes*: plies or a grommet.
+const VENT_LENGTH: f64 = 0.006;
 
 /// Highest pitch over the lowest, at least.
 const NARROWEST: f64 = 1.01;
@@ -307,16 +350,22 @@ impl DrumSpec {
             return None;
         }
         let radius = self.radius();
+        let hole = |diameter: f64, through| Hole { radius: 0.5 * diameter, through };
         Some(match self.shell? {
-            ShellSpec::Cylinder { depth, air_q, .. } => {
+            ShellSpec::Cylinder { depth, air_q, vent_diameter, wall } => {
                 let open = self.resonant.is_none();
                 let port = self.resonant.and_then(|resonant| resonant.port_diameter);
-                let port = port.map(|diameter| 0.5 * diameter);
-                CavitySpec { q: air_q, open, port, ..CavitySpec::cylinder(radius, depth) }
+                let port = port.map(|diameter| hole(diameter, Through::Head));
+                let thickness = wall.map_or(VENT_LENGTH, |wall| wall.thickness);
+                let vent = vent_diameter.map(|diameter| hole(diameter, Through::Wall { thickness }));
+                let holes = if open { [None; HOLES] } else { [port, vent] };
+                CavitySpec { q: air_q, open, holes, ..CavitySpec::cylinder(radius, depth) }
             }
-            ShellSpec::Kettle { volume, air_q } => {
+            ShellSpec::Kettle { volume, air_q, vent_diameter } => {
                 let depth = volume / (std::f64::consts::PI * radius * radius);
-                CavitySpec { q: air_q, volume, ..CavitySpec::cylinder(radius, depth) }
+                let vent =
+                    vent_diameter.map(|diameter| hole(diameter, Through::Bottom { thickness: VENT_LENGTH }));
+                CavitySpec { q: air_q, volume, holes: [None, vent], ..CavitySpec::cylinder(radius, depth) }
             }
         })
     }
@@ -355,7 +404,10 @@ impl DrumSpec {
     pub fn opened(self) -> DrumSpec {
         match self.outside() {
             Outside::Baffle => self.head_alone(),
-            Outside::Free { .. } => DrumSpec { resonant: None, wires: None, ..self },
+            Outside::Free { .. } => {
+                let shell = self.shell.map(|shell| shell.vented(None));
+                DrumSpec { resonant: None, shell, wires: None, ..self }
+            }
         }
     }
 }

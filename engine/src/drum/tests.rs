@@ -1,4 +1,5 @@
 mod dotted;
+mod vented;
 mod woven;
 
 use super::*;

@@ -66,7 +66,7 @@ pub struct TunedMode {
     grid: Grid,
     /// `[pitch of the grid]`.
     entries: Vec<Entry>,
-    /// `[pitch of the grid]`: the air at an open end or in a port, over the head modes as the shares are.
+    /// `[pitch of the grid]`: the air at an open end or in holes, over the head modes as the shares are.
     outlet: Vec<f32>,
     /// `[pitch of the grid][head mode]`: shares of the heads' modes of this order, batter first.
     shares: Vec<f32>,
@@ -172,7 +172,7 @@ impl TunedMode {
         f64::from(self.shares[pitch * self.heads() + i])
     }
 
-    /// Displacement of the air at an open end or in a port, per share.
+    /// Displacement of the air at an open end or in holes, per share.
     pub fn outlet(&self, place: &PitchPosition) -> f64 {
         place.of(self.grid).blend(|pitch| f64::from(self.outlet[pitch]))
     }

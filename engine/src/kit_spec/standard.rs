@@ -257,7 +257,12 @@ fn two_headed(
         pitch_of: PitchOf::BatterAlone,
         batter,
         resonant: Some(resonant),
-        shell: Some(ShellSpec::Cylinder { depth: inches(depth_in), air_q: fitted::AIR_Q, wall: Some(WALL) }),
+        shell: Some(ShellSpec::Cylinder {
+            depth: inches(depth_in),
+            air_q: fitted::AIR_Q,
+            vent_diameter: None,
+            wall: Some(WALL),
+        }),
         edge: Some(EDGE),
         hoop: None,
         wires: None,
@@ -369,7 +374,7 @@ fn timpani() -> InstrumentSpec {
     let drum = two_headed([26.0, 10.0], batter, single_ply(1.0, 100.0), [87.3, 130.8, 196.0]);
     InstrumentSpec::Drum(DrumSpec {
         resonant: None,
-        shell: Some(ShellSpec::Kettle { volume: 0.14, air_q: fitted::AIR_Q }),
+        shell: Some(ShellSpec::Kettle { volume: 0.14, air_q: fitted::AIR_Q, vent_diameter: None }),
         pitch_of: PitchOf::PrincipalHeard,
         evenness: Splitting::CLEARED,
         edge: None,

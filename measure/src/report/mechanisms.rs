@@ -67,7 +67,9 @@ const MECHANISMS: [Mechanism; 10] = [
 /// A drum whose shell does not sound.
 fn silent(drum: DrumSpec) -> DrumSpec {
     let shell = drum.shell.map(|shell| match shell {
-        ShellSpec::Cylinder { depth, air_q, .. } => ShellSpec::Cylinder { depth, air_q, wall: None },
+        ShellSpec::Cylinder { depth, air_q, vent_diameter, .. } => {
+            ShellSpec::Cylinder { depth, air_q, vent_diameter, wall: None }
+        }
         kettle => kettle,
     });
     DrumSpec { shell, ..drum }

@@ -47,7 +47,21 @@ impl DrumSpec {
                 "are given, accepted: only with a resonant head to lie against",
             ));
         }
+        self.check_vent()?;
         self.check_pitches()
+    }
+
+    /// A vent is in what two heads close, or a kettle.
+    fn check_vent(&self) -> Result<(), SpecError> {
+        match self.shell {
+            Some(ShellSpec::Cylinder { vent_diameter: Some(_), .. }) if self.resonant.is_none() => {
+                Err(SpecError::refused(
+                    "shell.vent_diameter_m",
+                    "is given, accepted: only with a resonant head, as the shell is open without one",
+                ))
+            }
+            _ => Ok(()),
+        }
     }
 
     /// No head is slack between the lugs.

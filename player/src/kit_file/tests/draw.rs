@@ -136,8 +136,12 @@ fn parts(draw: &mut Draw, piece: &mut PieceSpec) {
             }
             if draw.one_in(4) {
                 (drum.resonant, drum.wires, piece.defaults.preload) = (None, None, None);
-                let kettle = ShellSpec::Kettle { volume: 0.1, air_q: 50.0 };
+                let kettle = ShellSpec::Kettle { volume: 0.1, air_q: 50.0, vent_diameter: None };
                 drum.shell = draw.of(&[None, Some(kettle), drum.shell]);
+            }
+            let is_open = drum.resonant.is_none() && matches!(drum.shell, Some(ShellSpec::Cylinder { .. }));
+            if draw.one_in(4) && !is_open {
+                drum.shell = drum.shell.map(|shell| shell.vented(Some(0.0127)));
             }
         }
         InstrumentSpec::Cymbal(cymbal) => {

@@ -259,7 +259,7 @@ mod tests {
         let mut kit = KitSpec::standard();
         let InstrumentSpec::Drum(drum) = &mut kit.pieces[0].instrument else { panic!("no drum") };
         (drum.diameter, drum.shell) =
-            (0.508, Some(ShellSpec::Cylinder { depth: 0.4, air_q: 60.0, wall: None }));
+            (0.508, Some(ShellSpec::Cylinder { depth: 0.4, air_q: 60.0, vent_diameter: None, wall: None }));
         let InstrumentSpec::Cymbal(crash) = &mut kit.pieces[4].instrument else { panic!("no cymbal") };
         (crash.diameter, crash.bell) = (0.457, None);
         let bodies = Body::all(&kit);
@@ -304,7 +304,7 @@ mod tests {
         let depth = |kit: &KitSpec| Body::all(kit)[7].kind.depth();
         assert!((depth(&kit) - 0.46).abs() < 0.005, "{}", depth(&kit));
         let InstrumentSpec::Drum(drum) = &mut kit.pieces[7].instrument else { panic!("no drum") };
-        drum.shell = Some(ShellSpec::Kettle { volume: 0.5, air_q: 60.0 });
+        drum.shell = Some(ShellSpec::Kettle { volume: 0.5, air_q: 60.0, vent_diameter: None });
         assert!(depth(&kit) <= 0.78);
     }
 }
