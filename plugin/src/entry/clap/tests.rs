@@ -185,7 +185,7 @@ fn all_outputs_together_are_the_mix_whichever_are_left_out() {
     assert!(is_close(&sum(&whole), &mix));
     let loudest =
         |port: usize| whole[port].iter().flatten().fold(0.0_f32, |most, sample| most.max(sample.abs()));
-    assert!(loudest(1) < 0.1 * loudest(snare), "the kick was not struck, it only hears the snare");
+    assert!(loudest(1) < 0.2 * loudest(snare), "the kick was not struck, it only hears the snare");
 
     assert!(struck(&mut multi, 1, |_, _| {})[0] == mix);
     let fewer = struck(&mut multi, 3, |_, _| {});
