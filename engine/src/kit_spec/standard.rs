@@ -316,18 +316,8 @@ fn kick() -> InstrumentSpec {
 /// are drawn out by some millimetres (*by judgement*: strainers differ), over a bed 10 cm wide (*judgement*). Air alone would leave a Q
 /// of a thousand; cords and coils take more (*by judgement*).
 fn snare() -> InstrumentSpec {
-    let HeadSpec { thickness, plies, material, loss, modes_to_hz, dot, .. } =
-        film(0.076e-3, 1, SNARE_SIDE_LOSS);
-    let side = ResonantSpec {
-        pitch_ratio: 1.50,
-        thickness,
-        plies,
-        material,
-        loss,
-        modes_to_hz,
-        port_diameter: None,
-        dot,
-    };
+    let thin = single_ply(1.50, BATTER_MODES_TO);
+    let side = ResonantSpec { thickness: 0.076e-3, loss: SNARE_SIDE_LOSS, ..thin };
     let drum =
         two_headed([14.0, 5.5], film(0.25e-3, 1, SNARE_LOSS), side, [140.0, fitted::SNARE_PITCH_HZ, 360.0]);
     let wires = WiresSpec {

@@ -1,6 +1,7 @@
 //! Parts that no piece of the standard kit has.
 
 use overhear_engine::drum::lugs::LugsSpec;
+use overhear_engine::drum::spec::ShellSpec;
 use overhear_engine::drum::{DrumSpec, HeadSpec};
 use overhear_engine::hi_hat::HiHatSpec;
 use overhear_engine::kit_spec::{Defaults, InstrumentSpec, PieceSpec};
@@ -31,14 +32,21 @@ fn more_of_drum(drum: DrumSpec, chance: &mut Chance) -> DrumSpec {
         rms: chance.between(0.0, 0.3),
         seed: chance.below(1000) as u32,
     });
-    if !chance.happens(OFTEN) {
-        return DrumSpec { lugs, ..drum };
+    if chance.happens(OFTEN) {
+        // Nothing is stretched below a mesh.
+        let flow_resistance = 0.5 * 2000.0_f64.powf(chance.unit());
+        let mesh = Some(MeshSpec { flow_resistance, open: chance.between(0.05, 0.9) });
+        let batter = HeadSpec { mesh, ..drum.batter };
+        return DrumSpec { lugs, batter, resonant: None, wires: None, ..drum };
     }
-    // Nothing is stretched below a mesh.
-    let mesh =
-        MeshSpec { flow_resistance: 0.5 * 2000.0_f64.powf(chance.unit()), open: chance.between(0.05, 0.9) };
-    let batter = HeadSpec { mesh: Some(mesh), ..drum.batter };
-    DrumSpec { lugs, batter, resonant: None, wires: None, ..drum }
+    let closed =
+        drum.shell.filter(|shell| drum.resonant.is_some() || matches!(shell, ShellSpec::Kettle { .. }));
+    let vented = closed.filter(|_| chance.happens(OFTEN)).map(|shell| {
+        // As often between 2 and 4 mm as between 25 and 50.
+        let diameter = 0.002 * 25.0_f64.powf(chance.unit());
+        shell.vented(Some(diameter))
+    });
+    DrumSpec { lugs, shell: vented.or(drum.shell), ..drum }
 }
 
 fn more_has_wires(instrument: &InstrumentSpec) -> bool {

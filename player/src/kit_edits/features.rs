@@ -1,10 +1,11 @@
 //! What a piece has or has not: a bell, an upturned rim, hammering, an unevenly stretched head,
-//! counted lugs.
+//! counted lugs, a vent.
 //!
 //! What is switched on comes as the standard kit's has it, in proportion to the piece.
 
 use overhear_engine::cymbal::CymbalSpec;
 use overhear_engine::drum::lugs::LugsSpec;
+use overhear_engine::drum::spec::{DrumSpec, ShellSpec};
 use overhear_engine::kit_spec::{InstrumentSpec, KitSpec, PieceSpec};
 use overhear_engine::plate::{Bell, Flange};
 use overhear_engine::surface::rivets::RivetsSpec;
@@ -19,6 +20,9 @@ const ROD_DISTANCE: f64 = 0.16;
 const RIVETS: RivetsSpec =
     RivetsSpec { number: 6, radius: 0.9, arc: None, toward: 0.0, mass: 1.5e-3, play: 2.5e-3 };
 
+/// Diameter of a vent, m. *Trade sizes*: half an inch, of snares and toms alike.
+const VENT: f64 = 0.0127;
+
 /// What can be switched.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Feature {
@@ -32,19 +36,22 @@ pub enum Feature {
     UnevenHead,
     /// Lugs that are counted, and where a drum's heads are pulled.
     Lugs,
+    /// A vent in the shell of a drum that is closed.
+    Vent,
     /// Rivets in a cymbal on a stand.
     Rivets,
 }
 
 impl Feature {
     /// All of them.
-    pub const ALL: [Feature; 6] = [
+    pub const ALL: [Feature; 7] = [
         Feature::Bell,
         Feature::Flange,
         Feature::Hammering,
         Feature::Rivets,
         Feature::UnevenHead,
         Feature::Lugs,
+        Feature::Vent,
     ];
 
     /// What it is called on screen.
@@ -55,6 +62,7 @@ impl Feature {
             Feature::Hammering => "Hammered",
             Feature::UnevenHead => "Uneven head",
             Feature::Lugs => "Lugs counted",
+            Feature::Vent => "Vent",
             Feature::Rivets => "Rivets",
         }
     }
@@ -64,6 +72,9 @@ impl Feature {
         match (self, &piece.instrument) {
             (Feature::UnevenHead, InstrumentSpec::Drum(drum)) => Some(drum.tension_field.is_some()),
             (Feature::Lugs, InstrumentSpec::Drum(drum)) => Some(drum.lugs.is_some()),
+            (Feature::Vent, InstrumentSpec::Drum(drum)) => {
+                closed(drum).map(|shell| shell.vent_diameter().is_some())
+            }
             (Feature::Bell, InstrumentSpec::HiHat(hat)) => Some(hat.top.bell.is_some()),
             (Feature::Bell, InstrumentSpec::Cymbal(cymbal)) => Some(cymbal.bell.is_some()),
             (Feature::Flange, InstrumentSpec::Cymbal(cymbal)) => Some(cymbal.flange.is_some()),
@@ -85,6 +96,10 @@ impl Feature {
                 let count = (rods as u32).clamp(5, 10);
                 let lugs = LugsSpec { count, rms: LugsSpec::BY_EAR, seed: drum.evenness.seed };
                 drum.lugs = on.then_some(lugs);
+            }
+            (Feature::Vent, InstrumentSpec::Drum(drum)) => {
+                let vented = closed(drum).map(|shell| shell.vented(on.then_some(VENT)));
+                drum.shell = vented.or(drum.shell);
             }
             (Feature::Bell, InstrumentSpec::HiHat(hat)) => {
                 [&mut hat.top, &mut hat.bottom].into_iter().for_each(|cymbal| self.switch_cymbal(cymbal, on));
@@ -109,7 +124,7 @@ impl Feature {
             }
             Feature::Hammering => cymbal.hammering = usual.and_then(|usual| usual.hammering),
             Feature::Rivets => cymbal.rivets = on.then_some(RIVETS),
-            Feature::UnevenHead | Feature::Lugs => {}
+            Feature::UnevenHead | Feature::Lugs | Feature::Vent => {}
         }
     }
 
@@ -134,6 +149,11 @@ impl Feature {
             *seed = seed.wrapping_add(1);
         }
     }
+}
+
+/// The shell of a drum, if air can leave it by a vent alone.
+fn closed(drum: &DrumSpec) -> Option<ShellSpec> {
+    drum.shell.filter(|shell| drum.resonant.is_some() || matches!(shell, ShellSpec::Kettle { .. }))
 }
 
 /// The standard kit's first cymbal.

@@ -30,6 +30,8 @@ pub enum Size {
     PitchRatio,
     /// Of the hole in the resonant head.
     Opening,
+    /// Of the hole in the shell.
+    Vent,
     /// Of a cymbal, of the upper one of a hi-hat.
     Weight,
     /// Of the lower one of a hi-hat.
@@ -114,13 +116,14 @@ pub struct Refusal {
 
 impl Size {
     /// All of them.
-    pub const ALL: [Size; 28] = [
+    pub const ALL: [Size; 29] = [
         Size::Diameter,
         Size::Depth,
         Size::Volume,
         Size::Pitch,
         Size::PitchRatio,
         Size::Opening,
+        Size::Vent,
         Size::Weight,
         Size::LowerWeight,
         Size::LowerDiameter,
@@ -154,6 +157,7 @@ impl Size {
             Size::Pitch => "Pitch",
             Size::PitchRatio => "Resonant pitch",
             Size::Opening => "Port",
+            Size::Vent => "Vent",
             Size::Weight => "Weight",
             Size::LowerWeight => "Lower weight",
             Size::LowerDiameter => "Lower diameter",
@@ -205,6 +209,7 @@ impl Size {
             Size::Pitch => "pitch_hz",
             Size::PitchRatio => "pitch_ratio",
             Size::Opening => "port_diameter_m",
+            Size::Vent => "vent_diameter_m",
             Size::Weight | Size::LowerWeight => "mass_kg",
             Size::Bow => "bow_m",
             Size::Rim | Size::Bell | Size::Flange => "",
@@ -244,6 +249,7 @@ impl Size {
             (Size::Pitch, InstrumentSpec::Drum(drum)) => Some(drum.pitch_hz),
             (Size::PitchRatio, InstrumentSpec::Drum(drum)) => drum.resonant.map(|head| head.pitch_ratio),
             (Size::Opening, InstrumentSpec::Drum(drum)) => drum.resonant.and_then(|head| head.port_diameter),
+            (Size::Vent, InstrumentSpec::Drum(drum)) => drum.shell.and_then(|shell| shell.vent_diameter()),
             (Size::Unevenness, InstrumentSpec::Drum(drum)) => drum.tension_field.map(|field| field.rms),
             (Size::Lugs, InstrumentSpec::Drum(drum)) => drum.lugs.map(|lugs| f64::from(lugs.count)),
             (Size::LugTuning, InstrumentSpec::Drum(drum)) => drum.lugs.map(|lugs| lugs.rms),
@@ -328,6 +334,7 @@ impl Size {
             }
             (Size::PitchRatio, _, Some(head)) => head.pitch_ratio = value,
             (Size::Opening, _, Some(head)) => head.port_diameter = Some(value),
+            (Size::Vent, Some(shell), _) => *shell = shell.vented(Some(value)),
             (Size::Unevenness, ..) => drum.tension_field.iter_mut().for_each(|field| field.rms = value),
             (Size::Lugs, ..) => drum.lugs.iter_mut().for_each(|lugs| lugs.count = value.round() as u32),
             (Size::LugTuning, ..) => drum.lugs.iter_mut().for_each(|lugs| lugs.rms = value),

@@ -159,6 +159,31 @@ fn sizes_are_read_as_they_are_shown() {
 }
 
 #[test]
+fn vents_are_put_in_sized_and_go_with_the_head_that_closes_the_shell() {
+    let document = standard();
+    let tom = slot(&document, "rack-tom");
+    let vent = |document: &KitDocument| Size::Vent.of(document.kit.piece(tom).unwrap());
+    assert_eq!(vent(&document), None);
+    let switch = |document, on| change(document, tom, |piece| features::Feature::Vent.switch(piece, on));
+    let put_in = switch(&document, true).unwrap().document;
+    assert_eq!(vent(&put_in), Some(0.0127));
+    assert_eq!(vent(&switch(&put_in, false).unwrap().document), None);
+    let of = |text: &str| {
+        let value = Size::Vent.parse(text, Units::Inches).unwrap();
+        resize(&put_in, tom, Size::Vent, value, Units::Inches)
+    };
+    assert!((vent(&of("0.375").unwrap().document).unwrap() - 0.009525).abs() < 1e-12);
+    let refused = of("3").unwrap_err();
+    assert!(refused.words.contains("Vent is 3 in, accepted: 0.08 in to 1.97 in"), "{}", refused.words);
+    assert_eq!(refused.nearest, Some(0.05));
+    // Without its other head the shell is open.
+    let piece = put_in.kit.piece(tom).unwrap();
+    let resonant = crate::kit_file::parts::of(piece).into_iter().find(|part| part.label == "Resonant head");
+    let opened = resonant.unwrap().fitted(piece, None).unwrap();
+    assert_eq!((features::Feature::Vent.of(&opened), Size::Vent.of(&opened)), (None, None));
+}
+
+#[test]
 fn rivets_are_put_in_and_sized() {
     let document = standard();
     let ride = slot(&document, "ride");

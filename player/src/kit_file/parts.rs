@@ -131,13 +131,16 @@ impl Part {
             }
             lay_over(table, Table::from_iter([((*last).to_owned(), Value::Table(changes))]));
         }
-        // Nothing is stretched below a mesh. Wires need a force that presses them on, and a head to lie against.
+        // Nothing is stretched below a mesh. Wires need a force that presses them on, and a head to lie against; a vent needs a shell
+        // that is closed.
         let mesh = *self == BATTER && self.found(&fields).is_some_and(|head| head.contains_key(MESH));
         if mesh {
             fields.remove("resonant");
         }
         if mesh || *self == RESONANT && name.is_none() {
             fields.remove("wires");
+            let shell = fields.get_mut("shell").and_then(Value::as_table_mut);
+            shell.and_then(|shell| shell.remove("vent_diameter_m"));
         }
         preload(&mut fields);
         let draft = Draft { name: piece.name.clone(), fields, is_kept: true, beside: Table::new() };

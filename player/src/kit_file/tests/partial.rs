@@ -1,6 +1,6 @@
 //! Partial files: what they change, and what stays.
 
-use overhear_engine::kit_spec::{Kind, KitSpec, PieceSpec};
+use overhear_engine::kit_spec::{InstrumentSpec, Kind, KitSpec, PieceSpec};
 use overhear_engine::numbers::{Numbers as _, Visitor};
 use overhear_engine::strike::Striker;
 
@@ -39,10 +39,10 @@ fn a_field_is_changed_and_the_others_stay() {
     );
     let mut own = KitDocument::standard();
     own.kit.pieces[1].instrument = match own.kit.pieces[1].instrument {
-        overhear_engine::kit_spec::InstrumentSpec::Drum(mut drum) => {
+        InstrumentSpec::Drum(mut drum) => {
             drum.diameter = 0.3302;
             drum.batter.thickness = 0.3e-3;
-            overhear_engine::kit_spec::InstrumentSpec::Drum(drum)
+            InstrumentSpec::Drum(drum)
         }
         other => other,
     };
@@ -81,6 +81,19 @@ fn optional_parts_are_taken_away_and_put_back() {
          wall_mm = 2, height_mm = 40, flange_mm = 10, q = 50, drum_mass_kg = 30, stand_hz = 15, stand_q = 2 }",
     );
     assert_eq!(piece(&document, "timpani").drum().unwrap().hoop.unwrap().wall, 0.002);
+    let vent = "[pieces.snare]\nshell.vent_diameter_in = 0.5\n[pieces.timpani]\nshell.vent_diameter_mm = 20";
+    let document = changed(vent);
+    let vent =
+        |document: &KitDocument, name| piece(document, name).drum().unwrap().shell.unwrap().vent_diameter();
+    assert_eq!(
+        ["snare", "timpani", "kick"].map(|name| vent(&document, name)),
+        [Some(0.0127), Some(0.02), None]
+    );
+    let document = changed(
+        "[pieces.snare]\nshell.vent_diameter_in = 0.5\n[pieces.second]\nlike = \"snare\"\nshell.vent_diameter_m = \"none\"\n\
+         place.centre_m = [3, 0.7, 3]",
+    );
+    assert_eq!(["snare", "second"].map(|name| vent(&document, name)), [Some(0.0127), None]);
 }
 
 #[test]
@@ -281,6 +294,9 @@ fn the_manual_has_every_field_and_its_examples_are_read() {
     let manual = include_str!("../../../../docs/kit-files.md");
     let mut names = Names::default();
     for mut piece in KitSpec::standard().pieces {
+        if let InstrumentSpec::Drum(drum) = &mut piece.instrument {
+            drum.shell = drum.shell.map(|shell| shell.vented(Some(0.0127)));
+        }
         piece.visit(&mut names);
     }
     for name in names.0 {

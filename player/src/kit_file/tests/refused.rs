@@ -22,6 +22,14 @@ fn every_error_names_the_line_the_field_and_what_is_accepted() {
             "3: pieces.snare.batter.dot.diameter_in is 13, accepted: 0.7875 to 12.6",
         ),
         (
+            "format = 1\n[pieces.snare]\nshell.vent_diameter_in = 3",
+            "3: pieces.snare.shell.vent_diameter_in is 3, accepted: 0.07875 to 1.968",
+        ),
+        (
+            "format = 1\n[pieces.rack-tom]\nshell.vent_diameter_in = 0.5\nresonant = \"none\"",
+            "3: pieces.rack-tom.shell.vent_diameter_m is given, accepted: only with a resonant head",
+        ),
+        (
             "format = 1\npieces.kick.defaults.pan = inf",
             "2: pieces.kick.defaults.pan is inf, accepted: -1 to 1",
         ),
