@@ -222,6 +222,17 @@ mod tests {
     }
 
     #[test]
+    fn no_two_of_a_list_are_called_alike() {
+        for part in [BATTER, RESONANT, SHELL, HOOP, WIRES, ALLOY] {
+            let mut titles: Vec<_> = part.choices().iter().map(|made| made.title).collect();
+            let count = titles.len();
+            titles.sort_unstable();
+            titles.dedup();
+            assert_eq!(titles.len(), count, "{titles:?}");
+        }
+    }
+
+    #[test]
     fn a_mesh_takes_the_head_below_and_its_wires_away() {
         let snare = standard("snare");
         let woven = BATTER.fitted(&snare, Some("mesh")).unwrap();
