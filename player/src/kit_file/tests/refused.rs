@@ -270,6 +270,37 @@ fn every_error_names_the_line_the_field_and_what_is_accepted() {
 }
 
 #[test]
+fn parts_that_do_not_fit_are_refused_at_their_fields() {
+    let rivets = "{ number = 3, radius = 0.8, toward_rad = 0, mass_kg = 0.001, play_m = 0.002 }";
+    let mesh = "{ flow_resistance_pa_s_m = 4, open = 0.4 }";
+    for (line, expected) in [
+        (
+            format!("hi-hat.top.rivets = {rivets}"),
+            "hi-hat.top.rivets is given, accepted: none, rivets are in cymbals on stands",
+        ),
+        (
+            format!("ride.rivets = {}", rivets.replace('3', "13")),
+            "ride.rivets.number is 13, accepted: 1 to 12",
+        ),
+        (
+            format!("ride.rivets = {}", rivets.replace("0.8", "1.2")),
+            "ride.rivets.radius is 1.2, accepted: 0.3 to 0.98",
+        ),
+        (
+            format!("rack-tom.batter.mesh = {mesh}"),
+            "rack-tom.resonant is given, accepted: none under a mesh, through which the air between the heads escapes",
+        ),
+        (
+            format!("timpani.batter.mesh = {}", mesh.replace("0.4", "1")),
+            "timpani.batter.mesh.open is 1, accepted: 0.05 to 0.9",
+        ),
+    ] {
+        let refused = error(&format!("format = 1\npieces.{line}"));
+        assert!(refused.ends_with(expected), "{line}\n{refused}\n{expected}");
+    }
+}
+
+#[test]
 fn seventeen_pieces_are_one_too_many() {
     let pieces: String = (0..8).map(|i| format!("[pieces.crash-{i}]\nlike = \"crash\"\n")).collect();
     let expected = format!("16: pieces are 17, accepted: 1 to {SLOTS}");
