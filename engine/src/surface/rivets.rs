@@ -58,13 +58,14 @@ const RESTITUTION: f64 = 0.7;
 /// in a millisecond.
 const RESTING_SPEED: f64 = 0.01;
 
-/// Root mean square of the acceleration at the hole where it is largest below which rivets that lie stay so, and that from which
-/// they may be thrown, shares of `g`. *Derived*: five times the root mean square, which a sum of many modes does not exceed, is `g` at the
+/// Acceleration at the hole where it is largest below which rivets that lie stay so, and that from which
+/// they may be thrown, in the root mean square and as shares of `g`. *Derived*: five times the root mean square, which a sum of many modes does not exceed, is `g` at the
 /// latter; the former is 6 dB lower, so that beats do not throw them at once.
 const LIES_BELOW: f64 = 0.1;
 const THROWS_FROM: f64 = 0.2;
 
-/// Time without a lift after which a rivet has come to lie, s. *Judgement*: longer than a hop over the static compression lasts.
+/// Time without a lift or a shake after which a rivet has come to lie, s. *Judgement*: longer than a hop over the static compression lasts, and than
+/// half a period of what bends.
 const SETTLED: f64 = 0.02;
 
 /// What stays as it is built.
@@ -96,7 +97,7 @@ pub struct Rivets {
     stiffened: bool,
     /// Whether modes have changed since the holes were connected.
     stale: bool,
-    /// Samples since any was off the plate.
+    /// Samples since any was off the plate or the plate shook.
     lain: u64,
     /// The rivet whose sound was last looked at.
     looked_at: usize,
@@ -338,9 +339,11 @@ impl Attachment for Rivets {
         if let Some(rivet) = self.rivets.get_mut(self.looked_at) {
             rivet.direct = body.receiver().direct_at(body.modal(), &rivet.port);
         }
-        let settled =
-            self.lain as f64 * self.built.dt > SETTLED && !self.built.lossless && !contacts.is_struck();
-        if settled && self.shaking.level(body.modal()) < LIES_BELOW {
+        if self.shaking.level(body.modal()) > LIES_BELOW {
+            self.lain = 0;
+        }
+        let settled = self.lain as f64 * self.built.dt > SETTLED;
+        if settled && !self.built.lossless && !contacts.is_struck() {
             self.park(contacts);
         }
         self.rivets.iter().all(|rivet| rivet.compression.is_finite())
