@@ -21,10 +21,8 @@ const FOUND: f64 = 1e-3;
 const LARGEST_DEPTH: f64 = 560.0;
 const SLOWED: f32 = 0.98;
 
-/// Smallest share of the largest depth that a body inside out holds, and the largest share of it that changes at rest there.
-/// *Converged*: a splash inside out holds nearly all of that depth, and a fourth at its lowest tuning. Slowing and exchanges,
-/// which take its deflection for motion, keep 3 % of it moving.
-const INSIDE_OUT: f64 = 0.05;
+/// Largest share of the potential that changes while a body rests inside out. *Converged*: slowing and exchanges, which take its deflection
+/// for motion, keep 3 % of it moving in a splash.
 const LYING: f64 = 0.05;
 
 /// State of the guards.
@@ -75,10 +73,11 @@ impl Safety {
         self.astray = 0.0;
     }
 
-    /// Decides from the peaks of a window whether the body rests inside out.
+    /// Decides from the peaks of a window whether the body rests inside out. About its own rest a body moves with more energy than its
+    /// potential ever holds below zero; inside out it hardly moves.
     pub(super) fn look(&mut self, window: &Window) {
-        let Window { turned, most, .. } = *window;
-        self.inside_out = turned > INSIDE_OUT * self.largest_depth && turned > (1.0 - LYING) * most;
+        let Window { turned, most, moving, .. } = *window;
+        self.inside_out = turned > moving && turned > (1.0 - LYING) * most;
     }
 
     /// Whether the body rests inside out.

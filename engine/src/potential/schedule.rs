@@ -29,6 +29,8 @@ pub(super) struct Window {
     pub(super) turned: f64,
     /// Largest size of the potential, J.
     pub(super) most: f64,
+    /// Largest kinetic energy, J.
+    pub(super) moving: f64,
     /// Whether the force has become negligible and rests.
     pub(super) rests: bool,
 }
@@ -169,15 +171,15 @@ impl Schedule {
             return None;
         }
         let known = t[0] > 0.0;
-        let share = p[0].max(p[1]) / t[0].max(t[1]).max(f64::MIN_POSITIVE);
-        let (turned, most) = (below[0].min(below[1]), p[0].max(p[1]));
+        let [turned, most, moving] = [below[0].min(below[1]), p[0].max(p[1]), t[0].max(t[1])];
+        let share = most / moving.max(f64::MIN_POSITIVE);
         (p[0], t[0], below[0]) = (p[1], t[1], below[1]);
         (p[1], t[1], below[1]) = (0.0, 0.0, f64::INFINITY);
         self.window = 0;
         self.share = if known { share } else { f64::INFINITY };
         let rests = self.share < self.negligible;
         self.done |= rests;
-        Some(Window { turned, most, rests })
+        Some(Window { turned, most, moving, rests })
     }
 
     /// Samples until the next evaluation. They depend on the share of the energy over the last windows, which a stroke raises
