@@ -350,7 +350,7 @@ fn rack_tom() -> InstrumentSpec {
     tom([12.0, 9.0], [80.0, fitted::RACK_TOM_PITCH_HZ, 225.0], 3)
 }
 
-/// 16 x 16 in floor tom, heard at 82 Hz, as recorded ones are. *Fitted*.
+/// 16 x 16 in floor tom, heard at 72 Hz, as recorded ones are. *Fitted*.
 fn floor_tom() -> InstrumentSpec {
     let tom = tom([16.0, 16.0], [55.0, fitted::FLOOR_TOM_PITCH_HZ, 145.0], 4);
     let InstrumentSpec::Drum(drum) = tom else { return tom };

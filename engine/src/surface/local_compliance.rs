@@ -55,6 +55,9 @@
 //! some centimetres only in the course of a long contact. A hard stroke meets a stiffer head than a soft one, and is shorter and
 //! brighter.
 //!
+//! The set's own modes stay at their frequencies, so the first band begins where they end: with its lower edge raised as well, a
+//! hard stroke would meet a gap in which nothing but the head's mass yields, and its force would ring there.
+//!
 //! Neglected: the set's own modes feel of the dent what it adds to the tension of the whole head
 //! ([`stretch`](crate::drum::stretch)), not that it is tenser about the tip; a film that the force has not yet made tense resists as one
 //! that is; the tip of a stick across a rim is slower than its shaft.
@@ -259,9 +262,11 @@ impl LocalHeadCompliance {
             }
             let mass = 4.0 * PI * self.density / ((to * to - from * from) * share);
             let dented = |k| self.dented(press.after(TAU / self.omega(k)), k).omega(k);
-            let [from, middle, to] = [from, k, to].map(dented);
+            // The set's own modes stay where they are: the first band begins where they end, dented or not.
+            let from = if i == 0 { self.reached } else { dented(from) };
+            let to = dented(to);
             let sigma = if lossy { 0.5 * (to - from) } else { 0.0 };
-            bands[count] = Oscillator::sprung(mass, middle, sigma, dt);
+            bands[count] = Oscillator::sprung(mass, (from * to).sqrt(), sigma, dt);
             count += 1;
         }
         (bands, count)
@@ -378,6 +383,39 @@ mod tests {
         // A stroke of no speed, of either sign, stretches nothing.
         let nothing = head.press(&stick, -0.0);
         assert_eq!(nothing.after(1e-4), 0.0);
+    }
+
+    #[test]
+    fn a_dented_head_yields_at_every_frequency_from_where_its_set_ends() {
+        // Of the film of a tom: the power that waves take from a newton just above its set, under strokes that dent it ever deeper.
+        let head = LocalHeadCompliance { stretching: 1.2e6, ..HEAD };
+        let stick = Striker::Stick.spec();
+        let dt = 1e-6;
+        let takes = |speed: f64, omega: f64| -> f64 {
+            let press = Press { disc: 0.002, ..head.press(&stick, speed) };
+            let (mut bands, count) = head.bands(0.3, &press, true, dt);
+            let period = (TAU / (omega * dt)) as usize;
+            let mut work = 0.0;
+            for i in 0..40 * period {
+                let force = (omega * dt * i as f64).sin();
+                for band in &mut bands[..count] {
+                    let before = band.q;
+                    band.step();
+                    band.push(force);
+                    // Once it swings evenly.
+                    work += if i < 30 * period { 0.0 } else { force * (band.q - before) };
+                }
+            }
+            work / (10 * period) as f64 / dt
+        };
+        for over in [1.02, 1.1, 1.2, 1.4] {
+            let omega = over * head.reached;
+            let soft = takes(1e-3, omega);
+            for speed in [2.0, 5.0, 10.0] {
+                let hard = takes(speed, omega);
+                assert!(hard > 0.2 * soft, "{over} {speed} m/s: {hard} of {soft}");
+            }
+        }
     }
 
     /// `T` times the deflection per unit force by waves from `from` to `to` (1/m) under a disc, with or without rigidity: the
