@@ -9,7 +9,7 @@ use tracing::warn;
 
 use super::stored::{KIT_FIELD, State, StoredValue, kit_text};
 use crate::kit_document::KitDocument;
-use crate::parameters::{SlotParameter, parameters, slot_index};
+use crate::parameters::{SlotParameter, parameters, range, slot_index};
 
 /// First two letters of a piece's ids, and the piece.
 const PIECES: [(&str, &str); 9] = [
@@ -81,11 +81,12 @@ fn moved(end: &str) -> Option<SlotParameter> {
 /// A tuning in semitones from the piece's own; that of a drum was in Hz.
 fn tuned(kit: &KitSpec, slot: Slot, id: &str, value: StoredValue) -> StoredValue {
     let (Some(piece), StoredValue::Number(hertz)) = (kit.piece(slot), &value) else { return value };
-    let [low, own, high] = piece.instrument.tunings();
+    let [_, own, _] = piece.instrument.tunings();
     if piece.instrument.kind() != Kind::Drum {
         return value;
     }
-    let hertz = f64::from(*hertz);
+    let (low, high, _) = range(slot_index(slot, SlotParameter::Tune), kit);
+    let ([low, high], hertz) = ([low, high].map(f64::from), f64::from(*hertz));
     if !(low..=high).contains(&hertz) {
         warn!("The state has {id} at {hertz}, accepted: {low} to {high} Hz");
     }
@@ -175,6 +176,8 @@ mod tests {
                 continue;
             }
             let [low, own, high] = piece.instrument.tunings();
+            // As far as the parameter goes.
+            let [low, high] = [low.max(0.5 * own), high.min(2.0 * own)];
             let now = |hertz: f64| {
                 let (values, _) = translated(&[(&format!("{start}tune"), hertz as f32)]);
                 let id = parameters()[slot_index(slot, SlotParameter::Tune)].id;
