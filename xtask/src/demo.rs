@@ -12,17 +12,17 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Result, ensure};
 use cpu_time::ThreadTime;
-use overhear::building::Pace;
 use overhear::kit_document::KitDocument;
 
 use crate::system::{self, WINDOW_LIBRARIES, XVFB};
 use crate::workspace::Format;
 use levels::Row;
 use overhear_cli::output;
-use overhear_cli::player::{Blocks, EnginePlayer, Played, Source, Take};
+use overhear_cli::player::{Blocks, Played, Source, Take};
 use overhear_cli::plugin_folders::user_folder;
 use overhear_cli::progress::Progress;
 use overhear_cli::render::{Style, Taken, decibels, takes};
+use overhear_cli::settings;
 use overhear_cli::song::Song;
 use overhear_cli::wav::{Bits, WavFile};
 use overhear_measure::picture;
@@ -56,7 +56,7 @@ pub fn run(folder: &Path) -> Result<()> {
     ensure!(played.finite, "the plugin produced values that are not numbers");
     ensure!(played.peak > 0.0, "the plugin stayed silent");
     step(3, "playing it as a host plays it live, and striking every piece by itself");
-    let live = live_share(take, &style)?;
+    let live = live_share(take, clap.clone())?;
     let levels = levels::table(RATE)?;
     step(4, "writing demo.wav and drawing demo.png");
     let mut file = WavFile::create(&wav, Bits::Float32, RATE, 2, take.frames)?;
@@ -80,6 +80,7 @@ pub fn run(folder: &Path) -> Result<()> {
     Ok(())
 }
 
+/// Builds the plugins; the CLAP bundle.
 fn clap_bundle() -> Result<PathBuf> {
     let bundles = bundle::run()?;
     let clap = bundles.into_iter().find(|(format, _)| *format == Format::Clap);
@@ -124,16 +125,20 @@ fn busy_share(take: &Take, played: &Played) -> f64 {
     played.busy.as_secs_f64() / seconds(take)
 }
 
-/// Share of one core for playing a take live: processor time of the playing thread over the take's length.
-fn live_share(take: &Take, style: &Style) -> Result<f64> {
-    let mut player = EnginePlayer::at_pace(&style.setup(), Pace::RealTime)?;
+/// Share of one core for playing a take live: processor time of the playing thread over the take's length, with cymbals as they
+/// are played.
+fn live_share(take: &Take, clap: PathBuf) -> Result<f64> {
+    let mut style = style(Source::Clap(clap));
+    style.settings.extend(settings::parse(&["offline_quality=as played".to_owned()], &style.kit.kit)?);
     let mut progress = Progress::new("the groove, live", take.frames);
-    let start = ThreadTime::now();
-    take.play(&mut player, style.blocks, |left, _| {
-        progress.advance(left.len() as u64);
-        Ok(())
-    })?;
-    Ok(start.elapsed().as_secs_f64() / seconds(take))
+    style.source.perform(&style.setup(), |player| {
+        let start = ThreadTime::now();
+        take.play(player, style.blocks, |left, _| {
+            progress.advance(left.len() as u64);
+            Ok(())
+        })?;
+        Ok(start.elapsed().as_secs_f64() / seconds(take))
+    })
 }
 
 /// Prints what came of it; the shares of real time are of playing live and of the file.

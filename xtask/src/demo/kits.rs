@@ -6,7 +6,7 @@ use anyhow::{Context, Result, ensure};
 use overhear::library;
 use overhear_measure::{analysis, picture};
 
-use super::{RATE, play, style};
+use super::{RATE, clap_bundle, play, style};
 use overhear_cli::output::{self, Folder};
 use overhear_cli::player::Source;
 use overhear_cli::render::{decibels, takes};
@@ -27,7 +27,7 @@ const TABLE: &str = "# `cargo xtask demo --all-kits` writes this: of the whole g
 /// Farthest that two kits may be apart in loudness, LU.
 const APART: f64 = 2.0;
 
-/// Plays the groove on every whole kit of the library, bounced; prints the loudness and the peak of the whole, and writes the
+/// Plays the groove on every whole kit of the library by the built plugin, bounced; prints the loudness and the peak of the whole, and writes the
 /// beginning as `NAME.wav` and its spectrogram as `NAME.png` into `folder`, the figures as `loudness.toml`.
 ///
 /// # Errors
@@ -35,9 +35,10 @@ const APART: f64 = 2.0;
 pub fn run(folder: &Path) -> Result<()> {
     let song = Song::read(&workspace::root().join("assets/groove.mid"))?;
     let _folder = Folder::new(folder)?;
+    let clap = clap_bundle()?;
     let (mut clipped, mut loudnesses, mut table) = (Vec::new(), Vec::new(), String::from(TABLE));
     for kit in library::kits() {
-        let mut style = style(Source::Engine);
+        let mut style = style(Source::Clap(clap.clone()));
         style.kit = kit.document().with_context(|| format!("the kit `{}`", kit.name))?;
         let take = takes(&song, &style)?.take;
         let (played, mut left, mut right) = play(&take, &style, kit.name)?;
