@@ -1,4 +1,5 @@
-//! The groove on every whole kit of the library, as it is played live: none is clipped, and all are about as loud.
+//! The groove on whole kits of the library, as it is played live: none is clipped, and all are about as loud. `cargo xtask demo
+//! --all-kits` plays all twelve, bounced.
 
 use anyhow::{Context, Result};
 use overhear::building::Pace;
@@ -9,6 +10,7 @@ use overhear_cli::render::{Style, takes};
 use overhear_cli::song::Song;
 use overhear_cli::wav::Bits;
 use overhear_measure::analysis::loudness_lufs;
+use overhear_tests::Chance;
 use rayon::prelude::*;
 
 const RATE: u32 = 48_000;
@@ -41,12 +43,27 @@ fn played(song: &Song, kit: KitDocument) -> Result<(f64, f32)> {
     Ok((loudness_lufs([&left, &right], RATE).context("it is silent")?, peak))
 }
 
+/// The loudest kit, the quietest and the one of the highest peak (`player/library/loudness.toml`).
+const EXTREMES: [&str; 3] = ["marching-line", "big-band", "rock-24"];
+
+/// How many others are played, drawn anew in every run.
+const OTHERS: usize = 2;
+
+/// Kits that are played.
+fn sampled() -> Vec<WholeKit> {
+    let (mut kits, mut others): (Vec<_>, Vec<_>) =
+        library::kits().partition(|kit| EXTREMES.contains(&kit.name));
+    assert_eq!([kits.len(), others.len()], [EXTREMES.len(), 12 - EXTREMES.len()]);
+    let mut chance = Chance::new(Chance::seeds(&[])[0]);
+    kits.extend((0..OTHERS).map(|_| others.swap_remove(chance.below(others.len()))));
+    kits
+}
+
 #[test]
-fn no_kit_of_the_library_is_clipped_and_all_are_as_loud_within_2_lu() {
+fn kits_of_the_library_are_not_clipped_and_as_loud_within_2_lu() {
     let groove = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../assets/groove.mid");
     let song = Song::read(&groove).expect("the groove");
-    let kits: Vec<WholeKit> = library::kits().collect();
-    assert_eq!(kits.len(), 12);
+    let kits = sampled();
     let found: Vec<(&str, f64, f32)> = kits
         .par_iter()
         .map(|kit| {
