@@ -80,7 +80,8 @@ fitted! {
         to "fundamental and decays of recorded snares: close by, one of 220 Hz is taken for 370 Hz, its (1,1)";
         tried "180 to 220 around recorded fundamentals; 220 was the first"; moves "contact time, wires' landings";
     FLOOR_TOM_PITCH_HZ = 66.0, "Hz", "pieces.floor-tom.pitch_hz";
-        to "recorded 16 in floor toms, heard at 71, 74 and 99 Hz"; tried "66, 68, 75, 82 and 100";
+        to "recorded 16 in floor toms, heard at 71, 74 and 99 Hz; of 66 and 68 Hz the one that is told from a rack tom";
+        tried "66, 68, 75, 82 and 100";
         moves "density of modes, glide, contact time";
     GEL_SIGMA = 30.0, "1/s", "pieces.snare.muffler.sigma_1_s";
         to "by ear: a pad as drummers place it"; tried "not recorded"; moves "what full muffling takes";

@@ -43,19 +43,23 @@ fn played(song: &Song, kit: KitDocument) -> Result<(f64, f32)> {
     Ok((loudness_lufs([&left, &right], RATE).context("it is silent")?, peak))
 }
 
-/// The loudest kit, the quietest and the one of the highest peak (`player/library/loudness.toml`).
-const EXTREMES: [&str; 3] = ["marching-line", "big-band", "rock-24"];
+/// How many kits are drawn anew in every run, beside those that were measured as extreme.
+const DRAWN: usize = 2;
 
-/// How many others are played, drawn anew in every run.
-const OTHERS: usize = 2;
-
-/// Kits that are played.
+/// The loudest kit, the quietest and the one of the highest peak, as last measured, and some others.
 fn sampled() -> Vec<WholeKit> {
-    let (mut kits, mut others): (Vec<_>, Vec<_>) =
-        library::kits().partition(|kit| EXTREMES.contains(&kit.name));
-    assert_eq!([kits.len(), others.len()], [EXTREMES.len(), 12 - EXTREMES.len()]);
+    let mut others: Vec<WholeKit> = library::kits().collect();
+    assert_eq!(others.len(), 12);
+    let mut kits = Vec::new();
+    let rank: [fn([f64; 2]) -> f64; 3] =
+        [|[loudness, _]| loudness, |[loudness, _]| -loudness, |[_, peak]| peak];
+    for of in rank {
+        let measured = |kit: &WholeKit| of(kit.measured().expect("its figures"));
+        let most = (0..others.len()).max_by(|&a, &b| measured(&others[a]).total_cmp(&measured(&others[b])));
+        kits.push(others.swap_remove(most.expect("a kit")));
+    }
     let mut chance = Chance::new(Chance::seeds(&[])[0]);
-    kits.extend((0..OTHERS).map(|_| others.swap_remove(chance.below(others.len()))));
+    kits.extend((0..DRAWN).map(|_| others.swap_remove(chance.below(others.len()))));
     kits
 }
 
