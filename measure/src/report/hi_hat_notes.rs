@@ -42,15 +42,17 @@ pub enum Event {
 use Event::{Note, Pedal};
 
 /// What comes before each struck note, and its number.
-pub const STRUCK: [(Option<Event>, u8); 9] = [
+pub const STRUCK: [(Option<Event>, u8); 11] = [
     (None, 42),
     (Some(Note(42)), 42),
     (Some(Note(46)), 42),
     (Some(Pedal(0)), 42),
     (Some(Pedal(64)), 42),
     (Some(Pedal(127)), 42),
+    (None, 46),
     (Some(Note(42)), 46),
     (Some(Note(44)), 46),
+    (Some(Note(46)), 46),
     (Some(Note(97)), 46),
 ];
 
@@ -257,7 +259,7 @@ pub fn page() -> Result<Page> {
     };
     for (name, title, cases) in [
         ("closed", "The first 40 ms of closed notes at velocity 90", [1, 2, 3, 5]),
-        ("opened", "The first 40 ms of open notes and of the foot at velocity 90", [6, 8, 9, 11]),
+        ("opened", "The first 40 ms of open notes and of the foot at velocity 90", [6, 7, 9, 13]),
     ] {
         let plot = Plot {
             across: Axis::linear("ms after the note", 0.0..40.0),

@@ -108,8 +108,10 @@ impl Layers<'_> {
     fn exchanged(&self, piece: &PieceSpec, like: &Value) -> Result<Table, Fault> {
         let Some(mut fields) = like.as_str().and_then(catalogue::fields) else {
             let given = like.as_str().map_or_else(|| "no text".to_owned(), quoted);
-            let reason =
-                format!("is {given}, accepted for a piece of the start: an instrument of the library");
+            let reason = format!(
+                "is {given}, accepted: an instrument of the library, to take the place of {}; a copy of another piece needs a new name",
+                quoted(&piece.name)
+            );
             return Err(Fault::of(&format!("pieces.{}.like", piece.name), self.origins, &reason));
         };
         let mut own = text::fields(piece);

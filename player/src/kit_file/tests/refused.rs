@@ -177,7 +177,7 @@ fn every_error_names_the_line_the_field_and_what_is_accepted() {
         ("format = 1\n[pieces.gong]\nlike = 3", "3: pieces.gong.like is not a string"),
         (
             "format = 1\n[pieces.kick]\nlike = \"snare\"",
-            "3: pieces.kick.like is `snare`, accepted for a piece of the start: an instrument of the library",
+            "3: pieces.kick.like is `snare`, accepted: an instrument of the library, to take the place of `kick`; a copy of another piece needs a new name",
         ),
         (
             "format = 1\n[pieces.a]\nlike = \"b\"\n[pieces.b]\nlike = \"a\"",
