@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use overhear_engine::damping::Muffler;
 use overhear_engine::drum::{HeadContact, PitchOf, ShellSpec};
-use overhear_engine::kit_spec::{InstrumentSpec, KitSpec, PieceSpec};
+use overhear_engine::kit_spec::{InstrumentSpec, KitSpec, PieceSpec, places};
 use overhear_engine::microphones::CloseSpec;
 use overhear_engine::numbers::{Numbers as _, Visitor};
 use overhear_engine::piece::Idealization;
@@ -76,7 +76,10 @@ pub fn document(seed: u64) -> KitDocument {
     let draw = &mut Draw::new(seed);
     let standard = KitSpec::standard();
     let count = 1 + draw.below(16);
-    let pieces = (0..count).map(|slot| piece(draw, &standard, slot)).collect();
+    let mut pieces = Vec::new();
+    for slot in 0..count {
+        pieces.push(piece(draw, &standard, &pieces, slot));
+    }
     let mut kit = KitSpec { pieces, ..standard };
     for x in kit.microphones.overheads.as_flattened_mut() {
         *x += draw.unit();
@@ -91,7 +94,8 @@ pub fn document(seed: u64) -> KitDocument {
     document
 }
 
-fn piece(draw: &mut Draw, standard: &KitSpec, slot: usize) -> PieceSpec {
+/// A piece that passes its check and stands in none of the others.
+fn piece(draw: &mut Draw, standard: &KitSpec, others: &[PieceSpec], slot: usize) -> PieceSpec {
     let like = &standard.pieces[draw.below(standard.pieces.len())];
     for _ in 0..20 {
         let mut piece = like.clone();
@@ -101,11 +105,11 @@ fn piece(draw: &mut Draw, standard: &KitSpec, slot: usize) -> PieceSpec {
         parts(draw, &mut piece);
         let rarely = draw.of(&[2, 4, 10, 1000]);
         piece.visit(&mut Numbers { draw, rarely });
-        // Far enough from the others for any size.
+        // Far enough from the others for all but the deepest kettles.
         let at = slot as f64;
         piece.place.centre =
             [(at % 4.0) * 4.0 - 8.0 + draw.unit(), draw.unit(), (at / 4.0).floor() * 4.0 - 8.0];
-        if piece.check().is_ok() {
+        if piece.check().is_ok() && !others.iter().any(|other| places::inside(&piece, other)) {
             return piece;
         }
     }

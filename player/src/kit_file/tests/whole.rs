@@ -55,6 +55,12 @@ proptest! {
 }
 
 #[test]
+fn drawn_pieces_stand_in_no_other() {
+    // A kettle that reaches farther than the 4 m between pieces.
+    draw::document(15978775328931834477);
+}
+
+#[test]
 fn a_negative_nought_stays_negative() {
     let mut document = KitDocument::standard();
     document.kit.pieces[0].defaults.pan = -0.0;
