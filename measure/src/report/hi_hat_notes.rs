@@ -271,17 +271,19 @@ pub fn page() -> Result<Page> {
     Ok(sheet.finish())
 }
 
-/// Lowest and highest value of every stretch of a sound, over the greatest of all, by ms: more samples than points are wide make a picture of noise grey.
+/// An upright line from the lowest to the highest value of every stretch of a sound, over the greatest of all, by ms. A line through all samples
+/// of noise would be grey, and its corners would stick out of the picture.
 fn envelope(sound: &[f32], greatest: f32) -> Vec<(f64, f64)> {
     /// Stretches of a picture.
     const STRETCHES: usize = 250;
     let length = sound.len().div_ceil(STRETCHES);
     let stretches = sound.chunks(length).enumerate();
-    let ends = stretches.flat_map(|(index, stretch)| {
+    let uprights = stretches.flat_map(|(index, stretch)| {
         let at = 1e3 * (index * length) as f64 / RATE;
         let (low, high) =
             stretch.iter().fold((f32::MAX, f32::MIN), |(low, high), x| (low.min(*x), high.max(*x)));
-        [low, high].map(|x| (at, f64::from(x / greatest)))
+        let [foot, top] = [low, high].map(|x| (at, f64::from(x / greatest)));
+        [foot, top, (f64::NAN, f64::NAN)]
     });
-    ends.collect()
+    uprights.collect()
 }

@@ -146,6 +146,9 @@ impl Plot<'_> {
                     .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], color.stroke_width(2)));
             }
         }
+        if lines.iter().all(|(name, _)| name.is_empty()) {
+            return Ok(());
+        }
         chart
             .configure_series_labels()
             .position(SeriesLabelPosition::UpperRight)
@@ -156,8 +159,9 @@ impl Plot<'_> {
     }
 }
 
-/// A number on an axis.
+/// A number on an axis; what is left of nought by rounding is nought.
 fn short(value: f64) -> String {
+    let value = if value.abs() < 1e-15 { 0.0 } else { value };
     let text = if value != 0.0 && value.abs() < 1e-3 { format!("{value:e}") } else { format!("{value:.3}") };
     let plain = !text.contains('e') && text.contains('.');
     if plain { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
