@@ -1,8 +1,10 @@
 //! What can be counted of the house's order: docs of modules, sizes of files, names in documents, notes to oneself, units,
-//! who names a piece, and which way imports go.
+//! who names a piece, which way imports go, and how often a crate is compiled.
 
 #[path = "tidy/direction.rs"]
 mod direction;
+#[path = "tidy/features.rs"]
+mod features;
 #[path = "tidy/pieces.rs"]
 mod pieces;
 #[path = "tidy/structs.rs"]
@@ -50,7 +52,8 @@ fn files(folder: &str, endings: &[&str]) -> Vec<String> {
 
 /// Every source of the workspace, and its text.
 fn sources() -> Vec<(String, String)> {
-    let folders = ["engine", "player", "plugin", "standalone", "measure", "cli", "xtask", "tests"];
+    let folders =
+        ["engine", "player", "plugin", "standalone", "measure", "cli", "xtask", "features", "tests"];
     let sources: Vec<_> = folders.iter().flat_map(|folder| files(folder, &["rs"])).map(read).collect();
     assert!(sources.len() > 150, "{} sources", sources.len());
     sources
