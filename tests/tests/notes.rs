@@ -109,6 +109,7 @@ fn repeated(document: &KitDocument, note: u8) -> Vec<[f64; 2]> {
 fn thirty_two_equal_notes_differ_as_strokes_of_a_hand_do() {
     let document = KitDocument::standard();
     println!("| note | level, dB | centroid, octaves | both, recorded |");
+    let mut levels_of_all = Vec::new();
     for (note, recorded) in RECORDED {
         let strokes = repeated(&document, note);
         // The first finds the piece at rest.
@@ -117,8 +118,10 @@ fn thirty_two_equal_notes_differ_as_strokes_of_a_hand_do() {
         let (level, centroid) = (scatter(&levels), scatter(&centroids));
         let name = &document.notes.row(note).expect("a note").name;
         println!("| {name} | {level:.2} | {centroid:.3} | {recorded:.2?} |");
-        // Recordings scatter by 0.3 to 1.2 dB, and within dynamics that were sorted by ear.
-        assert!((0.3..1.8).contains(&level), "{name}: {level} dB");
+        levels_of_all.push(level);
+        // Recordings scatter by 0.3 to 1.2 dB, and within dynamics that were sorted by ear. What 31 strokes scatter is known
+        // within an eighth, and other instruction sets round to other strokes.
+        assert!((0.3..2.1).contains(&level), "{name}: {level} dB");
         if let Some([recorded, _]) = recorded {
             assert!(
                 level > 0.4 * recorded && level < recorded + 1.2,
@@ -128,4 +131,6 @@ fn thirty_two_equal_notes_differ_as_strokes_of_a_hand_do() {
         assert!(centroid > 0.002 && centroid < 0.6, "{name}: {centroid} octaves");
         assert!(strokes.windows(2).all(|pair| pair[0] != pair[1]), "{name}: a machine gun");
     }
+    let mean = levels_of_all.iter().sum::<f64>() / levels_of_all.len() as f64;
+    assert!((0.8..1.4).contains(&mean), "{mean} dB in the mean of all");
 }
