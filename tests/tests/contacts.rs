@@ -4,15 +4,19 @@
 use overhear_engine::kit_spec::PieceSpec;
 use overhear_engine::strike::{Strike, Striker};
 use overhear_measure::report::contact;
-use overhear_tests::{RATES, lossless_piece, names, render_into, total_energy};
+use overhear_tests::{Chance, RATES, lossless_piece, names, render_into, total_energy};
 
 /// Strikes every piece with everything, without any loss, and compares the energy about with what
-/// the stroke brought: in the first 100 ms, and for the rest of a second.
+/// the stroke brought: in the first 100 ms, and for the rest of a second. At rates above 48 kHz, which take long, every other stroke is
+/// left out: those or the others, drawn anew in every run.
 fn energy_stays(rate: f64) {
     let mut worst = (0.0_f64, 0.0_f64);
+    let every = if rate > 50_000.0 { 2 } else { 1 };
+    let drawn = Chance::new(Chance::seeds(&[])[0]).below(every);
     for (slot, name) in names().iter().enumerate() {
         let mut piece = lossless_piece(name, rate);
-        for striker in Striker::ALL {
+        let drawn = |(place, _): &(usize, Striker)| (slot + place) % every == drawn;
+        for (_, striker) in Striker::ALL.into_iter().enumerate().filter(drawn) {
             let strike = contact::trial(slot, striker);
             piece.reset();
             piece.strike(&strike);

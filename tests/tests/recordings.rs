@@ -21,12 +21,10 @@ fn bounced(names: &[&str]) -> Vec<PieceReport> {
 
 #[test]
 fn drums_brighten_with_the_stroke_as_recorded_ones_do() {
-    // Two of them, drawn anew in every run.
-    let mut chance = Chance::new(Chance::seeds(&[])[0]);
-    let first = chance.below(DRUMS.len());
-    let second = (first + 1 + chance.below(DRUMS.len() - 1)) % DRUMS.len();
-    let pieces = bounced(&[first, second].map(|drum| DRUMS[drum]));
-    assert_eq!(pieces.len(), 2 * RecordingChain::ALL.len());
+    // One of them, drawn anew in every run.
+    let drawn = Chance::new(Chance::seeds(&[])[0]).below(DRUMS.len());
+    let pieces = bounced(&[DRUMS[drawn]]);
+    assert_eq!(pieces.len(), RecordingChain::ALL.len());
     for piece in &pieces {
         let slope = piece.slope.as_ref().expect("known of every drum");
         println!("{} {}: {:?} octaves per 20 dB", piece.piece, piece.heard.name(), slope.value);

@@ -17,7 +17,7 @@ pub const TARGETS: [(&str, Tier, &str); 38] = [
     ("automation", Tier::Whole, "plays the kit under every parameter"),
     ("command_line", Tier::Quick, "the program for users, in an empty folder"),
     ("commands", Tier::Whole, "runs the program some hundred times"),
-    ("contacts", Tier::Whole, "every striker on every piece at four sample rates"),
+    ("contacts", Tier::Whole, "every striker on the pieces at four sample rates"),
     ("cascade", Tier::Whole, "seconds of cymbals coupled to 8 kHz"),
     ("cymbals", Tier::Whole, "seconds of coupled plates at every quality"),
     ("damping", Tier::Quick, "a few short decays"),
