@@ -26,6 +26,9 @@ struct CommandLine {
 enum Task {
     /// Build and bundle the plugin and play a groove through it: demo.wav and demo.png
     Demo {
+        /// Play this MIDI file instead of the groove
+        #[arg(long, value_name = "FILE", conflicts_with_all = ["all_presets", "all_kits"])]
+        song: Option<PathBuf>,
         /// Instead play half a minute with every preset, into demo-presets
         #[arg(long)]
         all_presets: bool,
@@ -110,7 +113,7 @@ fn dispatch(task: Task) -> Result<()> {
             demo::presets::run(&std::env::current_dir()?.join("demo-presets"))
         }
         Task::Demo { all_kits: true, .. } => demo::kits::run(&std::env::current_dir()?.join("demo-kits")),
-        Task::Demo { .. } => demo::run(&std::env::current_dir()?),
+        Task::Demo { song, .. } => demo::run(&std::env::current_dir()?, song.as_deref()),
         Task::Test { ardour: true, .. } => suite::run_ardour(),
         Task::Test { quick: true, .. } => suite::run_quick(),
         Task::Test { .. } => suite::run(),

@@ -1,7 +1,7 @@
 //! `demo`: from a fresh clone to an audible groove.
 //!
 //! Sets up, builds, bundles, loads the built CLAP into the embedded host, plays
-//! `assets/groove.mid` through it at 48 kHz, writes `demo.wav` and `demo.png`, prints the level of each
+//! `assets/groove.mid` or another song through it at 48 kHz, writes `demo.wav` and `demo.png`, prints the level of each
 //! piece at each microphone and the cost, and takes pictures of the editor if the requirements are met.
 
 pub mod kits;
@@ -29,6 +29,9 @@ use overhear_measure::picture;
 
 use crate::{bundle, shots, workspace};
 
+/// What is played if no song is given, from the root of the workspace.
+const GROOVE: &str = "assets/groove.mid";
+
 /// Sample rate of the demonstration, Hz.
 const RATE: u32 = 48_000;
 
@@ -38,21 +41,26 @@ const TAIL: f64 = 8.0;
 /// Buffers as hosts use them, samples.
 const BLOCK: u32 = 256;
 
-/// Runs the whole demonstration; the files go to `folder`.
+/// Runs the whole demonstration with a song, or else with the groove; the files go to `folder`.
 ///
 /// # Errors
 /// If something is missing, does not build, or does not sound as it must.
-pub fn run(folder: &Path) -> Result<()> {
+pub fn run(folder: &Path, song: Option<&Path>) -> Result<()> {
     let step = |number: u32, what: &str| eprintln!("[{number}/5] {what}");
     let (wav, png) = (folder.join("demo.wav"), folder.join("demo.png"));
+    let (path, name) = match song {
+        Some(path) => (path.to_path_buf(), path.display().to_string()),
+        None => (workspace::root().join(GROOVE), GROOVE.to_owned()),
+    };
+    // What cannot be read is told before minutes of building.
+    let read = Song::read(&path)?;
     step(1, "building and bundling the plugin (some minutes the first time)");
     let clap = clap_bundle()?;
-    step(2, "playing assets/groove.mid through the CLAP plugin");
-    let song = Song::read(&workspace::root().join("assets/groove.mid"))?;
+    step(2, &format!("playing {name} through the CLAP plugin"));
     let style = style(Source::Clap(clap.clone()));
-    let taken = takes(&song, &style)?;
+    let taken = takes(&read, &style)?;
     let take = &taken.take;
-    let (played, left, right) = play(take, &style, "groove")?;
+    let (played, left, right) = play(take, &style, "song")?;
     ensure!(played.finite, "the plugin produced values that are not numbers");
     ensure!(played.peak > 0.0, "the plugin stayed silent");
     step(3, "playing it as a host plays it live, and striking every piece by itself");
@@ -62,7 +70,7 @@ pub fn run(folder: &Path) -> Result<()> {
     let mut file = WavFile::create(&wav, Bits::Float32, RATE, 2, take.frames)?;
     file.write(&[&left, &right])?;
     file.finish()?;
-    output::write(&png, &picture::png("Overhear: assets/groove.mid", &left, &right, RATE)?)?;
+    output::write(&png, &picture::png(&format!("Overhear: {name}"), &left, &right, RATE)?)?;
     step(5, "taking pictures of the editor");
     let shots = folder.join("demo-shots");
     // A machine that only renders needs no display; the groove does not depend on it.
@@ -73,7 +81,8 @@ pub fn run(folder: &Path) -> Result<()> {
         Ok(()) => println!("editor   {}", shots.display()),
         Err(reason) => println!("editor   no pictures: {reason:#}"),
     }
-    ensure!(played.peak <= 1.0, "the mix is clipped: its peak is {:.3}", played.peak);
+    // How loud a song of somebody's own is, is theirs to know.
+    ensure!(song.is_some() || played.peak <= 1.0, "the mix is clipped: its peak is {:.3}", played.peak);
     let silent: Vec<_> =
         levels.iter().filter(|row| row.peaks.contains(&0.0)).map(|row| &*row.piece).collect();
     ensure!(silent.is_empty(), "silent: {}", silent.join(", "));
@@ -130,7 +139,7 @@ fn busy_share(take: &Take, played: &Played) -> f64 {
 fn live_share(take: &Take, clap: PathBuf) -> Result<f64> {
     let mut style = style(Source::Clap(clap));
     style.settings.extend(settings::parse(&["offline_quality=as played".to_owned()], &style.kit.kit)?);
-    let mut progress = Progress::new("the groove, live", take.frames);
+    let mut progress = Progress::new("the song, live", take.frames);
     style.source.perform(&style.setup(), |player| {
         let start = ThreadTime::now();
         take.play(player, style.blocks, |left, _| {
@@ -153,7 +162,7 @@ fn report(
     for Row { piece, peaks } in levels {
         println!("  {:<10}{}", piece, peaks.map(|peak| format!("{:8.1}", 20.0 * peak.log10())).concat());
     }
-    println!("peak of the groove: {}", decibels(played.peak));
+    println!("peak of the song: {}", decibels(played.peak));
     println!("\n{:.1} s of sound, {} notes", seconds(&taken.take), taken.notes);
     println!(
         "Playing live takes {:.0} % of one core; this file was bounced at the highest quality, which took {:.0} % of real \
