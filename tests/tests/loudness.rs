@@ -1,5 +1,5 @@
-//! The groove's beginning on whole kits of the library, as it is played live: none is clipped, and all are about as loud. `cargo
-//! xtask demo --all-kits` plays it whole on all twelve, bounced.
+//! The groove on whole kits of the library, as it is played live: none is clipped, and all are about as loud. `cargo xtask demo
+//! --all-kits` plays all twelve, bounced.
 
 use anyhow::{Context, Result};
 use overhear::building::Pace;
@@ -14,9 +14,6 @@ use overhear_tests::Chance;
 use rayon::prelude::*;
 
 const RATE: u32 = 48_000;
-
-/// Length of what is played, s: the first half.
-const SECONDS: f64 = 20.0;
 
 /// Farthest that two kits may be apart in loudness, LU.
 const APART: f64 = 2.0;
@@ -33,8 +30,7 @@ fn played(song: &Song, kit: KitDocument) -> Result<(f64, f32)> {
         tail: 4.0,
         channel: None,
     };
-    let mut take = takes(song, &style)?.take;
-    take.frames = take.frames.min((SECONDS * f64::from(RATE)) as u64);
+    let take = takes(song, &style)?.take;
     let setup: Setup = style.setup();
     let mut player = EnginePlayer::at_pace(&setup, Pace::RealTime)?;
     let (mut left, mut right) = (Vec::new(), Vec::new());
@@ -47,7 +43,7 @@ fn played(song: &Song, kit: KitDocument) -> Result<(f64, f32)> {
     Ok((loudness_lufs([&left, &right], RATE).context("it is silent")?, peak))
 }
 
-/// The loudest kit and the quietest, as last measured, and one of the others.
+/// The loudest kit and the quietest, as last measured, and one of the others. Each takes minutes.
 fn sampled() -> Vec<WholeKit> {
     let mut others: Vec<WholeKit> = library::kits().collect();
     assert_eq!(others.len(), 12);

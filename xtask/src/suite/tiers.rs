@@ -33,7 +33,7 @@ pub const TARGETS: [(&str, Tier, &str); 38] = [
     ("cache", Tier::Whole, "builds kits anew with harmed caches"),
     ("kit", Tier::Quick, "a kit as a document, played for moments"),
     ("library", Tier::Whole, "builds two whole kits"),
-    ("loudness", Tier::Whole, "plays half the groove on three kits"),
+    ("loudness", Tier::Whole, "plays the groove on three kits"),
     ("microphones", Tier::Quick, "one stroke at every microphone"),
     ("notes", Tier::Whole, "notes of every piece, many times"),
     ("passivity", Tier::Whole, "sweeps over descriptions and rates"),
