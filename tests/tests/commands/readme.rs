@@ -13,8 +13,8 @@ use super::{Folder, SONG, root};
 /// Commands that take seconds.
 const SHORT: &[&str] = &["kit", "render", "hear", "modes"];
 
-/// Commands that build the bundles anew and take minutes, and the arguments that are added to them here. `demo` plays a short song: the
-/// groove takes minutes, and `tests/tests/loudness.rs` plays it.
+/// Commands that build the bundles anew and take minutes, and the arguments that are added to them here. `demo` plays a short song:
+/// with the groove it takes minutes more.
 const BUILDING: &[(&str, &[&str])] = &[("demo", &["--song", "song.mid"]), ("install", &[]), ("bundle", &[])];
 
 /// Commands that measure for minutes, and the arguments that are added to them here. `bench` runs everything once. The report is
