@@ -20,11 +20,14 @@ pub const MAX_CONTACTS: usize = 16;
 /// Newton steps by Jacobi's method, and by elimination; 3 to 5 are needed.
 const MAX_STEPS: usize = 12;
 
-/// Sweeps of Jacobi's method in each step.
+/// Most sweeps of Jacobi's method in each step.
 const JACOBI_SWEEPS: usize = 2;
 
-/// What Jacobi's method may miss of a step's change, relative; if it misses more, contacts are too close to each other for it.
-const MOST_MISSED: f64 = 0.25;
+/// Change by a sweep, relative, after which none is needed: the next one would change a fiftieth.
+const SWEPT: f64 = 0.14;
+
+/// Change by the last sweep, relative, above which contacts are too close to each other for the method.
+const MOST_MOVED: f64 = 0.4;
 
 /// Change of a compression, relative, in the last step. A fiftieth of it is left, less than the rounding of the forces that
 /// modes receive.
@@ -61,22 +64,17 @@ pub struct Coupling<'a, const N: usize> {
 }
 
 impl<const N: usize> Coupling<'_, N> {
-    /// `Y x`, m.
+    /// Compliances, `stiffening` taken from them, m/N.
     #[inline(always)]
-    fn times(&self, x: &[f64; N]) -> [f64; N] {
-        let mut out = product(self.compliances, x);
+    fn whole(&self) -> Compliances<N> {
+        let mut whole = *self.compliances;
         if let Some(Stiffening { coupling, divisor }) = self.stiffening {
-            let along = coupling.iter().zip(x).map(|(u, x)| u * x).sum::<f64>() / divisor;
-            out.iter_mut().zip(coupling).for_each(|(out, u)| *out -= u * along);
+            for (row, u) in whole.iter_mut().zip(coupling) {
+                let by = u / divisor;
+                row.iter_mut().zip(coupling).for_each(|(y, u)| *y -= by * u);
+            }
         }
-        out
-    }
-
-    /// `Y_ij`, m/N.
-    #[inline(always)]
-    fn between(&self, i: usize, j: usize) -> f64 {
-        let taken = self.stiffening.map_or(0.0, |by| by.coupling[i] * by.coupling[j] / by.divisor);
-        self.compliances[i][j] - taken
+        whole
     }
 }
 
@@ -88,13 +86,13 @@ pub fn solve<const N: usize>(kernels: Kernels, lanes: &mut ContactLanes<N>, coup
     let solved = if lanes.all_hertz() {
         kernels.vectorized(
             #[inline(always)]
-            || newton::<N, true>(lanes, coupling),
+            || newton::<N, true>(lanes, &coupling.whole()),
         )
     } else {
-        newton::<N, false>(lanes, coupling)
+        newton::<N, false>(lanes, &coupling.whole())
     };
     if !solved {
-        sweep(lanes, coupling);
+        sweep(lanes, &coupling.whole());
     }
 }
 
@@ -110,12 +108,12 @@ pub fn force(law: &ContactLaw, step: &ContactStep) -> f64 {
 #[inline(always)]
 fn newton<const N: usize, const ALL_HERTZ: bool>(
     lanes: &mut ContactLanes<N>,
-    coupling: &Coupling<'_, N>,
+    compliances: &Compliances<N>,
 ) -> bool {
     let roots = lanes.roots();
-    let own: [f64; N] = std::array::from_fn(|i| coupling.between(i, i));
+    let own: [f64; N] = std::array::from_fn(|i| compliances[i][i]);
     let compressions = |force: &[f64; N], free: &[f64; N]| -> [f64; N] {
-        let moved = coupling.times(force);
+        let moved = product(compliances, force);
         std::array::from_fn(|i| free[i] - moved[i])
     };
     let mut d = compressions(&lanes.force, &lanes.free);
@@ -125,59 +123,67 @@ fn newton<const N: usize, const ALL_HERTZ: bool>(
         let moved = compressions(&force, &lanes.free);
         let left: [f64; N] = std::array::from_fn(|i| moved[i] - d[i]);
         let change = if step < by_jacobi {
-            jacobi(coupling, &own, &slope, &left)
+            let (change, converges) = jacobi(compliances, &own, &slope, &left);
+            if !converges {
+                by_jacobi = 0;
+            }
+            change
         } else {
-            eliminated(coupling, &slope, left)
+            eliminated(compliances, &slope, left)
         };
         lanes.force = std::array::from_fn(|i| force[i] + slope[i] * change[i]);
-        let found = compressions(&lanes.force, &lanes.free);
-        // NaN does not count as settled. The bodies alone may agree while the law does not, where a change is far from the solution.
-        let (mut settled, mut changed, mut missed) = (true, 0.0, 0.0);
+        // NaN does not count as settled.
+        let mut settled = true;
         for i in 0..N {
-            let scale = LAST_STEP * lanes.before[i].abs().max(lanes.free[i].abs());
-            let step = found[i] - d[i];
-            settled &= step.abs() <= scale && change[i].abs() <= 2.0 * scale;
-            changed += change[i].abs();
-            missed += (step - change[i]).abs();
+            settled &= change[i].abs() <= LAST_STEP * lanes.before[i].abs().max(lanes.free[i].abs());
+            d[i] += change[i];
         }
-        d = found;
         if settled {
             lanes.force.iter_mut().for_each(|force| *force = force.max(0.0));
             return true;
-        }
-        if missed > MOST_MISSED * changed {
-            by_jacobi = 0;
         }
     }
     false
 }
 
-/// Nearly the solution of `(1 + Y F') change = left`; `own` is the diagonal of `Y`.
+/// Nearly the solution of `(1 + Y F') change = left`, and whether contacts are far enough from each other for it; `own` is the diagonal of `Y`.
 #[inline(always)]
 fn jacobi<const N: usize>(
-    coupling: &Coupling<'_, N>,
+    compliances: &Compliances<N>,
     own: &[f64; N],
     slope: &[f64; N],
     left: &[f64; N],
-) -> [f64; N] {
+) -> ([f64; N], bool) {
     let own: [f64; N] = std::array::from_fn(|i| own[i] * slope[i]);
-    let mut change: [f64; N] = std::array::from_fn(|i| left[i] / (1.0 + own[i]));
+    let alone: [f64; N] = own.map(|own| 1.0 / (1.0 + own));
+    let mut change: [f64; N] = std::array::from_fn(|i| left[i] * alone[i]);
+    let mut converges = true;
     if N > 1 {
         for _ in 0..JACOBI_SWEEPS {
             let pushed: [f64; N] = std::array::from_fn(|i| slope[i] * change[i]);
-            let all = coupling.times(&pushed);
-            for i in 0..N {
-                change[i] = (left[i] - all[i] + own[i] * change[i]) / (1.0 + own[i]);
+            let all = product(compliances, &pushed);
+            let next: [f64; N] = std::array::from_fn(|i| (left[i] - all[i] + own[i] * change[i]) * alone[i]);
+            let whole = total(&next.map(f64::abs));
+            let moved = total::<N>(&std::array::from_fn(|i| (next[i] - change[i]).abs()));
+            change = next;
+            // A sweep moves the change by less than the one before by the ratio in which it moved the first one.
+            converges = moved <= MOST_MOVED * whole;
+            if moved <= SWEPT * whole {
+                break;
             }
         }
     }
-    change
+    (change, converges)
 }
 
 /// The solution of `(1 + Y F') change = left`.
-fn eliminated<const N: usize>(coupling: &Coupling<'_, N>, slope: &[f64; N], mut left: [f64; N]) -> [f64; N] {
+fn eliminated<const N: usize>(
+    compliances: &Compliances<N>,
+    slope: &[f64; N],
+    mut left: [f64; N],
+) -> [f64; N] {
     let mut matrix: Compliances<N> =
-        std::array::from_fn(|i| std::array::from_fn(|j| coupling.between(i, j) * slope[j]));
+        std::array::from_fn(|i| std::array::from_fn(|j| compliances[i][j] * slope[j]));
     for (i, row) in matrix.iter_mut().enumerate() {
         row[i] += 1.0;
     }
@@ -186,14 +192,13 @@ fn eliminated<const N: usize>(coupling: &Coupling<'_, N>, slope: &[f64; N], mut 
 
 /// Solves single contacts in turn until nothing changes.
 #[cold]
-fn sweep<const N: usize>(lanes: &mut ContactLanes<N>, coupling: &Coupling<'_, N>) {
+fn sweep<const N: usize>(lanes: &mut ContactLanes<N>, compliances: &Compliances<N>) {
     // Newton's method may have left anything behind.
     lanes.force = [0.0; N];
     for _ in 0..MAX_SWEEPS {
         let mut changed = false;
-        for i in 0..N {
-            let others: f64 =
-                (0..N).filter(|&j| j != i).map(|j| coupling.between(i, j) * lanes.force[j]).sum();
+        for (i, row) in compliances.iter().enumerate() {
+            let others: f64 = (0..N).filter(|&j| j != i).map(|j| row[j] * lanes.force[j]).sum();
             let one = ContactLanes::<1> {
                 stiffness: [lanes.stiffness[i]],
                 exponent: [lanes.exponent[i]],
@@ -202,7 +207,7 @@ fn sweep<const N: usize>(lanes: &mut ContactLanes<N>, coupling: &Coupling<'_, N>
                 loss: [lanes.loss[i]],
                 force: [0.0],
             };
-            let found = between_bounds(&one, coupling.between(i, i));
+            let found = between_bounds(&one, row[i]);
             changed |= (found - lanes.force[i]).abs() > SETTLED * found;
             lanes.force[i] = found;
         }
@@ -255,14 +260,31 @@ fn between_bounds(lane: &ContactLanes<1>, compliance: f64) -> f64 {
 /// A symmetric matrix times a vector.
 #[inline(always)]
 pub(crate) fn product<const N: usize>(matrix: &[[f64; N]; N], x: &[f64; N]) -> [f64; N] {
-    let mut sum = [0.0; N];
-    // By columns, which are rows: the sums run side by side.
-    for (row, x) in matrix.iter().zip(x) {
-        for (sum, y) in sum.iter_mut().zip(row) {
-            *sum += y * x;
+    let mut sums = [[0.0; N]; 2];
+    // By columns, which are rows: the sums run side by side, and those of two columns hide each other's latency.
+    let (rows, last) = matrix.as_chunks::<2>();
+    let (xs, last_x) = x.as_chunks::<2>();
+    for (rows, xs) in rows.iter().zip(xs) {
+        for i in 0..N {
+            sums[0][i] += rows[0][i] * xs[0];
+            sums[1][i] += rows[1][i] * xs[1];
         }
     }
-    sum
+    for (row, x) in last.iter().zip(last_x) {
+        sums[0].iter_mut().zip(row).for_each(|(sum, y)| *sum += y * x);
+    }
+    std::array::from_fn(|i| sums[0][i] + sums[1][i])
+}
+
+/// Sum of all, in an order that takes several at once.
+#[inline(always)]
+fn total<const N: usize>(x: &[f64; N]) -> f64 {
+    let mut parts = [0.0; 4];
+    let (quads, rest) = x.as_chunks::<4>();
+    for quad in quads {
+        parts.iter_mut().zip(quad).for_each(|(part, x)| *part += x);
+    }
+    (parts[0] + parts[1]) + (parts[2] + parts[3]) + rest.iter().sum::<f64>()
 }
 
 /// Solves a system of `n` equations. Without pivots: `1 + Y F'` is, but for a scaling, symmetric and positive.

@@ -19,22 +19,22 @@ fn steel() -> Tip {
 /// Holds the forces that [`solve`] finds against the equations, which the sweeps solve one contact at a time.
 fn check<const N: usize>(lanes: &ContactLanes<N>, coupling: &Coupling<'_, N>) {
     let (mut fast, mut slow) = (lanes.clone(), lanes.clone());
+    let whole = coupling.whole();
     assert!(
         if lanes.all_hertz() {
-            newton::<N, true>(&mut fast, coupling)
+            newton::<N, true>(&mut fast, &whole)
         } else {
-            newton::<N, false>(&mut fast, coupling)
+            newton::<N, false>(&mut fast, &whole)
         },
         "Newton's method does not converge"
     );
     let mut solved = lanes.clone();
     solve(Kernels::detect(), &mut solved, coupling);
-    sweep(&mut slow, coupling);
+    sweep(&mut slow, &whole);
     let largest = slow.force.iter().fold(0.0_f64, |most, x| most.max(*x));
-    for i in 0..N {
+    for (i, row) in whole.iter().enumerate() {
         // A sweep takes its force from a difference of compressions, and with it their rounding.
-        let rounding =
-            1e-14 * lanes.before[i].abs().max(lanes.free[i].abs()) / coupling.between(i, i).max(1e-9);
+        let rounding = 1e-14 * lanes.before[i].abs().max(lanes.free[i].abs()) / row[i].max(1e-9);
 
         assert!(
             (fast.force[i] - slow.force[i]).abs() <= 1e-8 * largest + rounding,
@@ -131,7 +131,7 @@ fn points_that_move_as_one_obey_the_equations() {
         }
         let coupling = Coupling { compliances: &compliances, stiffening: None };
         solve(Kernels::detect(), &mut lanes, &coupling);
-        let found = coupling.times(&lanes.force);
+        let found = product(&coupling.whole(), &lanes.force);
         let d = [lanes.free[0] - found[0], lanes.free[1] - found[1]];
         let (forces, _) = lanes.gradient::<true>(&lanes.roots(), &d);
         let largest = lanes.force[0].max(lanes.force[1]);
