@@ -37,6 +37,7 @@ pub mod sway;
 pub mod simd;
 
 use simd::Kernels;
+use simd::hear::Hear;
 use simd::ring::Drive;
 
 pub use coefs::Mode;
@@ -208,10 +209,7 @@ impl ModalBody {
 
     /// Present pressure at each receiver, without the part proportional to the force, Pa.
     pub fn listen(&self, weights: &ReceiverWeights) -> Pressure {
-        let dot = |weights, state| self.kernels.dot(weights, state);
-        weights.receivers.each_ref().map(|receiver| {
-            dot(&receiver.weight_re, &self.state.re) + dot(&receiver.weight_im, &self.state.im)
-        })
+        self.kernels.hear(Hear { re: &self.state.re, im: &self.state.im, weights: weights.rows() })
     }
 
     /// Advances without force and listens after each sample: [`step`](Self::step) and

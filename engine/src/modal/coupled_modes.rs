@@ -5,6 +5,7 @@
 
 use super::simd::LANES;
 use super::simd::coupled_modes::{Along, FORCES, PushAndHear};
+use super::simd::hear::Hear;
 use super::{InputVector, ModalBody, Pressure, ReceiverWeights, Row, zero_row};
 
 /// Coefficients of the coupled modes of one body, in whole SIMD lanes.
@@ -134,11 +135,7 @@ impl ModalBody {
     /// Pressure of the coupled modes alone at each receiver; see [`listen`](Self::listen).
     pub fn listen_coupled(&self, coupled: &CoupledModes, weights: &ReceiverWeights) -> Pressure {
         let n = coupled.length.min(self.state.im.len());
-        let dot =
-            |weights: &[f32], state: &[f32]| self.kernels.dot(&weights[..n.min(weights.len())], &state[..n]);
-        weights.receivers.each_ref().map(|receiver| {
-            dot(&receiver.weight_re, &self.state.re) + dot(&receiver.weight_im, &self.state.im)
-        })
+        self.kernels.hear(Hear { re: &self.state.re[..n], im: &self.state.im[..n], weights: weights.rows() })
     }
 
     /// [`push`](Self::push) of the coupled modes alone, by a force in N.

@@ -42,6 +42,11 @@ impl ReceiverWeights {
         self.receivers[RECEIVERS - 1] = Receiver::new(vec![[0.0; 2]; modes]);
     }
 
+    /// Weights of the state at each receiver, real and imaginary part, `[mode]`.
+    pub(super) fn rows(&self) -> [[&[f32]; 2]; RECEIVERS] {
+        self.receivers.each_ref().map(|receiver| [&receiver.weight_re[..], &receiver.weight_im[..]])
+    }
+
     /// The transfer from each mode's acceleration to a receiver, Pa s2/m, `[mode]`. After a change call
     /// [`ModalBody::tune`](super::ModalBody::tune).
     pub fn transfer_mut(&mut self, receiver: usize) -> &mut [[f64; 2]] {

@@ -12,6 +12,7 @@
 pub mod blocks;
 pub mod dispatch;
 pub mod flush;
+pub mod hear;
 pub mod rim_harmonics;
 pub mod coupled_modes;
 pub mod level;

@@ -4,6 +4,15 @@ use pulp::Simd;
 
 use super::dispatch::{Kernel, Kernels};
 
+/// Sums side by side, which hide the latency of the addition.
+const SUMS: usize = 4;
+
+/// All lanes of all sums.
+#[inline(always)]
+fn total<S: Simd>(simd: S, sums: [S::f32s; SUMS]) -> f32 {
+    simd.reduce_sum_f32s(simd.add_f32s(simd.add_f32s(sums[0], sums[1]), simd.add_f32s(sums[2], sums[3])))
+}
+
 /// A row that goes through whole vectors only.
 #[inline(always)]
 fn whole<S: Simd>(row: &[f32]) -> &[S::f32s] {
@@ -45,12 +54,14 @@ impl Kernels {
 
     /// `sum a * (x - y)`, each difference taken before it is weighted.
     pub fn dot_difference(&self, a: &[f32], x: &[f32], y: &[f32]) -> f32 {
-        self.run(DotDifference { a, x, y })
+        let length = a.len().min(x.len()).min(y.len());
+        self.run(DotDifference { a: &a[..length], x: &x[..length], y: &y[..length] })
     }
 
     /// `sum a * x^2`.
     pub fn dot_square(&self, a: &[f32], x: &[f32]) -> f32 {
-        self.run(DotSquare { a, x })
+        let length = a.len().min(x.len());
+        self.run(DotSquare { a: &a[..length], x: &x[..length] })
     }
 
     /// `out <- a * x + b * y`.
@@ -146,23 +157,21 @@ impl Kernel for Dot<'_> {
     type Output = f32;
     #[inline(always)]
     fn with<S: Simd>(self, simd: S, fma: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s + Copy) -> f32 {
-        // Four sums side by side hide the latency of the addition.
-        let mut sums = [simd.splat_f32s(0.0); 4];
+        let mut sums = [simd.splat_f32s(0.0); SUMS];
         let ((a, a_end), (b, b_end)) = (S::as_simd_f32s(self.a), S::as_simd_f32s(self.b));
         // Less than a vector: most rows are whole ones, and have none.
         let end: f32 = a_end.iter().zip(b_end).map(|(a, b)| a * b).sum();
-        let (a_fours, a_rest) = a.as_chunks::<4>();
-        let (b_fours, b_rest) = b.as_chunks::<4>();
+        let (a_fours, a_rest) = a.as_chunks::<SUMS>();
+        let (b_fours, b_rest) = b.as_chunks::<SUMS>();
         for (a, b) in a_fours.iter().zip(b_fours) {
-            for i in 0..4 {
+            for i in 0..SUMS {
                 sums[i] = fma(a[i], b[i], sums[i]);
             }
         }
         for (i, (&a, &b)) in a_rest.iter().zip(b_rest).enumerate() {
             sums[i] = fma(a, b, sums[i]);
         }
-        let sums = simd.add_f32s(simd.add_f32s(sums[0], sums[1]), simd.add_f32s(sums[2], sums[3]));
-        simd.reduce_sum_f32s(sums) + end
+        total(simd, sums) + end
     }
 }
 
@@ -176,12 +185,18 @@ impl Kernel for DotDifference<'_> {
     type Output = f32;
     #[inline(always)]
     fn with<S: Simd>(self, simd: S, fma: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s + Copy) -> f32 {
-        let mut sum = simd.splat_f32s(0.0);
-        let [a, x, y] = [self.a, self.x, self.y].map(whole::<S>);
-        for ((&a, &x), &y) in a.iter().zip(x).zip(y) {
-            sum = fma(a, simd.sub_f32s(x, y), sum);
+        let mut sums = [simd.splat_f32s(0.0); SUMS];
+        let [(a, a_rest), (x, x_rest), (y, y_rest)] =
+            [self.a, self.x, self.y].map(|row| whole::<S>(row).as_chunks::<SUMS>());
+        for ((a, x), y) in a.iter().zip(x).zip(y) {
+            for i in 0..SUMS {
+                sums[i] = fma(a[i], simd.sub_f32s(x[i], y[i]), sums[i]);
+            }
         }
-        simd.reduce_sum_f32s(sum)
+        for (i, ((&a, &x), &y)) in a_rest.iter().zip(x_rest).zip(y_rest).enumerate() {
+            sums[i] = fma(a, simd.sub_f32s(x, y), sums[i]);
+        }
+        total(simd, sums)
     }
 }
 
@@ -194,11 +209,17 @@ impl Kernel for DotSquare<'_> {
     type Output = f32;
     #[inline(always)]
     fn with<S: Simd>(self, simd: S, fma: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s + Copy) -> f32 {
-        let mut sum = simd.splat_f32s(0.0);
-        for (&a, &x) in whole::<S>(self.a).iter().zip(whole::<S>(self.x)) {
-            sum = fma(simd.mul_f32s(a, x), x, sum);
+        let mut sums = [simd.splat_f32s(0.0); SUMS];
+        let [(a, a_rest), (x, x_rest)] = [self.a, self.x].map(|row| whole::<S>(row).as_chunks::<SUMS>());
+        for (a, x) in a.iter().zip(x) {
+            for i in 0..SUMS {
+                sums[i] = fma(simd.mul_f32s(a[i], x[i]), x[i], sums[i]);
+            }
         }
-        simd.reduce_sum_f32s(sum)
+        for (i, (&a, &x)) in a_rest.iter().zip(x_rest).enumerate() {
+            sums[i] = fma(simd.mul_f32s(a, x), x, sums[i]);
+        }
+        total(simd, sums)
     }
 }
 
