@@ -132,12 +132,14 @@ fn newton<const N: usize, const ALL_HERTZ: bool>(
             eliminated(compliances, &slope, left)
         };
         lanes.force = std::array::from_fn(|i| force[i] + slope[i] * change[i]);
-        // NaN does not count as settled.
+        let found = compressions(&lanes.force, &lanes.free);
+        // NaN does not count as settled. The bodies alone may agree while the law does not, where a change is far from the solution.
         let mut settled = true;
         for i in 0..N {
-            settled &= change[i].abs() <= LAST_STEP * lanes.before[i].abs().max(lanes.free[i].abs());
-            d[i] += change[i];
+            let scale = LAST_STEP * lanes.before[i].abs().max(lanes.free[i].abs());
+            settled &= (found[i] - d[i]).abs() <= scale && change[i].abs() <= 2.0 * scale;
         }
+        d = found;
         if settled {
             lanes.force.iter_mut().for_each(|force| *force = force.max(0.0));
             return true;

@@ -133,7 +133,7 @@ pub fn page() -> Result<Page> {
     for subject in SUBJECTS.iter().filter(|subject| spec(subject.piece).drum().is_some()) {
         sheet.heading(&format!("{}, in the mix", subject.name));
         let rows = ABOUT.iter().map(|about| row_in_the_mix(about, subject));
-        sheet.table(&head(), rows.collect::<Result<_>>()?);
+        sheet.table(&head(), rows.collect::<Result<Vec<_>>>()?);
     }
     Ok(sheet.finish())
 }
@@ -184,13 +184,13 @@ fn row(name: &str, piece: &PieceSpec, strikes: &[Strike]) -> Result<Vec<String>>
 fn row_in_the_mix((name, assignment, take): &About, subject: &Subject) -> Result<Vec<String>> {
     let kit = take(KitSpec::standard(), subject);
     let assigned = Some(assignment).filter(|text| !text.is_empty());
-    let settings = assigned.map(|text| parse_assignment(text, &kit)).into_iter().collect::<Result<_, _>>()?;
+    let setting = assigned.map(|text| parse_assignment(text, &kit)).transpose()?;
     let notes = NoteTable::standard(&kit);
     let request = realism::Request {
         subjects: vec![*subject],
         speeds: SPEEDS.to_vec(),
         kit: KitDocument { kit, notes },
-        settings,
+        settings: setting.into_iter().collect(),
         pace: Pace::RealTime,
     };
     let sounds: Mutex<Vec<([u64; 2], Vec<f32>)>> = Mutex::default();
