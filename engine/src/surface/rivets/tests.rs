@@ -191,14 +191,17 @@ fn what_shakes_the_plate_wakes_rivets_that_lie() {
 
 #[test]
 fn ends_that_are_left_out_would_not_have_touched() {
-    // The same with both ends of all rivets solved for in every sample.
+    // The same with both ends of all rivets solved for in every sample: other sums round otherwise, and rivets that bounce make
+    // a hundred times as much of a difference every few milliseconds.
     let mut cymbal = cymbal("crash", Some(SIX), Idealization { linear: true, ..Idealization::default() });
     let mut sounds = [false, true].map(|all| {
         let surface = cymbal.surface_mut();
         surface.reset();
         surface.attachment_mut::<Rivets>().unwrap().solves_all = all;
         surface.strike(&Strike { speed: 6.0, ..STROKE });
-        play(surface, 0.03)
+        let sound = play(surface, 0.012);
+        assert!(rivets(surface).landings() > 20, "{}", rivets(surface).landings());
+        sound
     });
     let loudest = sounds[0].iter().fold(0.0_f32, |most, x| most.max(x.abs()));
     let [near, all] = &mut sounds;
