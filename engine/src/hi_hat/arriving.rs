@@ -26,6 +26,10 @@ use super::settling::STILL;
 /// Gap that the rims keep when they are displaced through the air, m. *Derived*: the way of 5 m/s in a sample.
 const CLEARANCE: f64 = 2e-4;
 
+/// Rims that are pressed together by less than this are open, N. *Derived*: a ninth of the upper cymbal's weight, which leans on
+/// one side; half-open ones are pressed by more.
+const LEANING: f64 = 1.0;
+
 impl Pair {
     /// Brings the rod to `end` (m), within [`ARRIVAL`](super::ARRIVAL).
     ///
@@ -36,7 +40,7 @@ impl Pair {
         let before = self.held();
         let touching = self.statics.depth.iter().sum::<f64>() / POINTS as f64;
         let mut quiet = self.held_energy() + site.body.modal().energy() < STILL;
-        if !quiet && self.clamped() == 0.0 && end > touching {
+        if !quiet && self.clamped() < LEANING && end > touching {
             self.pedal.fading.take(&mut site, &mut self.lower);
             quiet = true;
         }
