@@ -2,7 +2,7 @@
 
 use pulp::Simd;
 
-use super::dispatch::{Kernel, Kernels};
+use super::dispatch::{Kernel, Kernels, size};
 
 /// Below this any mode's state is set to zero: 20 decades under the motion of a soft stroke, and
 /// 18 above the smallest normal `f32`. *Derived*.
@@ -29,7 +29,7 @@ impl Kernel for Flush<'_> {
         let below = self.below.map_or(&[][..], |row| S::as_simd_f32s(row).0);
         let (re, im) = (S::as_mut_simd_f32s(self.re).0, S::as_mut_simd_f32s(self.im).0);
         for (i, (re, im)) in re.iter_mut().zip(im).enumerate() {
-            let size = simd.max_f32s(simd.abs_f32s(*re), simd.abs_f32s(*im));
+            let size = simd.max_f32s(size(simd, *re), size(simd, *im));
             let gone = simd.less_than_f32s(size, below.get(i).copied().unwrap_or(quiet));
             let zero = simd.splat_f32s(0.0);
             *re = simd.select_f32s(gone, zero, *re);

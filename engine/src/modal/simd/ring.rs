@@ -2,7 +2,7 @@
 
 use pulp::Simd;
 
-use super::dispatch::{Kernel, Kernels, LANES};
+use super::dispatch::{Kernel, Kernels, LANES, size};
 use super::primitives::turn;
 use crate::receiver::POINTS;
 
@@ -165,8 +165,11 @@ fn ring_some<S: Simd, const G: usize>(
 /// Whether any lane is not zero.
 #[inline(always)]
 fn any<S: Simd>(simd: S, row: &[S::f32s]) -> bool {
-    let largest =
-        row.iter().fold(simd.splat_f32s(0.0), |largest, &x| simd.max_f32s(largest, simd.abs_f32s(x)));
+    let mut largest = simd.splat_f32s(0.0);
+    // A loop: a closure may be compiled without the instructions of `S`.
+    for &x in row {
+        largest = simd.max_f32s(largest, size(simd, x));
+    }
     // A NaN may count as zero here: the check for finite values finds it.
     simd.reduce_max_f32s(largest) != 0.0
 }
