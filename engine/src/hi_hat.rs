@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! foot --> rod --> clutch --> upper cymbal (shell, heave, tilt) <-- strikers
-//!                                   | 16 contacts around the rim
+//!                                   | 32 contacts around the rim
 //!                 floor --> seat --> lower cymbal (shell, heave, tilt)
 //! ```
 //!
@@ -30,6 +30,7 @@ pub mod rigid;
 pub mod rigid_sound;
 pub mod rim_points;
 mod settling;
+mod solving;
 pub mod spec;
 mod step;
 pub mod warp;

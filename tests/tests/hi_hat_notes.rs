@@ -27,7 +27,7 @@ fn a_struck_note_is_closed_or_open_in_5_ms() {
         let name = case((before, note));
         for velocity in VELOCITIES {
             let clamped = after(before, note, velocity).1.clamped;
-            // Open ones lean on each other at one side at most.
+            // Open ones touch at one side at most.
             let expected = if note == 42 { 24.0..101.0 } else { 0.0..0.1 };
             assert!(expected.contains(&clamped), "{name} at {velocity}: clamped with {clamped} N after 5 ms");
         }

@@ -45,54 +45,21 @@ const MAX_ITERATIONS: usize = 60;
 /// Compliance between contacts, `[contact][contact]`, symmetric, m/N.
 pub type Compliances<const N: usize = MAX_CONTACTS> = [[f64; N]; N];
 
-/// What a [nonlinear force](crate::potential) takes from the compliances: `u u / divisor`.
-#[derive(Debug, Clone, Copy)]
-pub struct Stiffening<'a, const N: usize> {
-    /// `u`, the coupling of each contact, m over the root of J.
-    pub coupling: &'a [f64; N],
-    /// Dimensionless.
-    pub divisor: f64,
-}
-
-/// How contacts move each other within a sample.
-#[derive(Debug, Clone, Copy)]
-pub struct Coupling<'a, const N: usize> {
-    /// Compliances, `stiffening` left out, m/N.
-    pub compliances: &'a Compliances<N>,
-    /// What is to be taken from them, if anything.
-    pub stiffening: Option<Stiffening<'a, N>>,
-}
-
-impl<const N: usize> Coupling<'_, N> {
-    /// Compliances, `stiffening` taken from them, m/N.
-    #[inline(always)]
-    fn whole(&self) -> Compliances<N> {
-        let mut whole = *self.compliances;
-        if let Some(Stiffening { coupling, divisor }) = self.stiffening {
-            for (row, u) in whole.iter_mut().zip(coupling) {
-                let by = u / divisor;
-                row.iter_mut().zip(coupling).for_each(|(y, u)| *y -= by * u);
-            }
-        }
-        whole
-    }
-}
-
 /// Finds all forces; they replace the estimates in `lanes`.
 ///
 /// # Real-time
 /// At most 12 steps of the order of the square of the contacts, 12 of that of the cube, and 40 sweeps; usually 4 steps.
-pub fn solve<const N: usize>(kernels: Kernels, lanes: &mut ContactLanes<N>, coupling: &Coupling<'_, N>) {
+pub fn solve<const N: usize>(kernels: Kernels, lanes: &mut ContactLanes<N>, compliances: &Compliances<N>) {
     let solved = if lanes.all_hertz() {
         kernels.vectorized(
             #[inline(always)]
-            || newton::<N, true>(lanes, &coupling.whole()),
+            || newton::<N, true>(lanes, compliances),
         )
     } else {
-        newton::<N, false>(lanes, &coupling.whole())
+        newton::<N, false>(lanes, compliances)
     };
     if !solved {
-        sweep(lanes, &coupling.whole());
+        sweep(lanes, compliances);
     }
 }
 
@@ -100,7 +67,7 @@ pub fn solve<const N: usize>(kernels: Kernels, lanes: &mut ContactLanes<N>, coup
 pub fn force(law: &ContactLaw, step: &ContactStep) -> f64 {
     let mut lanes = ContactLanes::<1>::APART;
     lanes.set(0, law, step, 0.0);
-    solve(Kernels::baseline(), &mut lanes, &Coupling { compliances: &[[step.compliance]], stiffening: None });
+    solve(Kernels::baseline(), &mut lanes, &[[step.compliance]]);
     lanes.force[0]
 }
 

@@ -26,8 +26,8 @@ use super::settling::STILL;
 /// Gap that the rims keep when they are displaced through the air, m. *Derived*: the way of 5 m/s in a sample.
 const CLEARANCE: f64 = 2e-4;
 
-/// Rims that are pressed together by less than this are open, N. *Derived*: a ninth of the upper cymbal's weight, which leans on
-/// one side; half-open ones are pressed by more.
+/// Rims that are pressed together by less than this, N, ring as open ones do. *Derived*: a ninth of the upper cymbal's weight;
+/// half-open ones are pressed by twice as much.
 const LEANING: f64 = 1.0;
 
 impl Pair {

@@ -1,56 +1,18 @@
 //! The [`Pair`] as an attachment of the upper cymbal: the contacts at the rims are solved together with the strikers'.
 
-use crate::contact::force::ContactLanes;
-use crate::contact::solver::{self, Coupling};
 use crate::modal::simd::MAX_RUN;
 use crate::modal::{InputVector, Pressure, RECEIVERS};
 use crate::surface::attachment::{Attachment, Site};
 use crate::surface::body::{FreeStep, StruckBody, add};
-use crate::surface::contacts::{Contacts, STRIKER_PLACES};
+use crate::surface::contacts::Contacts;
 
 use super::pair::Pair;
 use super::rim_points::POINTS;
 use super::settling::Settled;
-
-/// Contacts of strikers and of rims.
-const MOST: usize = STRIKER_PLACES + POINTS;
+use super::solving::pressing;
 
 /// A striker farther away than this does not reach the surface within a sample, m.
 const APART: f64 = 1e-3;
-
-impl Pair {
-    /// Finds the forces of strikers and rims together.
-    fn solve_with(&mut self, contacts: &mut Contacts, divisor: f64) {
-        let n = contacts.present().len();
-        let (mut lanes, mut compliances) = (ContactLanes::<MOST>::APART, [[0.0; MOST]; MOST]);
-        for (k, &i) in contacts.present().iter().enumerate() {
-            let point = contacts.point(i);
-            lanes.set(k, &point.law, &point.step, point.force);
-        }
-        (0..POINTS).for_each(|j| self.set_lane(&mut lanes, n + j, j));
-        for (a, &i) in contacts.present().iter().enumerate() {
-            for (b, &j) in contacts.present().iter().enumerate() {
-                compliances[a][b] = contacts.stiffened(i, j);
-            }
-            compliances[a][a] = contacts.point(i).step.compliance;
-            for j in 0..POINTS {
-                let mutual = self.stiffened_to(i, contacts.coupling(i), j, divisor);
-                (compliances[a][n + j], compliances[n + j][a]) = (mutual, mutual);
-            }
-        }
-        for i in 0..POINTS {
-            for j in 0..POINTS {
-                compliances[n + i][n + j] = self.stiffened(i, j, divisor);
-            }
-        }
-        solver::solve(self.kernels, &mut lanes, &Coupling { compliances: &compliances, stiffening: None });
-        for k in 0..n {
-            let i = contacts.present()[k];
-            contacts.point_mut(i).force = lanes.force[k];
-        }
-        self.rims.force.copy_from_slice(&lanes.force[n..n + POINTS]);
-    }
-}
 
 impl Attachment for Pair {
     fn attached(&mut self, site: Site<'_>) {
@@ -110,14 +72,14 @@ impl Attachment for Pair {
             step.free.max(step.before) < -APART
         };
         if contacts.present().iter().all(apart) {
-            self.solve_alone(free.divisor);
+            self.solve_rims(None, free.divisor);
             for k in 0..contacts.present().len() {
                 let i = contacts.present()[k];
                 contacts.point_mut(i).force = 0.0;
             }
             return true;
         }
-        self.solve_with(contacts, free.divisor);
+        self.solve_rims(Some(contacts), free.divisor);
         true
     }
 
@@ -137,9 +99,7 @@ impl Attachment for Pair {
     }
 
     fn finish(&mut self, contacts: &Contacts, free: &FreeStep) -> Pressure {
-        let strikers = contacts.present().iter();
-        let strikers = strikers.map(|&i| (i, contacts.point(i).force, contacts.coupling(i)));
-        let mut heard = self.finish_sample(strikers, free.divisor);
+        let mut heard = self.finish_sample(pressing(contacts), free.divisor);
         add(&mut heard, self.pedal.fading.next());
         heard
     }

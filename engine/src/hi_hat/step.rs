@@ -4,9 +4,6 @@
 //! Signs: a striker presses the upper cymbal down. A rim point presses it up and the lower one down. The coupling of a contact
 //! with the upper cymbal's nonlinear force is positive in the direction in which that contact presses.
 
-use crate::contact::ContactStep;
-use crate::contact::force::ContactLanes;
-use crate::contact::solver::{self, Coupling, Stiffening, product};
 use crate::fitted;
 use crate::modal::simd::MAX_RUN;
 use crate::modal::simd::rim_harmonics::Amplitudes;
@@ -21,9 +18,6 @@ use super::rim_points::POINTS;
 
 /// Time constant in which the loss of a contact becomes that of a lasting one, s. *By ear*.
 const SETTLING: f64 = fitted::HAT_SETTLING;
-
-/// A gap smaller than this may close within a sample, m. *Derived*: the way of 5 m/s in a sample.
-const MARGIN: f64 = 2e-4;
 
 impl Pair {
     /// Sets the position of a striker: `radius` as a share of the radius, `angle` in rad.
@@ -135,42 +129,6 @@ impl Pair {
         }
     }
 
-    /// Whether a rim may be touching by the end of the sample.
-    pub(super) fn is_near(&self) -> bool {
-        self.engaged && (0..POINTS).any(|j| self.rims.free[j].max(self.rims.compression[j]) > -MARGIN)
-    }
-
-    /// Finds the forces at the rims if nothing else touches, `divisor` being the dimensionless `2 + G`.
-    pub(super) fn solve_alone(&mut self, divisor: f64) {
-        let mut lanes = ContactLanes::<POINTS>::APART;
-        (0..POINTS).for_each(|j| self.set_lane(&mut lanes, j, j));
-        let stiffening = Some(Stiffening { coupling: &self.dynamics.coupling, divisor });
-        solver::solve(self.kernels, &mut lanes, &Coupling { compliances: &self.dynamics.whole, stiffening });
-        self.rims.force = lanes.force;
-    }
-
-    /// Compliance between two rim points, m/N; `divisor` is that of the nonlinear force.
-    pub(super) fn stiffened(&self, i: usize, j: usize, divisor: f64) -> f64 {
-        self.dynamics.whole[i][j] - self.dynamics.coupling[i] * self.dynamics.coupling[j] / divisor
-    }
-
-    /// Compliance between a striker of that coupling and a rim point, m/N.
-    pub(super) fn stiffened_to(&self, point: usize, coupling: f64, j: usize, divisor: f64) -> f64 {
-        self.strikers[point].whole[j] - coupling * self.dynamics.coupling[j] / divisor
-    }
-
-    /// Puts the contact of place `j` into a lane, to be solved.
-    pub(super) fn set_lane<const N: usize>(&self, lanes: &mut ContactLanes<N>, lane: usize, j: usize) {
-        let step = ContactStep {
-            before: self.rims.compression[j],
-            free: self.rims.free[j],
-            compliance: self.dynamics.whole[j][j],
-            lambda: self.rims.lambda[j],
-            dt: self.dt,
-        };
-        lanes.set(lane, &self.rims.law, &step, self.rims.force[j]);
-    }
-
     /// Applies the forces at the rims. Returns their force on the nonlinear variable, and the pressure proportional to
     /// them, Pa.
     pub(super) fn press_rims(&mut self, top: &mut ModalBody) -> (f64, Pressure) {
@@ -200,24 +158,22 @@ impl Pair {
                 (0..now.len()).for_each(|part| heard_from[part] += now[part] - before[part]);
             }
         }
+        let (direct, mut heard) = (&self.dynamics.direct, Pressure::default());
         let down = self.kernels.vectorized(
             #[inline(always)]
-            || rim_points::amplitudes(&dynamic),
+            || {
+                let down = rim_points::amplitudes(&dynamic);
+                for (force, direct) in down.as_flattened().iter().zip(direct.as_flattened()) {
+                    heard.iter_mut().zip(direct).for_each(|(heard, direct)| *heard += force * direct);
+                }
+                down
+            },
         );
         let up: Amplitudes = down.map(|pair| pair.map(|x| -x));
         top.push_folded(&self.folded[0], &up);
         self.lower.modal.push_folded(&self.folded[1], &down);
-        let pressure = |forces: &Amplitudes, direct: &Amplitudes| -> f32 {
-            forces.iter().flatten().zip(direct.iter().flatten()).map(|(force, direct)| force * direct).sum()
-        };
         let pressed = dynamic.iter().zip(&self.dynamics.coupling).map(|(force, u)| force * u).sum();
-        let [above, below] = &self.dynamics.direct;
-        (
-            pressed,
-            std::array::from_fn(|receiver| {
-                pressure(&up, &above[receiver]) + pressure(&down, &below[receiver])
-            }),
-        )
+        (pressed, heard)
     }
 
     /// Ends the sample; `strikers` are the points present, their forces (N) and their coupling. Returns the pressure of the
@@ -232,21 +188,7 @@ impl Pair {
         if !self.engaged {
             return heard;
         }
-        let of_strikers: f64 = strikers.clone().map(|(_, force, u)| force * u).sum();
-        let of_rims: f64 =
-            self.rims.force.iter().zip(&self.dynamics.coupling).map(|(force, u)| force * u).sum();
-        let coupled = (of_strikers + of_rims) / divisor;
-        let (whole, force) = (&self.dynamics.whole, &self.rims.force);
-        let mut moved = self.kernels.vectorized(
-            #[inline(always)]
-            || product(whole, force),
-        );
-        for (point, force, _) in strikers {
-            moved.iter_mut().zip(&self.strikers[point].whole).for_each(|(moved, y)| *moved += y * force);
-        }
-        for (j, moved) in moved.into_iter().enumerate() {
-            self.rims.compression[j] = self.rims.free[j] - moved + self.dynamics.coupling[j] * coupled;
-        }
+        self.rims.compression = self.reached(strikers, divisor);
         self.rims.count();
         add(&mut heard, self.lower.modal.listen(&self.lower.receiver));
         heard

@@ -8,7 +8,7 @@
 
 use crate::contact::ContactStep;
 use crate::contact::force::ContactLanes;
-use crate::contact::solver::{self, Compliances, Coupling};
+use crate::contact::solver::{self, Compliances};
 use crate::modal::simd::Kernels;
 
 use super::body::{FreeStep, StruckBody};
@@ -288,7 +288,7 @@ impl Contacts {
             compliances[n][n] = point.step.compliance;
             lanes.set(n, &point.law, &ContactStep { free, ..point.step }, point.force);
         }
-        solver::solve(kernels, &mut lanes, &Coupling { compliances: &compliances, stiffening: None });
+        solver::solve(kernels, &mut lanes, &compliances);
         present.iter().zip(lanes.force).for_each(|(&i, force)| self.points[i].force = force);
     }
 }

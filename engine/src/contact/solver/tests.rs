@@ -17,22 +17,21 @@ fn steel() -> Tip {
 }
 
 /// Holds the forces that [`solve`] finds against the equations, which the sweeps solve one contact at a time.
-fn check<const N: usize>(lanes: &ContactLanes<N>, coupling: &Coupling<'_, N>) {
+fn check<const N: usize>(lanes: &ContactLanes<N>, compliances: &Compliances<N>) {
     let (mut fast, mut slow) = (lanes.clone(), lanes.clone());
-    let whole = coupling.whole();
     assert!(
         if lanes.all_hertz() {
-            newton::<N, true>(&mut fast, &whole)
+            newton::<N, true>(&mut fast, compliances)
         } else {
-            newton::<N, false>(&mut fast, &whole)
+            newton::<N, false>(&mut fast, compliances)
         },
         "Newton's method does not converge"
     );
     let mut solved = lanes.clone();
-    solve(Kernels::detect(), &mut solved, coupling);
-    sweep(&mut slow, &whole);
+    solve(Kernels::detect(), &mut solved, compliances);
+    sweep(&mut slow, compliances);
     let largest = slow.force.iter().fold(0.0_f64, |most, x| most.max(*x));
-    for (i, row) in whole.iter().enumerate() {
+    for (i, row) in compliances.iter().enumerate() {
         // A sweep takes its force from a difference of compressions, and with it their rounding.
         let rounding = 1e-14 * lanes.before[i].abs().max(lanes.free[i].abs()) / row[i].max(1e-9);
 
@@ -60,7 +59,7 @@ fn wires<const N: usize>(laws: &[ContactLaw], open: usize) {
             lanes.set(i, &laws[i % laws.len()], &step, 0.0);
             compliances[i][i] = step.compliance;
         }
-        check(&lanes, &Coupling { compliances: &compliances, stiffening: None });
+        check(&lanes, &compliances);
     }
 }
 
@@ -94,7 +93,11 @@ fn contacts_around_a_rim_obey_the_equations() {
         let compliances: Compliances<POINTS> = std::array::from_fn(|i| {
             std::array::from_fn(|j| if i == j { 5e-7 } else { 2e-8 * (scattered[i][j] + scattered[j][i]) })
         });
+        // What a nonlinear force takes.
         let coupling: [f64; POINTS] = std::array::from_fn(|_| 2e-4 * (chance() - 0.5));
+        let compliances: Compliances<POINTS> = std::array::from_fn(|i| {
+            std::array::from_fn(|j| compliances[i][j] - coupling[i] * coupling[j] / 2.3)
+        });
         let mut lanes = ContactLanes::<POINTS>::APART;
         for i in 0..POINTS {
             let before = 4e-6 * (chance() - 0.3);
@@ -111,8 +114,7 @@ fn contacts_around_a_rim_obey_the_equations() {
             }
             lanes.set(i, &law, &step, 0.0);
         }
-        let stiffening = Some(Stiffening { coupling: &coupling, divisor: 2.3 });
-        check(&lanes, &Coupling { compliances: &compliances, stiffening });
+        check(&lanes, &compliances);
     }
 }
 
@@ -129,9 +131,8 @@ fn points_that_move_as_one_obey_the_equations() {
             let free = before + 4e-6 * (chance() - 0.5);
             lanes.set(i, &law, &ContactStep { before, free, compliance: 3e-6, lambda: 3.0, dt: 2e-5 }, 0.0);
         }
-        let coupling = Coupling { compliances: &compliances, stiffening: None };
-        solve(Kernels::detect(), &mut lanes, &coupling);
-        let found = product(&coupling.whole(), &lanes.force);
+        solve(Kernels::detect(), &mut lanes, &compliances);
+        let found = product(&compliances, &lanes.force);
         let d = [lanes.free[0] - found[0], lanes.free[1] - found[1]];
         let (forces, _) = lanes.gradient::<true>(&lanes.roots(), &d);
         let largest = lanes.force[0].max(lanes.force[1]);
@@ -164,7 +165,7 @@ fn rivets_that_are_crowded_obey_the_equations() {
             };
             lanes.set(i, &law, &step, 8e-3);
         }
-        check(&lanes, &Coupling { compliances: &compliances, stiffening: None });
+        check(&lanes, &compliances);
     }
 }
 

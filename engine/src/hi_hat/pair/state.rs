@@ -5,8 +5,8 @@ use crate::contact::solver::Compliances;
 use crate::hi_hat::rigid::{Rigid, Weights};
 use crate::hi_hat::rigid_sound::{RigidHeard, RigidSound};
 use crate::hi_hat::rim_points::{self, POINTS};
-use crate::modal::simd::rim_harmonics::{Amplitudes, RimHarmonics};
-use crate::modal::{ModalBody, RECEIVERS, ReceiverWeights};
+use crate::modal::simd::rim_harmonics::{MAX_CLASSES, RimHarmonics};
+use crate::modal::{ModalBody, Pressure, ReceiverWeights};
 
 /// Compliances of a striker's point.
 #[derive(Debug, Clone, Copy, Default)]
@@ -25,8 +25,9 @@ pub(crate) struct Dynamics {
     pub(crate) whole: Compliances<POINTS>,
     /// `shells` times the preloads, m.
     pub(crate) preload_offset: [f64; POINTS],
-    /// Pressure at each receiver proportional to the force, per force amplitude, of both cymbals, Pa/N.
-    pub(crate) direct: [[Amplitudes; RECEIVERS]; 2],
+    /// Pressure at each receiver proportional to the force, of both cymbals, per amplitude of the force that presses the lower one
+    /// down, `[class][cosine, sine]`, Pa/N.
+    pub(crate) direct: [[Pressure; 2]; MAX_CLASSES],
     /// Coupling of the rim points with the upper cymbal's nonlinear force, positive as a point presses.
     pub(crate) coupling: [f64; POINTS],
     /// How both cymbals are heard as rigid bodies.
@@ -60,7 +61,14 @@ impl Dynamics {
             }
         }
         let [(top, near), (bottom, far)] = bodies;
-        self.direct = [top.folded_direct(&folded[0], near), bottom.folded_direct(&folded[1], far)];
+        let [above, below] = [top.folded_direct(&folded[0], near), bottom.folded_direct(&folded[1], far)];
+        for (class, direct) in self.direct.iter_mut().enumerate() {
+            for (part, direct) in direct.iter_mut().enumerate() {
+                *direct = std::array::from_fn(|receiver| {
+                    below[receiver][class][part] - above[receiver][class][part]
+                });
+            }
+        }
     }
 
     /// Updates the offset of the preloads (N).

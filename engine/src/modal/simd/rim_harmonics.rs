@@ -10,7 +10,7 @@ use super::dispatch::{Kernel, Kernels, LANES};
 use crate::modal::row::{Row, zero_row};
 
 /// Most classes there can be.
-pub const MAX_CLASSES: usize = 9;
+pub const MAX_CLASSES: usize = 17;
 
 /// Amplitude of the cosine and of the sine, `[class]`.
 pub type Amplitudes = [[f32; 2]; MAX_CLASSES];

@@ -2,7 +2,7 @@
 
 use crate::contact::ContactStep;
 use crate::contact::force::ContactLanes;
-use crate::contact::solver::{self, Coupling};
+use crate::contact::solver;
 use crate::surface::body::{FreeStep, StruckBody};
 use crate::surface::contacts::{Contacts, STRIKER_PLACES};
 
@@ -137,8 +137,7 @@ impl Rivets {
                     ENDS[lane.end] * ENDS[other.end] * self.between(lane.rivet, other.rivet, free);
             }
         }
-        let coupling = Coupling { compliances: &compliances, stiffening: None };
-        solver::solve(self.kernels, &mut lanes, &coupling);
+        solver::solve(self.kernels, &mut lanes, &compliances);
         for k in 0..n {
             let i = contacts.present()[k];
             contacts.point_mut(i).force = lanes.force[k];
