@@ -205,7 +205,7 @@ fn yamaha_notes_of_a_snare_thrown_off_and_cups_of_hats() {
             stroke("snare", 0.4, RimShot),
             stroke("ride", 0.97, Shoulder),
             stroke("ride", 0.12, Stick),
-            foot(0.4),
+            foot(0.46),
             stroke("hi-hat", 0.12, Stick),
             foot(0.8),
             stroke("hi-hat", 0.12, Stick),
@@ -230,9 +230,9 @@ fn alesis_half_open_notes_and_note_offs_that_choke() {
     assert_found(
         &Module::new(NoteMap::Alesis).replay(stream),
         &[
-            foot(0.4),
+            foot(0.46),
             stroke("hi-hat", 0.97, Shoulder),
-            foot(0.5),
+            foot(0.48),
             stroke("hi-hat", 0.97, Shoulder),
             foot(0.8),
             stroke("hi-hat", 0.97, Shoulder),
@@ -261,7 +261,7 @@ fn efnote_bows_edges_and_half_open_hats() {
             stroke("hi-hat", 0.65, Stick),
             foot(0.8),
             stroke("hi-hat", 0.97, Shoulder),
-            foot(0.5),
+            foot(0.48),
             stroke("hi-hat", 0.97, Shoulder),
             stroke("crash", 0.97, Shoulder),
             stroke("crash", 0.6, Stick),
@@ -329,7 +329,7 @@ fn megadrum_openings_choke_notes_and_a_noisy_pedal_double_triggers_and_crosstalk
         (250, [0x99, 28, 90]),
         (300, [0x99, 29, 90]),
     ];
-    let expected: Vec<Found> = [1.0, 0.65, 0.5, 0.45, 0.3, 0.15, 0.0]
+    let expected: Vec<Found> = [1.0, 0.65, 0.48, 0.4, 0.3, 0.15, 0.0]
         .into_iter()
         .flat_map(|place| [foot(place), stroke("hi-hat", 0.97, Shoulder)])
         .collect();
@@ -370,6 +370,6 @@ fn a_stuck_pedal_is_not_listened_to_so_that_notes_open_and_close_the_hats() {
         &[(0, [0xB9, 4, 64]), (0, [0x99, 26, 90]), (100, [0xB9, 4, 65]), (100, [0x99, 22, 90])];
     assert_found(
         &module.replay(stream),
-        &[foot(0.4), stroke("hi-hat", 0.97, Shoulder), foot(0.8), stroke("hi-hat", 0.97, Shoulder)],
+        &[foot(0.46), stroke("hi-hat", 0.97, Shoulder), foot(0.8), stroke("hi-hat", 0.97, Shoulder)],
     );
 }
