@@ -141,7 +141,7 @@ fn every_stroke_of_a_fast_pattern_is_heard_at_its_time() {
                 (note, player.render(sixteenth))
             })
             .collect();
-        let mut least = f64::INFINITY;
+        let (mut least, mut closing) = (f64::INFINITY, Vec::new());
         for pair in sounds.windows(2) {
             let [(former, before), (note, now)] = pair else { unreachable!() };
             let attack = between(now, 0.0, 0.008);
@@ -149,9 +149,12 @@ fn every_stroke_of_a_fast_pattern_is_heard_at_its_time() {
             match (former, note) {
                 (42 | 46, 42) | (42, 46) => {
                     least = least.min(over);
-                    // After the hardest strokes an open hi-hat rings as loud as the closed stroke that ends it begins.
+                    if (*former, *note) == (46, 42) {
+                        closing.push(over);
+                    }
+                    // Single ones of soft and of the hardest strokes are under what an open hi-hat still has.
                     assert!(
-                        over > -1.0,
+                        over > -2.0,
                         "velocity {velocity}: {note} after {former} is {over} dB over what rings"
                     );
                 }
@@ -165,7 +168,10 @@ fn every_stroke_of_a_fast_pattern_is_heard_at_its_time() {
                 _ => {}
             }
         }
-        println!("{velocity}: at least {least:.1} dB over what rings");
-        assert!(least < 15.0, "velocity {velocity}: {least} dB, nothing rings");
+        let mean = closing.iter().sum::<f64>() / closing.len() as f64;
+        println!("{velocity}: at least {least:.1} dB over what rings, 42 after 46 in the mean {mean:.1}");
+        // Of one recorded set closed strokes are 2 to 5 dB over what single half-open ones of their loudness have after 60 ms; here
+        // some follow each other.
+        assert!(mean > 0.0 && least < 15.0, "velocity {velocity}: {mean} dB in the mean, {least} dB");
     }
 }
