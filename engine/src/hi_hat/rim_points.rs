@@ -5,7 +5,8 @@ use std::f64::consts::TAU;
 use crate::modal::rim_harmonics::ClassCompliances;
 use crate::modal::simd::rim_harmonics::{Amplitudes, MAX_CLASSES};
 
-/// Points around the rims where they may touch. *Derived*: 35 mm apart, half a bending wave of 1 mm of bronze at 6 kHz.
+/// Points around the rims where they may touch. *Derived*: 35 mm apart, as far as a bending
+/// wave of 1 mm of bronze is long at 6 kHz.
 pub const POINTS: usize = 32;
 
 const _: () = assert!(CLASSES <= MAX_CLASSES);

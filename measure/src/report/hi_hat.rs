@@ -3,7 +3,9 @@
 use crate::spectra::PowerSpectrum;
 use crate::{decibels, lossless_piece, piece, render, stroke, total_energy};
 use anyhow::Result;
+use overhear::midi_map::NoteTable;
 use overhear_engine::hi_hat::foot::SPEED;
+use overhear_engine::kit_spec::KitSpec;
 use overhear_engine::piece::Piece;
 use overhear_engine::strike::Striker;
 
@@ -157,11 +159,11 @@ fn decays(sheet: &mut Sheet) -> Result<()> {
     Ok(())
 }
 
-/// Place of the pedal in half-open notes.
-const HALF_OPEN: f64 = 0.48;
-
 /// How much more there is above 5 kHz half open than open and than closed, in the half second after the stroke, dB;
 /// and the landings.
+///
+/// # Panics
+/// If the standard kit has no half-open note.
 pub fn sizzle_db(hat: &mut Piece) -> ([f64; 2], [u32; 3]) {
     let mut bright = |pedal: f64| {
         let Struck { sound, landings } = struck(hat, pedal, 4.0);
@@ -169,7 +171,9 @@ pub fn sizzle_db(hat: &mut Piece) -> ([f64; 2], [u32; 3]) {
         let spectrum = PowerSpectrum::hann(&sound[4410..4410 + 22_050], RATE);
         (spectrum.band(5000.0, 20_000.0).sqrt(), landings)
     };
-    let [open, half, closed] = [0.0, HALF_OPEN, 1.0].map(&mut bright);
+    let notes = NoteTable::standard(&KitSpec::standard());
+    let half_open = notes.row(100).and_then(|row| row.pedal).expect("a half-open note");
+    let [open, half, closed] = [0.0, half_open, 1.0].map(&mut bright);
     ([open, closed].map(|other| decibels(half.0, other.0)), [open.1, half.1, closed.1])
 }
 
