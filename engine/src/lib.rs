@@ -61,6 +61,7 @@ pub mod glide;
 // Where everything stands and how it is built.
 pub mod build_context;
 pub mod microphones;
+pub mod contour;
 pub mod layout;
 pub mod receiver;
 

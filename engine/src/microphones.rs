@@ -5,10 +5,12 @@
 //! of nine places from 5 to 50 cm this one brings 49 of 60 features of kick, snare and toms into the range of
 //! recordings (`cargo xtask realism` measures them), one fewer than 15 cm over .8 of the radius and as close to their
 //! middles as any; over the middle of a head its lowest modes drown all else.
-//! Cymbals and the timpani are heard from half a metre.
+//! Cymbals and the timpani are heard from half a metre. Responses are flat but for that of the kick's microphone, which has a
+//! [contour](crate::contour).
 
 use serde::{Deserialize, Serialize};
 
+use crate::contour::ContourSpec;
 use crate::fitted;
 use crate::layout::CLOSE;
 use crate::numbers::{Numbers, Visitor};
@@ -28,6 +30,9 @@ pub enum CloseSpec {
         azimuth: f64,
         /// Gain of its preamplifier, a factor, 0.001 to 10.
         gain: f64,
+        /// How far its response is from flat, if it is.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        contour: Option<ContourSpec>,
     },
     /// Beside the struck surface.
     Beside {
@@ -45,6 +50,9 @@ pub enum CloseSpec {
         time_zero: f64,
         /// Gain of its preamplifier, a factor, 0.001 to 10.
         gain: f64,
+        /// How far its response is from flat, if it is.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        contour: Option<ContourSpec>,
     },
 }
 
@@ -52,17 +60,19 @@ impl Numbers for CloseSpec {
     fn visit(&mut self, visitor: &mut dyn Visitor) {
         const AROUND: std::ops::RangeInclusive<f64> = -std::f64::consts::TAU..=std::f64::consts::TAU;
         match self {
-            CloseSpec::OverRim { height, azimuth, gain } => {
+            CloseSpec::OverRim { height, azimuth, gain, contour } => {
                 visitor.number("height_m", height, 0.02..=0.5);
                 visitor.number("azimuth_rad", azimuth, AROUND);
                 visitor.number("gain", gain, 1e-3..=10.0);
+                contour.iter_mut().for_each(|contour| contour.visit_part("contour", visitor));
             }
-            CloseSpec::Beside { distance, inclination, azimuth, time_zero, gain } => {
+            CloseSpec::Beside { distance, inclination, azimuth, time_zero, gain, contour } => {
                 visitor.number("distance_m", distance, 0.05..=3.0);
                 visitor.number("inclination_rad", inclination, 0.0..=1.4);
                 visitor.number("azimuth_rad", azimuth, AROUND);
                 visitor.number("time_zero_m", time_zero, 0.05..=3.0);
                 visitor.number("gain", gain, 1e-3..=10.0);
+                contour.iter_mut().for_each(|contour| contour.visit_part("contour", visitor));
             }
         }
     }
@@ -75,20 +85,29 @@ impl CloseSpec {
         height: fitted::OVER_RIM_HEIGHT,
         azimuth: fitted::OVER_RIM_AZIMUTH,
         gain: fitted::OVER_RIM_GAIN,
+        contour: None,
     };
 
     /// At a point, with a gain of 1.
     pub const fn beside(point: ReceiverPosition) -> CloseSpec {
         let ReceiverPosition { distance, inclination, azimuth } = point;
-        CloseSpec::Beside { distance, inclination, azimuth, time_zero: CLOSE, gain: 1.0 }
+        CloseSpec::Beside { distance, inclination, azimuth, time_zero: CLOSE, gain: 1.0, contour: None }
     }
 
-    /// The same microphone at a point: its gain and its time zero stay.
+    /// The same microphone at a point: its gain, its contour and its time zero stay.
     #[must_use]
     pub fn moved_to(&self, point: ReceiverPosition, radius: f64) -> CloseSpec {
         let ReceiverPosition { distance, inclination, azimuth } = point;
         let CloseMicrophone { time_zero, gain, .. } = self.of(radius);
-        CloseSpec::Beside { distance, inclination, azimuth, time_zero, gain: f64::from(gain) }
+        let contour = self.contour();
+        CloseSpec::Beside { distance, inclination, azimuth, time_zero, gain: f64::from(gain), contour }
+    }
+
+    /// How far its response is from flat, if it is.
+    pub fn contour(&self) -> Option<ContourSpec> {
+        match *self {
+            CloseSpec::OverRim { contour, .. } | CloseSpec::Beside { contour, .. } => contour,
+        }
     }
 
     /// Where it stands at a piece of that radius (m), seen from the middle of the struck surface.

@@ -8,6 +8,7 @@ pub use crate::mode::{Member, ModeInfo, ModeKind};
 use std::ops::RangeInclusive;
 
 use crate::block::{BLOCK, FOLLOWED};
+use crate::contour::Contour;
 use crate::cymbal::Cymbal;
 use crate::drum::Drum;
 use crate::error::SpecError;
@@ -64,6 +65,24 @@ impl Turn {
     }
 }
 
+/// A close microphone, and what it makes of sound.
+struct CloseChannel {
+    microphone: CloseMicrophone,
+    contour: Option<Contour>,
+}
+
+impl CloseChannel {
+    /// Takes pressure to what the microphone gives.
+    fn hear(&mut self, sound: &mut [f32]) {
+        self.contour.iter_mut().for_each(|contour| contour.hear(sound));
+    }
+
+    /// Forgets what it has heard.
+    fn reset(&mut self) {
+        self.contour.iter_mut().for_each(Contour::reset);
+    }
+}
+
 /// A built piece that can be struck and heard.
 pub struct Piece {
     slot: Slot,
@@ -79,7 +98,7 @@ pub struct Piece {
     asleep: bool,
     quarantines: u32,
     placement: Placement,
-    close: CloseMicrophone,
+    close: CloseChannel,
     /// Lowest, own and highest tuning.
     tunings: [f64; 3],
     /// Largest sound since the block began, Pa, and samples for which it has been next to nothing.
@@ -119,7 +138,10 @@ impl Piece {
             asleep: true,
             quarantines: 0,
             placement: build.spec.placement(),
-            close: build.spec.close.of(build.spec.instrument.radius()),
+            close: CloseChannel {
+                microphone: build.spec.close.of(build.spec.instrument.radius()),
+                contour: build.spec.close.contour().map(|spec| Contour::new(&spec, options.sample_rate)),
+            },
             tunings: build.spec.instrument.tunings(),
             loudest: 0.0,
             quiet: 0,
@@ -189,6 +211,11 @@ impl Piece {
             self.hear();
             self.render_stretch(out.each_mut().map(|out| &mut out[before..]), incident, before);
         }
+        if self.asleep {
+            self.close.reset();
+        } else {
+            self.close.hear(out[0]);
+        }
         self.loudest = out.iter().flat_map(|out| out.iter()).fold(self.loudest, |size, x| size.max(x.abs()));
         self.phase = (self.phase + samples) % BLOCK;
         self.unglided += samples;
@@ -251,7 +278,7 @@ impl Piece {
 
     /// Its close microphone.
     pub fn close(&self) -> &CloseMicrophone {
-        &self.close
+        &self.close.microphone
     }
 
     /// Begins a block: follows controls, makes silence exact, catches values that are not finite.
@@ -288,6 +315,7 @@ impl Piece {
     /// Puts the piece to rest and at the start of a block.
     pub fn reset(&mut self) {
         self.instrument.surface_mut().reset();
+        self.close.reset();
         self.asleep = true;
         (self.loudest, self.quiet) = (0.0, 0);
         self.finish_controls();

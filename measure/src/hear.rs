@@ -81,9 +81,11 @@ fn unmixed(mut spec: KitSpec) -> KitSpec {
     if let Some(piece) = spec.pieces.first_mut() {
         let PieceSpec { close, defaults, .. } = piece;
         *close = match *close {
-            CloseSpec::OverRim { height, azimuth, .. } => CloseSpec::OverRim { height, azimuth, gain: 1.0 },
-            CloseSpec::Beside { distance, inclination, azimuth, .. } => {
-                CloseSpec::Beside { distance, inclination, azimuth, time_zero: distance, gain: 1.0 }
+            CloseSpec::OverRim { height, azimuth, contour, .. } => {
+                CloseSpec::OverRim { height, azimuth, gain: 1.0, contour }
+            }
+            CloseSpec::Beside { distance, inclination, azimuth, contour, .. } => {
+                CloseSpec::Beside { distance, inclination, azimuth, time_zero: distance, gain: 1.0, contour }
             }
         };
         // A pan all the way to one side is a factor of 1 there.

@@ -6,6 +6,7 @@ use std::f64::consts::{PI, TAU};
 
 use crate::build_context::Idealization;
 use crate::contact::Material;
+use crate::contour::ContourSpec;
 use crate::cymbal::FELT_RADIUS;
 use crate::cymbal::alloy::Alloy;
 use crate::cymbal::hammering::HammeringSpec;
@@ -158,12 +159,13 @@ fn piece(
     }
 }
 
-/// The piece, its close microphone as far from the head as those of kicks stand.
+/// The piece, its close microphone as far from the head as those of kicks stand, and with their contour.
 fn at_a_kick(piece: PieceSpec) -> PieceSpec {
     let close = CloseSpec::OverRim {
         height: fitted::KICK_CLOSE_HEIGHT,
         azimuth: fitted::OVER_RIM_AZIMUTH,
         gain: fitted::KICK_CLOSE_GAIN,
+        contour: Some(ContourSpec::KICK),
     };
     PieceSpec { close, ..piece }
 }
@@ -171,10 +173,10 @@ fn at_a_kick(piece: PieceSpec) -> PieceSpec {
 /// Modes of a struck head reach this far; above, single modes can no longer be told apart. Hz.
 const BATTER_MODES_TO: f64 = 3000.0;
 
-/// The same of a floor tom, Hz: from here on two modes of its head lie within the half-power width of one, as on a rack tom's from 3 kHz on. *Derived*
-/// from its density of modes, 0.25 per hertz, and their decay. To 3 kHz, contacts are 2 % shorter and decays the same, but the density
-/// is heard to step where the set ends.
-const FLOOR_TOM_MODES_TO: f64 = 1800.0;
+/// The same of a floor tom, Hz: from here on two modes of the drum, both heads together, lie within the half-power width of one. *Derived*
+/// from their density, 0.5 per hertz, and their decay. A rack tom's would reach to 2 kHz by this rule, and reaches as far as recorded ones
+/// [are lines](fitted::RACK_TOM_MODES_TO).
+const FLOOR_TOM_MODES_TO: f64 = 1200.0;
 
 /// What a pillow takes from the air that goes past it, 1/s: `r / (2 rho)` of all the air if none could go around
 /// it, with the flow resistivity `r` of polyester filling, 850 Pa s/m2 at 12 kg/m3 (*literature*: Garai & Pompoli,
@@ -338,24 +340,22 @@ fn snare() -> InstrumentSpec {
     })
 }
 
-/// A tom: two-ply batter, single-ply resonant head.
-fn tom(size_in: [f64; 2], pitches: [f64; 3], seed: u32) -> InstrumentSpec {
+/// A tom: two-ply batter whose modes reach up to `modes_to_hz`, single-ply resonant head.
+fn tom(size_in: [f64; 2], pitches: [f64; 3], modes_to_hz: f64, seed: u32) -> InstrumentSpec {
     let drum = two_headed(size_in, film(0.36e-3, 2, TOM_LOSS), single_ply(1.15, 2500.0), pitches);
     let tension_field = Some(TensionFieldSpec { seed, ..UNEVEN });
-    InstrumentSpec::Drum(DrumSpec { hoop: Some(HOOP), edge: Some(TOM_EDGE), tension_field, ..drum })
+    let batter = HeadSpec { modes_to_hz, ..drum.batter };
+    InstrumentSpec::Drum(DrumSpec { batter, hoop: Some(HOOP), edge: Some(TOM_EDGE), tension_field, ..drum })
 }
 
 /// 12 x 9 in rack tom, heard at 127 Hz, as recorded ones are. *Fitted*.
 fn rack_tom() -> InstrumentSpec {
-    tom([12.0, 9.0], [80.0, fitted::RACK_TOM_PITCH_HZ, 225.0], 3)
+    tom([12.0, 9.0], [80.0, fitted::RACK_TOM_PITCH_HZ, 225.0], fitted::RACK_TOM_MODES_TO, 3)
 }
 
 /// 16 x 16 in floor tom, heard at 72 Hz, as recorded ones are. *Fitted*.
 fn floor_tom() -> InstrumentSpec {
-    let tom = tom([16.0, 16.0], [55.0, fitted::FLOOR_TOM_PITCH_HZ, 145.0], 4);
-    let InstrumentSpec::Drum(drum) = tom else { return tom };
-    let batter = HeadSpec { modes_to_hz: FLOOR_TOM_MODES_TO, ..drum.batter };
-    InstrumentSpec::Drum(DrumSpec { batter, ..drum })
+    tom([16.0, 16.0], [55.0, fitted::FLOOR_TOM_PITCH_HZ, 145.0], FLOOR_TOM_MODES_TO, 4)
 }
 
 /// 26 in timpani on a kettle of 0.14 m3.
