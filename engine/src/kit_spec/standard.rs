@@ -173,6 +173,10 @@ fn at_a_kick(piece: PieceSpec) -> PieceSpec {
 /// Modes of a struck head reach this far; above, single modes can no longer be told apart. Hz.
 const BATTER_MODES_TO: f64 = 3000.0;
 
+/// The same of a kick, Hz, on whose heads a pillow lies: six modes lie within the half-power width of one here, and two from 0.5 kHz on. *Judgement*: an
+/// end at 1 or 1.5 kHz changes the attack.
+const KICK_MODES_TO: f64 = 2000.0;
+
 /// The same of a floor tom, Hz: from here on two modes of the drum, both heads together, lie within the half-power width of one. *Derived*
 /// from their density, 0.5 per hertz, and their decay. A rack tom's would reach to 2 kHz by this rule, and reaches as far as recorded ones
 /// [are lines](fitted::RACK_TOM_MODES_TO).
@@ -308,8 +312,9 @@ fn kick() -> InstrumentSpec {
     );
     let muffler =
         Muffler::Pillow { sigma: fitted::PILLOW_SIGMA, corner_hz: PILLOW_CORNER, flow: PILLOW_FLOW };
+    let batter = HeadSpec { modes_to_hz: KICK_MODES_TO, ..drum.batter };
     let resonant = drum.resonant.map(|head| ResonantSpec { port_diameter: Some(PORT), ..head });
-    InstrumentSpec::Drum(DrumSpec { muffler, resonant, ..drum })
+    InstrumentSpec::Drum(DrumSpec { batter, muffler, resonant, ..drum })
 }
 
 /// 14 x 5.5 in snare drum. Its pitch is *fitted*: close by, a snare of 220 Hz is taken for one of 370 Hz, its (1,1); so tuned
