@@ -106,7 +106,7 @@ mod tests {
     fn it_dips_and_peaks_where_it_should_and_leaves_the_fundamental() {
         for rate in [44_100.0, 48_000.0, 96_000.0, 192_000.0] {
             let kick = ContourSpec::KICK;
-            for (hz, wanted, within) in [(50.0, 0.0, 0.1), (500.0, -7.0, 0.3), (4000.0, 5.0, 0.3)] {
+            for (hz, wanted, within) in [(50.0, 0.0, 0.2), (500.0, -7.0, 0.3), (4000.0, 5.0, 0.3)] {
                 let got = gain(&kick, hz, rate);
                 assert!((got - wanted).abs() < within, "{rate} Hz: {got} dB at {hz} Hz");
             }
@@ -116,7 +116,7 @@ mod tests {
     #[test]
     fn a_low_sample_rate_leaves_it_finite() {
         let kick = ContourSpec { presence_hz: 8000.0, ..ContourSpec::KICK };
-        assert!(gain(&kick, 100.0, 8000.0).abs() < 0.5);
+        assert!(gain(&kick, 50.0, 8000.0).abs() < 0.2);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 //! A claim that is measured on one of them says so. All else is measured on the [standard kit](crate::standard()).
 
 use overhear_engine::cymbal::CymbalSpec;
-use overhear_engine::drum::{DrumSpec, HeadContact};
+use overhear_engine::drum::{DrumSpec, HeadContact, HeadSpec};
 use overhear_engine::hi_hat::HiHatSpec;
 use overhear_engine::hi_hat::warp::WarpSpec;
 use overhear_engine::kit_spec::{Defaults, InstrumentSpec, KitSpec, PieceSpec};
@@ -98,14 +98,19 @@ pub fn fixed_disc_kit() -> KitSpec {
     })
 }
 
-/// The rack tom with a fixed disc, of 140 Hz.
+/// The rack tom with a fixed disc, of 140 Hz, its modes complete to 3 kHz.
 pub fn fixed_disc_rack_tom() -> PieceSpec {
-    fixed_disc("rack-tom", |drum| DrumSpec { pitch_hz: 140.0, ..drum })
+    fixed_disc("rack-tom", |drum| complete_to(3000.0, DrumSpec { pitch_hz: 140.0, ..drum }))
 }
 
-/// The floor tom with a fixed disc, of 82 Hz.
+/// The floor tom with a fixed disc, of 82 Hz, its modes complete to 1.8 kHz.
 pub fn fixed_disc_floor_tom() -> PieceSpec {
-    fixed_disc("floor-tom", |drum| DrumSpec { pitch_hz: 82.0, ..drum })
+    fixed_disc("floor-tom", |drum| complete_to(1800.0, DrumSpec { pitch_hz: 82.0, ..drum }))
+}
+
+/// The drum with a batter whose modes are complete to a frequency, Hz.
+fn complete_to(modes_to_hz: f64, drum: DrumSpec) -> DrumSpec {
+    DrumSpec { batter: HeadSpec { modes_to_hz, ..drum.batter }, ..drum }
 }
 
 /// The timpani with a fixed disc.

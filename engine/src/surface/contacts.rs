@@ -230,11 +230,15 @@ impl Contacts {
         if self.count == 0 {
             return;
         }
-        self.stiffened = self.compliance;
+        let present = &self.present[..self.count];
+        for &i in present {
+            for &j in present {
+                self.stiffened[i][j] = self.compliance[i][j];
+            }
+        }
         if body.acting_force().is_none() {
             return;
         }
-        let present = &self.present[..self.count];
         if free.recoupled {
             for &i in present.iter().filter(|&&i| self.points[i].ground == Ground::Body) {
                 self.coupling[i] = body.coupling(&self.points[i].port);
