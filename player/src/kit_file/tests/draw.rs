@@ -2,6 +2,7 @@
 
 use std::ops::RangeInclusive;
 
+use overhear_engine::contour::ContourSpec;
 use overhear_engine::damping::Muffler;
 use overhear_engine::drum::{HeadContact, PitchOf, ShellSpec};
 use overhear_engine::kit_spec::{InstrumentSpec, KitSpec, PieceSpec, places};
@@ -122,7 +123,9 @@ fn piece(draw: &mut Draw, standard: &KitSpec, others: &[PieceSpec], slot: usize)
 fn parts(draw: &mut Draw, piece: &mut PieceSpec) {
     if draw.one_in(3) {
         let point = ReceiverPosition { distance: 0.4, inclination: 0.5, azimuth: -0.3 };
-        piece.close = draw.of(&[CloseSpec::OVER_RIM, CloseSpec::beside(point)]);
+        let (height, azimuth, gain, contour) = (0.07, -0.4, 0.3, Some(ContourSpec::KICK));
+        let contoured = CloseSpec::OverRim { height, azimuth, gain, contour };
+        piece.close = draw.of(&[CloseSpec::OVER_RIM, CloseSpec::beside(point), contoured]);
     }
     let mut yes = || draw.one_in(5);
     piece.ideal = Idealization { lossless: yes(), linear: yes(), round: yes() };

@@ -97,6 +97,17 @@ fn optional_parts_are_taken_away_and_put_back() {
 }
 
 #[test]
+fn a_microphones_contour_is_changed_and_taken_away() {
+    let contour = |text: &str| piece(&changed(text), "kick").close.contour();
+    assert_eq!(contour("[pieces.kick]\nclose.contour = \"none\""), None);
+    let deeper = contour("[pieces.kick]\nclose.contour.dip_db = -12").unwrap();
+    assert_eq!((deeper.dip_db, deeper.dip_hz), (-12.0, 500.0));
+    let snare =
+        "[pieces.snare]\nclose.contour = { dip_hz = 400, dip_db = 0, presence_hz = 6000, presence_db = 6 }";
+    assert_eq!(piece(&changed(snare), "snare").close.contour().unwrap().presence_db, 6.0);
+}
+
+#[test]
 fn a_table_of_another_kind_replaces_the_former() {
     let document = changed("[pieces.snare]\nmuffler = { kind = \"ring\", sigma_1_s = 50, inner = 0.8 }");
     let muffler = format!("{:?}", piece(&document, "snare").drum().unwrap().muffler);
