@@ -11,12 +11,14 @@ use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
 
 use overhear_engine::air_load::SPEED_OF_SOUND;
+use overhear_engine::contour::ContourSpec;
 use overhear_engine::cymbal::CymbalSpec;
 use overhear_engine::damping::{LossLaw, Muffler};
 use overhear_engine::drum::{DrumSpec, HeadContact, HeadSpec, PitchOf, ShellSpec};
 use overhear_engine::hi_hat::HiHatSpec;
 use overhear_engine::kit_spec::{InstrumentSpec, PieceSpec};
 use overhear_engine::membrane::dot::DotSpec;
+use overhear_engine::microphones::CloseSpec;
 use overhear_engine::numbers::{Numbers, Visitor};
 use overhear_engine::surface::rivets::{self, RivetsSpec};
 
@@ -130,7 +132,10 @@ fn draw(
         let mut piece = spec(chance.of(from));
         piece.instrument.visit(&mut Shaker(chance));
         piece.instrument = change(piece.instrument, chance);
+        // A contour stays what it is: no body depends on it.
+        let contour = contour_of(&mut piece.close).take();
         piece.close.visit(&mut Shaker(chance));
+        *contour_of(&mut piece.close) = contour;
         let wires = piece.drum().is_some_and(|drum| drum.wires.is_some());
         piece.defaults.preload = wires.then(|| 0.03 * 50.0_f64.powf(chance.unit()));
         piece.defaults.muffle = if chance.happens(0.5) { 0.0 } else { chance.unit() };
@@ -141,6 +146,13 @@ fn draw(
         }
     }
     panic!("no {from:?} of {TRIES} can be");
+}
+
+/// The contour of a microphone, to be changed.
+fn contour_of(close: &mut CloseSpec) -> &mut Option<ContourSpec> {
+    match close {
+        CloseSpec::OverRim { contour, .. } | CloseSpec::Beside { contour, .. } => contour,
+    }
 }
 
 /// Gives and takes parts of a drum.
