@@ -181,7 +181,7 @@ impl Piece {
         self.instrument.strike(strike);
     }
 
-    /// Renders sound pressure at the close microphone, far away as at a metre, and what other pieces hear as at a
+    /// Renders what the close microphone gives, sound pressure far away as at a metre, and what other pieces hear as at a
     /// metre, Pa, overwriting `out`, while sound from elsewhere arrives. At most to the end of the piece's block; how time
     /// is cut into calls does not change a sample.
     ///
@@ -293,6 +293,7 @@ impl Piece {
         }
         if !self.instrument.surface_mut().settle() {
             self.quarantines = self.quarantines.saturating_add(1);
+            self.close.reset();
         }
         self.asleep = self.instrument.surface().is_still();
     }

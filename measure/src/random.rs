@@ -132,7 +132,7 @@ fn draw(
         let mut piece = spec(chance.of(from));
         piece.instrument.visit(&mut Shaker(chance));
         piece.instrument = change(piece.instrument, chance);
-        // A contour stays what it is: no body depends on it.
+        // A contour stays what it is: no body depends on it, and a seed goes on to draw the bodies that it drew.
         let contour = contour_of(&mut piece.close).take();
         piece.close.visit(&mut Shaker(chance));
         *contour_of(&mut piece.close) = contour;

@@ -177,9 +177,9 @@ const BATTER_MODES_TO: f64 = 3000.0;
 /// end at 1 or 1.5 kHz changes the attack.
 const KICK_MODES_TO: f64 = 2000.0;
 
-/// The same of a floor tom, Hz: from here on two modes of the drum, both heads together, lie within the half-power width of one. *Derived*
-/// from their density, 0.5 per hertz, and their decay. A rack tom's would reach to 2 kHz by this rule, and reaches as far as recorded ones
-/// [are lines](fitted::RACK_TOM_MODES_TO).
+/// The same of a floor tom, Hz: from here on two modes of the drum lie within the half-power width of one. *Derived* from their density, 0.5
+/// per hertz, and their decay; that both heads count is *judgement*, of the struck one alone two do from 1.9 kHz on. A rack tom's would reach
+/// to 2 kHz by this rule; its end is [fitted](fitted::RACK_TOM_MODES_TO).
 const FLOOR_TOM_MODES_TO: f64 = 1200.0;
 
 /// What a pillow takes from the air that goes past it, 1/s: `r / (2 rho)` of all the air if none could go around
