@@ -196,6 +196,7 @@ impl Drum {
             sample_rate: options.sample_rate,
         });
         surface.set_listener();
+        surface.hear_sticks(spec.radius(), receivers, options.sample_rate);
         let mut drum = Drum {
             surface,
             far_shapes: spec

@@ -117,8 +117,9 @@ impl Striker {
     /// feels, not the whole stick.
     pub const fn spec(self) -> StrikerSpec {
         match self {
+            // A bead is met from its side: sticks come down by a few tenths of a radian.
             Striker::Stick => {
-                StrikerSpec::solid(16.0, Material::HICKORY, 5.0, 0.7, 2.5).on(Stick::at(Stick::BEAD))
+                StrikerSpec::solid(16.0, Material::HICKORY_ACROSS, 5.0, 0.7, 2.5).on(Stick::at(Stick::BEAD))
             }
             // Its side, round by 6 mm, crosses an edge round by 0.4 mm: Hertz's mean radius, sqrt(6 * 0.4).
             Striker::Shoulder => StrikerSpec::solid(20.0, Material::HICKORY_ACROSS, 1.5, 0.6, 5.0)

@@ -6,7 +6,7 @@
 //! exciters (strikers, wires) --> contacts --> body: modes, nonlinear force --> receivers --> pressure
 //!                                  |  |              |                            |
 //!                                  |  +-------- attachments: rim, wires, second cymbal, rivets
-//!                                  +--> observers (high bands) -------------------+
+//!                                  +--> observers (high bands, direct sound) -----+
 //! ```
 //!
 //! The [body] has modes, mode shapes and receivers. The [contacts] hold all contact points and solve for their forces.
@@ -16,6 +16,7 @@
 pub mod attachment;
 pub mod body;
 pub mod contacts;
+pub mod direct_sound;
 pub mod exciter;
 pub mod incident_field;
 pub mod observer;
@@ -25,6 +26,7 @@ pub mod local_compliance;
 pub mod rim;
 pub mod rivets;
 mod sample;
+pub mod stick_sound;
 mod strike_log;
 mod striking;
 pub mod swing;
@@ -36,8 +38,9 @@ use crate::contact::Material;
 use crate::high_band::HighBand;
 use crate::modal::smoothing::Smoothing;
 use crate::modal::{ModalBody, Mode, RECEIVERS};
+use crate::plate::PlateSpec;
 use crate::potential::{HEADS, NonlinearForce, Potential};
-use crate::receiver::POINTS;
+use crate::receiver::{POINTS, Receivers};
 use crate::rim::Rim;
 use crate::shapes::ShapeTable;
 use crate::snapshot::{StrikeSnapshot, WireSnapshot};
@@ -45,11 +48,13 @@ use crate::transport::{Transport, TransportSpec};
 
 use attachment::{Attachment, Site};
 use body::{SoundingBody, StruckBody};
-use contacts::{Contacts, MAX_STRIKERS};
+use contacts::{Contacts, MAX_STRIKERS, STRIKER_PLACES};
+use direct_sound::DirectSound;
 use incident_field::{IncidentPressure, Volume};
 use local_compliance::LocalHeadCompliance;
 use observer::ForceObservers;
 use rim::AttachedRim;
+use stick_sound::StickSound;
 use strike_log::StrikeLog;
 use swing::Swing;
 use wires::SnareWires;
@@ -174,6 +179,16 @@ impl Surface {
     /// Lets a high band observe the forces of contact points from `first` on: 0 for those of strikers. Allocates.
     pub fn observe(&mut self, first: usize, band: HighBand) {
         self.observers.add(first, band);
+    }
+
+    /// Adds the direct sound of strikers on a plate, at a sample rate (Hz). Allocates.
+    pub fn hear_directly(&mut self, plate: &PlateSpec, receivers: &Receivers, sample_rate: f64) {
+        self.observers.hear_directly(DirectSound::new(plate, STRIKER_PLACES, receivers, sample_rate));
+    }
+
+    /// Adds the sound of sticks on a surface of a radius (m), at a sample rate (Hz). Allocates.
+    pub fn hear_sticks(&mut self, radius: f64, receivers: &Receivers, sample_rate: f64) {
+        self.observers.hear_sticks(StickSound::new(radius, receivers, sample_rate));
     }
 
     /// The high bands, in the order in which they were added.
@@ -365,7 +380,7 @@ impl Surface {
             attachment.ring(out.each_mut().map(|out| &mut **out), done);
         }
         self.smoothing.add_to(&mut out);
-        self.observers.bands_mut().for_each(|band| band.render(&mut out));
+        self.observers.render(&mut out);
     }
 
     /// Energy of the strikers and their contacts, J.
@@ -392,7 +407,7 @@ impl Surface {
         let driven = self.attachments.iter().any(|attachment| attachment.drives_body());
         self.body.settle(self.contacts.is_empty() && !driven && !self.contacts.is_lossless());
         let Surface { body, contacts, attachments, observers, .. } = self;
-        let finite = observers.bands_mut().all(HighBand::settle)
+        let finite = observers.settle()
             && body.modal().is_finite()
             && contacts.is_finite()
             && attachments.iter_mut().all(|attachment| attachment.settle(body, contacts));
@@ -429,7 +444,7 @@ impl Surface {
 
     /// Whether nothing moves and no exciter is present.
     pub fn is_still(&self) -> bool {
-        self.observers.bands().all(HighBand::is_still)
+        self.observers.is_still()
             && self.attachments.iter().all(|attachment| attachment.is_still())
             && self.contacts.is_empty()
             && self.body.modal().is_still()
@@ -452,7 +467,7 @@ impl Surface {
     pub fn reset(&mut self) {
         self.body.reset();
         self.smoothing = Smoothing::default();
-        self.observers.bands_mut().for_each(HighBand::reset);
+        self.observers.reset();
         self.contacts.reset();
         self.attachments.iter_mut().for_each(|attachment| attachment.reset(&mut self.contacts));
         if self.swing.as_mut().is_some_and(|swing| swing.reset(self.body.sound_mut())) {

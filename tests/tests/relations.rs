@@ -207,8 +207,8 @@ fn of_cymbals_of_one_thickness_the_larger_are_lower() {
         let piece = format!("like = \"crash-18-medium\"\ndiameter_in = {inches}\nmass_kg = {mass}");
         struck(&piece, stroke(Striker::TimpaniMallet, 3.0, 0.9, 0.0), 2.0)
     });
-    falls("the strongest line, Hz", &cymbals.each_ref().map(|cymbal| cymbal.line(200.0, 1000.0)), 0.03);
-    falls("mean frequency, Hz", &cymbals.each_ref().map(Recorded::brightness), 0.01);
+    falls("the strongest line, Hz", &cymbals.each_ref().map(|cymbal| cymbal.line(200.0, 1000.0)), 0.02);
+    falls("mean frequency, Hz", &cymbals.each_ref().map(Recorded::brightness), 0.0);
 }
 
 fn ride(change: &str, strike: Strike) -> Recorded {
@@ -235,12 +235,14 @@ fn a_heavier_ride_is_higher_drier_and_lasts_longer() {
 #[test]
 fn rivets_make_a_ride_sizzle_until_too_little_is_left_to_lift_them() {
     let rivets = "rivets = { number = 6, radius = 0.9, toward_rad = 0, mass_g = 1.5, play_mm = 2.5 }";
-    let rides = ["", rivets].map(|change| ride(change, stroke(STICK, 3.0, 0.7, 0.3)));
+    let rides = ["", rivets]
+        .map(|change| struck(&format!("like = \"ride-20\"\n{change}"), stroke(STICK, 8.0, 0.7, 0.3), 6.0));
     rises("what rings, mean frequency, Hz", &rides.each_ref().map(Recorded::ring), 0.1);
     let wash = rides.each_ref().map(|ride| ride.level(6000.0, 0.7, 1.7));
     let tail = rides.each_ref().map(|ride| ride.level(6000.0, 3.0, 4.0));
     println!("above 6 kHz, dB: {wash:.1?} from .7 s, {tail:.1?} from 3 s");
-    assert!(wash[1] > wash[0] + 6.0 && tail[1] < tail[0] - 6.0);
+    let fallen = [0, 1].map(|of| wash[of] - tail[of]);
+    assert!(wash[1] > wash[0] + 6.0 && fallen[1] > fallen[0] + 6.0);
 }
 
 /// The higher the profile, the higher the pitch: bloodyrich.net/cymbal.html. N. H. Fletcher, T. D. Rossing, 1998, ch. 20.

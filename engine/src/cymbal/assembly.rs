@@ -383,7 +383,7 @@ impl PlateShapes {
 
     /// The struck cymbal, at rest. Allocates.
     pub fn into_surface(self, spec: &CymbalSpec, built: &CymbalModes, context: &BuildContext) -> Surface {
-        let BuildContext { options, ideal, .. } = context;
+        let BuildContext { options, ideal, receivers } = context;
         let mut surface = Surface::new(SurfaceParts {
             modes: (0..built.modes.len()).map(|k| built.bare(k, 1.0)).collect(),
             shapes: self.shapes,
@@ -393,6 +393,8 @@ impl PlateShapes {
             sample_rate: options.sample_rate,
         });
         surface.set_transfers(self.transfers.map(Vec::into_iter));
+        surface.hear_directly(&spec.plate(), receivers, options.sample_rate);
+        surface.hear_sticks(spec.plate().radius(), receivers, options.sample_rate);
         if let Some(swing) = self.swing {
             surface.set_swing(swing);
         }

@@ -49,10 +49,9 @@ impl KitSpec {
                     (0.15, 0.0, 0.0),
                 )),
                 PieceSpec {
-                    // *Fitted*.
                     defaults: Defaults {
                         muffle: 0.0,
-                        level_db: -4.0,
+                        level_db: -2.5,
                         pan: -0.35,
                         preload: Some(fitted::SNARE_PRELOAD),
                     },
@@ -85,13 +84,13 @@ impl KitSpec {
                     ([-0.64, 1.20, 0.0], [0.22, 0.95, -0.25]),
                     (0.0, 6.0, -0.56),
                 ),
-                piece(
+                from_above(piece(
                     "ride",
                     "Ride",
                     ride(),
                     ([0.68, 1.06, -0.04], [-0.16, 0.96, -0.22]),
-                    (0.0, -10.0, 0.60),
-                ),
+                    (0.0, 0.0, 0.60),
+                )),
                 piece(
                     "splash",
                     "Splash",
@@ -112,7 +111,7 @@ impl KitSpec {
                     "Hi-hat",
                     hi_hat(),
                     ([-0.72, 0.86, -0.30], [0.0, 1.0, 0.0]),
-                    (0.0, -6.0, -0.63),
+                    (0.0, -4.0, -0.63),
                 ),
             ],
             microphones: MicrophonesSpec {
@@ -125,9 +124,7 @@ impl KitSpec {
     }
 }
 
-/// A piece of the kit: its centre (m) and where it faces; muffling, level (dB) and pan. Levels are *by ear*: a ride's ping at
-/// half a metre is far louder than a mix has it, a crash from the side far softer. Pans are where it stands, seen from the
-/// stool.
+/// A piece of the kit: its centre (m) and where it faces; muffling, level (dB, *by ear*) and pan: where it stands, seen from the stool.
 fn piece(
     name: &str,
     title: &str,
@@ -135,18 +132,11 @@ fn piece(
     (centre, facing): (Point, Point),
     (muffle, level_db, pan): (f64, f64, f64),
 ) -> PieceSpec {
+    let timpani = ReceiverPosition { distance: 0.5, inclination: 0.6, azimuth: 0.4 };
     let close = match &instrument {
         InstrumentSpec::Drum(DrumSpec { shell: Some(ShellSpec::Cylinder { .. }), .. }) => CloseSpec::OVER_RIM,
-        InstrumentSpec::Drum(_) => {
-            CloseSpec::beside(ReceiverPosition { distance: 0.5, inclination: 0.6, azimuth: 0.4 })
-        }
-        // Beside the cymbal, above its plane. *Fitted*: from straight above, its dome's breathing covers all else; from
-        // here the balance of a ride is that of recordings within 2 dB.
-        _ => CloseSpec::beside(ReceiverPosition {
-            distance: 0.5,
-            inclination: fitted::CYMBAL_CLOSE_INCLINATION,
-            azimuth: 0.4,
-        }),
+        InstrumentSpec::Drum(_) => CloseSpec::beside(timpani),
+        _ => CloseSpec::beside(beside_a_cymbal(fitted::CYMBAL_CLOSE_INCLINATION)),
     };
     PieceSpec {
         name: name.to_owned(),
@@ -157,6 +147,16 @@ fn piece(
         defaults: Defaults { muffle, level_db, pan, preload: None },
         ideal: Idealization::NONE,
     }
+}
+
+/// A point half a metre from a cymbal, beside it and above its plane, out of the player's way; its angle from the axis, rad.
+const fn beside_a_cymbal(inclination: f64) -> ReceiverPosition {
+    ReceiverPosition { distance: 0.5, inclination, azimuth: fitted::CYMBAL_CLOSE_AZIMUTH }
+}
+
+/// The piece, its close microphone higher over it, where those of rides hear the stick.
+fn from_above(piece: PieceSpec) -> PieceSpec {
+    PieceSpec { close: CloseSpec::beside(beside_a_cymbal(fitted::SPOT_INCLINATION)), ..piece }
 }
 
 /// The piece, its close microphone as far from the head as those of kicks stand, and with their contour.

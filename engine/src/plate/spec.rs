@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
+use crate::air_load;
 use crate::error::SpecError;
 
 /// A cymbal's plate.
@@ -159,6 +160,12 @@ impl PlateSpec {
     pub fn flexural_rigidity(&self) -> f64 {
         let nu = self.poisson_ratio;
         self.youngs_modulus * self.thickness().powi(3) / (12.0 * (1.0 - nu * nu))
+    }
+
+    /// Angular frequency from which its waves are as fast as sound and faster, `c^2 sqrt(s / D)`, where it is as thick as in the mean, rad/s.
+    pub fn coincidence(&self) -> f64 {
+        let area_density = self.density * self.thickness();
+        air_load::SPEED_OF_SOUND.powi(2) * (area_density / self.flexural_rigidity()).sqrt()
     }
 
     /// Curvature 1 / R of the bow, a cap, 1/m; R = (a^2 + H^2) / (2 H).

@@ -10,6 +10,7 @@ use crate::contact::ContactStep;
 use crate::contact::force::ContactLanes;
 use crate::contact::solver::{self, Compliances};
 use crate::modal::simd::Kernels;
+use crate::stick::Beams;
 
 use super::body::{FreeStep, StruckBody};
 use super::exciter::{ContactPoint, Exciter, Ground};
@@ -63,6 +64,8 @@ pub struct Contacts {
     pub(super) coupling: [f64; MAX_POINTS],
     /// The same, stiffened by the nonlinear force, m/N.
     stiffened: Compliances,
+    /// How sticks bend, worked out beforehand.
+    pub(super) beams: Beams,
     /// Whether all contacts are lossless.
     lossless: bool,
     /// Length of a sample, s.
@@ -91,6 +94,7 @@ impl Contacts {
     /// No contacts yet, on a body of so many modes; a sample lasts `dt` s. Allocates.
     pub fn new(modes: usize, lossless: bool, dt: f64) -> Contacts {
         Contacts {
+            beams: Beams::prepare(),
             exciters: (0..MAX_STRIKERS).map(|_| Exciter::absent(dt)).collect(),
             points: (0..STRIKER_PLACES).map(|_| ContactPoint::absent(modes, dt)).collect(),
             present: [0; MAX_POINTS],

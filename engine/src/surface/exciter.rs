@@ -10,14 +10,14 @@
 
 use crate::contact::{ContactLaw, ContactStep, Material};
 use crate::modal::{InputVector, Pressure};
-use crate::stick::Stick;
+use crate::stick::{BENDING, Beam, Beams, Stick};
 use crate::strike::{Across, Striker, StrikerSpec};
 
 use super::local_compliance::BANDS;
 use super::oscillator::Oscillator;
 
-/// Oscillators of one exciter, at most: two of a rigid stick with three of its bending, or six modes of snare wires.
-pub const PARTS: usize = 6;
+/// Oscillators of one exciter, at most: two of a rigid stick with those of its bending; snare wires have fewer.
+pub const PARTS: usize = 2 + BENDING;
 
 /// What a point presses on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -189,13 +189,19 @@ impl Exciter {
 
     /// Becomes a striker at `speed` (m/s); returns what its tip feels of its parts. One that is not
     /// `lossy` bends without loss.
-    pub fn take(&mut self, spec: &StrikerSpec, speed: f64, lossy: bool, dt: f64) -> [f64; PARTS] {
+    pub fn take(
+        &mut self,
+        spec: &StrikerSpec,
+        speed: f64,
+        beams: &Beams,
+        (lossy, dt): (bool, f64),
+    ) -> [f64; PARTS] {
         let mut weights = [0.0; PARTS];
         (self.parts[0], weights[0]) = (Oscillator::free(spec.mass, dt), 1.0);
         self.parts[0].v = speed;
         (self.part_count, self.speed, self.rigid) = (1, speed, 1);
         if let Some(stick) = spec.stick {
-            self.bend(&stick, &mut [(stick.place, &mut weights)], lossy, dt);
+            self.bend(&stick, beams.of(&stick), &mut [(stick.place, &mut weights)], (lossy, dt));
         }
         self.arrived = self.energy();
         weights
@@ -204,19 +210,20 @@ impl Exciter {
     /// Becomes a stick that meets head and rim at `speed` (m/s), its shaft at `shaft` (share of the length from
     /// the tip); returns what its tip and its shaft feel of its parts.
     ///
-    /// A rigid rod moves along and turns; its end feels a quarter of its mass, which is what is given.
+    /// A rigid rod moves along and turns, each with all of its mass, which is the stick's alone.
     pub fn take_across(
         &mut self,
-        (spec, stick, across): (&StrikerSpec, &Stick, Across),
+        (stick, across): (&Stick, Across),
         speed: f64,
         shaft: f64,
-        lossy: bool,
-        dt: f64,
+        beams: &Beams,
+        (lossy, dt): (bool, f64),
     ) -> [[f64; PARTS]; 2] {
         let mut weights = [[0.0; PARTS]; 2];
-        let [tip, side] = [stick.place, shaft].map(Stick::turning);
-        (self.parts[0], self.parts[1]) =
-            (Oscillator::free(4.0 * spec.mass, dt), Oscillator::free(4.0 * spec.mass, dt));
+        let beam = beams.of(stick);
+        let rod = beam.rod;
+        let [tip, side] = [stick.place, shaft].map(|place| rod.turning(place));
+        (self.parts[0], self.parts[1]) = (Oscillator::free(rod.mass, dt), Oscillator::free(rod.mass, dt));
         (weights[0][0], weights[0][1], weights[1][0], weights[1][1]) = (1.0, tip, 1.0, side);
         (self.parts[0].v, self.parts[1].v) = match across {
             Across::RimShot => (speed, 0.0),
@@ -225,16 +232,22 @@ impl Exciter {
         };
         (self.part_count, self.speed, self.rigid) = (2, speed, 2);
         let [at_tip, at_side] = &mut weights;
-        self.bend(stick, &mut [(stick.place, at_tip), (shaft, at_side)], lossy, dt);
+        self.bend(stick, beam, &mut [(stick.place, at_tip), (shaft, at_side)], (lossy, dt));
         self.arrived = self.energy();
         weights
     }
 
     /// Adds a stick's bending; writes what each place feels of it.
-    fn bend(&mut self, stick: &Stick, places: &mut [(f64, &mut [f64; PARTS])], lossy: bool, dt: f64) {
-        for mode in stick.bending() {
+    fn bend(
+        &mut self,
+        stick: &Stick,
+        Beam { rod, bending }: &Beam,
+        places: &mut [(f64, &mut [f64; PARTS])],
+        (lossy, dt): (bool, f64),
+    ) {
+        for mode in bending {
             let sigma = if lossy { mode.omega / (2.0 * stick.q) } else { 0.0 };
-            self.parts[self.part_count] = Oscillator::sprung(stick.mass(), mode.omega, sigma, dt);
+            self.parts[self.part_count] = Oscillator::sprung(rod.mass, mode.omega, sigma, dt);
             for (place, weights) in places.iter_mut() {
                 weights[self.part_count] = mode.shape(*place);
             }

@@ -137,6 +137,7 @@ impl Surface {
             }
             contacts.exciters[owner(i)].push(&point.weights, force);
             if i < STRIKER_PLACES {
+                observers.push_stick(i, sample, force as f32);
                 attachments.iter_mut().for_each(|attachment| attachment.push(i, force));
             }
             add(&mut direct, point.direct.map(|direct| force as f32 * direct));

@@ -8,8 +8,8 @@ use std::any::Any;
 use crate::contact::{ContactLaw, Tip};
 use crate::fitted;
 use crate::snapshot::{ForceTrace, StrikeSnapshot};
-use crate::stick::Stick;
-use crate::strike::{Across, Strike, StrikerSpec};
+use crate::stick::{Profile, Stick};
+use crate::strike::{Across, Strike};
 
 use super::Surface;
 use super::attachment::Attachment;
@@ -52,16 +52,20 @@ impl Surface {
             force: ForceTrace { dt: dt as f32, ..ForceTrace::default() },
             ..StrikeSnapshot::default()
         };
-        let spec = strike.striker.spec();
+        let mut spec = strike.striker.spec();
+        if self.local_compliance.is_some_and(|head| !head.patch_grows) {
+            spec.stick = spec.stick.map(Stick::even);
+        }
         let striker = &mut self.contacts.exciters[i];
         (striker.age, striker.stroke) = (0, self.log.last.count);
         striker.present = true;
         let across = match (spec.across, &spec.stick) {
-            (Some(across), Some(stick)) => self.lay_across(i, (&spec, stick, across), speed, radius),
+            (Some(across), Some(stick)) => self.lay_across(i, (stick, across), speed, radius),
             _ => None,
         };
-        let striker = &mut self.contacts.exciters[i];
-        let weights = across.unwrap_or_else(|| striker.take(&spec, speed, !lossless, dt));
+        let Contacts { exciters, beams, .. } = &mut self.contacts;
+        let striker = &mut exciters[i];
+        let weights = across.unwrap_or_else(|| striker.take(&spec, speed, beams, (!lossless, dt)));
         self.log.brought += striker.arrived;
         let restitution = if lossless { 1.0 } else { spec.restitution };
         let law = ContactLaw::new(&spec.tip, &self.material, restitution);
@@ -83,6 +87,10 @@ impl Surface {
             attachment.put(tip, radius, strike.angle);
             point.origin -= attachment.displacement(tip);
         }
+        let [felt, felt_beside] = [tip, tip + 1].map(|point| &self.contacts.points[point].weights);
+        let rigid = self.contacts.exciters[i].rigid;
+        let sounding = spec.stick.filter(|stick| stick.profile == Profile::Turned);
+        self.observers.arrive(i, (radius, strike.angle), sounding.as_ref(), [felt, felt_beside], rigid);
         self.contacts.list();
         self.connect(tip);
         if let Some(force) = self.body.nonlinear_force_mut() {
@@ -95,7 +103,7 @@ impl Surface {
     fn lay_across(
         &mut self,
         i: usize,
-        (spec, stick, across): (&StrikerSpec, &Stick, Across),
+        (stick, across): (&Stick, Across),
         speed: f64,
         radius: f64,
     ) -> Option<[f64; PARTS]> {
@@ -109,7 +117,8 @@ impl Surface {
         };
         let shaft = (stick.place + reach * rim.radius / stick.length).clamp(0.1, 0.8);
         let (lossy, dt) = (!contacts.is_lossless(), contacts.dt());
-        let [tip, side] = contacts.exciters[i].take_across((spec, stick, across), speed, shaft, lossy, dt);
+        let Contacts { exciters, beams, .. } = &mut *contacts;
+        let [tip, side] = exciters[i].take_across((stick, across), speed, shaft, beams, (lossy, dt));
         let (radius, restitution) = Stick::SHAFT;
         let edge = Tip::Solid { material: stick.material, radius };
         let law = ContactLaw::new(&edge, &rim.material, if lossy { restitution } else { 1.0 });

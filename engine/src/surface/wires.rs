@@ -38,7 +38,7 @@ use crate::snapshot::WireSnapshot;
 use super::attachment::{Attachment, Site};
 use super::body::FreeStep;
 use super::contacts::{ATTACHED_POINTS, Contacts, owner, points_of};
-use super::exciter::{ContactPoint, Exciter, Ground, PARTS};
+use super::exciter::{ContactPoint, Exciter, Ground};
 use super::local_compliance::{LocalHeadCompliance, Press};
 use super::oscillator::Oscillator;
 
@@ -46,7 +46,7 @@ use super::oscillator::Oscillator;
 pub const ROWS: usize = 2;
 
 /// Modes of each row. *Derived*: those by which four sections can move apart, and half as many again.
-pub const MODES: usize = PARTS;
+pub const MODES: usize = 6;
 
 /// Sections of all rows.
 pub const SECTIONS: usize = ROWS * ATTACHED_POINTS;
