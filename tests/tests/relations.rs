@@ -235,8 +235,7 @@ fn a_heavier_ride_is_higher_drier_and_lasts_longer() {
 #[test]
 fn rivets_make_a_ride_sizzle_until_too_little_is_left_to_lift_them() {
     let rivets = "rivets = { number = 6, radius = 0.9, toward_rad = 0, mass_g = 1.5, play_mm = 2.5 }";
-    let rides = ["", rivets]
-        .map(|change| struck(&format!("like = \"ride-20\"\n{change}"), stroke(STICK, 8.0, 0.7, 0.3), 6.0));
+    let rides = ["", rivets].map(|change| ride(change, stroke(STICK, 8.0, 0.7, 0.3)));
     rises("what rings, mean frequency, Hz", &rides.each_ref().map(Recorded::ring), 0.1);
     let wash = rides.each_ref().map(|ride| ride.level(6000.0, 0.7, 1.7));
     let tail = rides.each_ref().map(|ride| ride.level(6000.0, 3.0, 4.0));

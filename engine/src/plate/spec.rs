@@ -162,7 +162,8 @@ impl PlateSpec {
         self.youngs_modulus * self.thickness().powi(3) / (12.0 * (1.0 - nu * nu))
     }
 
-    /// Angular frequency from which its waves are as fast as sound and faster, `c^2 sqrt(s / D)`, where it is as thick as in the mean, rad/s.
+    /// Angular frequency from which its waves are as fast as sound and faster, `c^2 sqrt(s / D)`, where it is as thick as in the
+    /// mean, rad/s.
     pub fn coincidence(&self) -> f64 {
         let area_density = self.density * self.thickness();
         air_load::SPEED_OF_SOUND.powi(2) * (area_density / self.flexural_rigidity()).sqrt()

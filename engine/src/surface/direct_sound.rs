@@ -1,9 +1,9 @@
 //! Direct sound of a plate: what a force on it sends out at once.
 //!
-//! Below coincidence waves on a plate are slower than sound, and what it radiates at some frequency about the place of a force are modes
-//! that ring far below that frequency and only weigh there. Each mode's transfer is known where it rings, where
-//! slow waves radiate next to nothing; the sum over the modes therefore lacks this sound. Of an endless sheet of the area density `s` it is, at the
-//! distance `d`,
+//! Below coincidence waves on a plate are slower than sound. What it radiates at a frequency about the place of a force comes from modes
+//! that ring far below that frequency and only weigh. Each mode's transfer is known where it rings, where slow waves radiate
+//! next to nothing; the sum over the modes therefore lacks this sound. Of an endless sheet of the area density `s` it is, at
+//! the distance `d`,
 //!
 //! ```text
 //! p = -rho F / (2 pi s d)
@@ -16,12 +16,12 @@
 //! tau = R e cos(i) / c      e: distance from the place to the rim;   i: inclination of the receiver, seen from the place
 //! ```
 //!
-//! From coincidence on waves radiate wherever they are, which the modes know, and the sheet no longer only weighs: a low-pass filter of first order from
-//! there.
+//! From coincidence on waves radiate wherever they are, which the modes' transfers contain, and the sheet no longer only weighs:
+//! a low-pass filter of first order from there.
 //!
-//! Limits: 2 dB below the exact sum in the mean, single receivers and places within some 3 dB more (a test); a sheet is flat and as thick as it is at
-//! the place: in a bell it is right in size only, from some kilohertz on. Where the plate swings to is neglected, as are the delays between places. Nothing is taken
-//! from the plate for it: a thousandth of a stroke's energy.
+//! Limits: 2 dB below the exact sum in the mean, single receivers and places within some 3 dB more (a test); a sheet is flat and
+//! as thick as it is at the place: in a bell it is right in size only, from some kilohertz on. Where the plate swings to is
+//! neglected, as are the delays between places. Nothing is taken from the plate for it: a thousandth of a stroke's energy.
 //!
 //! Source: Junger & Feit, Sound, Structures, and Their Interaction, ch. 8 (a point force on a plate); Cremer, Heckl & Petersson,
 //! Structure-Borne Sound, ch. 6. `R` is found here.

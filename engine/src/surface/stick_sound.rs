@@ -11,10 +11,11 @@
 //! at the mode's frequency, summed along the stick. It lies over the surface from the tip toward the player, and is raised to its butt.
 //! The delay from the surface's centre is taken out of what is heard.
 //!
-//! Neglected: that pieces farther away are heard to begin later; its motion as a whole, whose sound is as low as the stroke is long; what the surface reflects; what it takes from the
-//! stick, a thousandth of its loss in the hand.
+//! Neglected: that pieces farther away are heard to begin later; its motion as a whole, whose sound is as low as the stroke is
+//! long; what the surface reflects; what it takes from the stick, a thousandth of its loss in the hand.
 //!
-//! Source: Morse & Ingard, Theoretical Acoustics, sec. 7.1; of a rod the air that it pushes aside and the air that it carries along are as much each.
+//! Source: Morse & Ingard, Theoretical Acoustics, sec. 7.1; of a rod the air that it pushes aside and the air that it carries
+//! along are as much each.
 
 use std::f64::consts::PI;
 
@@ -41,7 +42,7 @@ const PIECES: usize = 24;
 /// No piece is nearer to a point than this, m: the thickness of a stick and of a microphone.
 const NEAREST: f64 = 0.04;
 
-/// Energy below which a stick is still, J: 200 dB under a soft stroke's.
+/// Energy below which a mode is still, J: 200 dB under a soft stroke's.
 const FAINT: f64 = 1e-24;
 
 /// One bending mode of a stick as it sounds.
@@ -177,10 +178,12 @@ impl StickSound {
     /// # Panics
     /// If the sample is not below [`MAX_RUN`].
     pub fn push(&mut self, point: usize, sample: usize, force: f32) {
-        let stick = &mut self.sticks[point / STRIKER_POINTS];
-        stick.forces[point % STRIKER_POINTS][sample] = force;
-        stick.pressed = true;
-        stick.rings |= stick.weights[point % STRIKER_POINTS] != [0.0; BENDING];
+        let (stick, point) = (&mut self.sticks[point / STRIKER_POINTS], point % STRIKER_POINTS);
+        if stick.weights[point] == [0.0; BENDING] {
+            return;
+        }
+        stick.forces[point][sample] = force;
+        (stick.pressed, stick.rings) = (true, true);
     }
 
     /// Ends the run: adds its sound to what is heard at each point, Pa, at most [`MAX_RUN`] samples.
@@ -210,15 +213,19 @@ impl StickSound {
         }
     }
 
-    /// Puts sticks to rest that no longer ring; reports whether all is finite. Meant for once a block.
+    /// Puts modes and sticks to rest that no longer ring; reports whether all is finite. Meant for once a block.
     pub fn settle(&mut self) -> bool {
         let mut finite = true;
         for stick in self.sticks.iter_mut().filter(|stick| stick.rings) {
-            let energy: f64 = stick.modes.iter().map(|mode| mode.motion.energy()).sum();
-            finite &= energy.is_finite();
-            if energy < FAINT {
-                stick.modes.iter_mut().for_each(|mode| mode.motion.rest());
-                stick.rings = false;
+            stick.rings = false;
+            for mode in &mut stick.modes {
+                let energy = mode.motion.energy();
+                finite &= energy.is_finite();
+                if energy < FAINT {
+                    mode.motion.rest();
+                } else {
+                    stick.rings = true;
+                }
             }
         }
         finite
@@ -360,7 +367,18 @@ mod tests {
         let later = tapped(&mut sound, (0.6, 0.0), 2 * RATE as usize);
         assert!(sound.is_still() && later[later.len() - 1] == [0.0; POINTS]);
         sound.hush(0);
-        sound.push(0, 0, 100.0);
+        (0..MAX_RUN).for_each(|i| sound.push(0, i, 100.0));
         assert!(sound.is_still());
+        // Nothing is left of a mallet's forces when a stick takes its place.
+        let [after, new] = [sound, StickSound::new(0.25, &receivers(), RATE)].map(|mut sound| {
+            let mut felt = [0.0; PARTS];
+            felt[1] = 1.0;
+            sound.arrive(0, (0.6, 0.0), Stick::BEAD, [&felt, &[0.0; PARTS]], 1);
+            sound.push(0, 3, 1.0);
+            let mut out = [[0.0; MAX_RUN]; RECEIVERS];
+            sound.render(&mut out.each_mut().map(|out| &mut out[..]));
+            out
+        });
+        assert_eq!(after, new);
     }
 }
