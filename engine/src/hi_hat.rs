@@ -350,15 +350,15 @@ fn assemble(
     let heights = spec.warp.heights();
     let leaning = spec.top.plate().radius() * spec.tilt;
     let dt = 1.0 / options.sample_rate;
-    let rigid = [(&top, &spec.clutch), (&bottom, &spec.seat)]
-        .map(|(half, mount)| Rigid::new(half.cymbal.mass, mount, lossless, dt));
+    let radii = [&spec.top, &spec.bottom].map(|half| half.plate().radius());
+    let rigid = [(&top, &spec.clutch, radii[0]), (&bottom, &spec.seat, radii[1])]
+        .map(|(half, mount, radius)| Rigid::new((half.cymbal.mass, radius), mount, lossless, dt));
     surface.attach(Pair::new(PairParts {
         bottom: (0..bottom.cymbal.modes.len()).map(|k| bottom.cymbal.bare(k, 1.0)).collect(),
         transfers: below.transfers,
         folded: [std::mem::take(&mut top.folded), std::mem::take(&mut bottom.folded)],
         rigid,
-        rigid_sounds: [&spec.top, &spec.bottom]
-            .map(|half| RigidSound::new(half.plate().radius(), &context.receivers, dt)),
+        rigid_sounds: radii.map(|radius| RigidSound::new(radius, &context.receivers, dt)),
         law,
         lasting_loss: law.lambda(spec.lasting),
         depth: std::array::from_fn(|j| {

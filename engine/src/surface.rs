@@ -428,7 +428,8 @@ impl Surface {
             self.park();
         }
         if let Some(swing) = &mut self.swing {
-            swing.begin_block(self.body.sound_mut());
+            let attached = self.attachments.iter().find_map(|attachment| attachment.tilt());
+            swing.begin_block(self.body.sound_mut(), attached);
         }
         finite
     }

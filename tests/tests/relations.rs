@@ -205,10 +205,12 @@ fn of_cymbals_of_one_thickness_the_larger_are_lower() {
     let cymbals = [16.0, 18.0, 20.0, 22.0].map(|inches: f64| {
         let mass = 1.4 * (inches / 18.0).powi(2);
         let piece = format!("like = \"crash-18-medium\"\ndiameter_in = {inches}\nmass_kg = {mass}");
-        struck(&piece, stroke(Striker::TimpaniMallet, 3.0, 0.9, 0.0), 2.0)
+        // Hammering makes every place another: a mean over some.
+        [0.0, 1.6, 3.1, 4.7].map(|angle| struck(&piece, stroke(Striker::TimpaniMallet, 3.0, 0.9, angle), 2.0))
     });
-    falls("the strongest line, Hz", &cymbals.each_ref().map(|cymbal| cymbal.line(200.0, 1000.0)), 0.02);
-    falls("mean frequency, Hz", &cymbals.each_ref().map(Recorded::brightness), 0.0);
+    let mean = |of: fn(&Recorded) -> f64| cymbals.each_ref().map(|all| all.iter().map(of).sum::<f64>() / 4.0);
+    falls("the strongest line, Hz", &mean(|cymbal| cymbal.line(200.0, 1000.0)), 0.02);
+    falls("mean frequency, Hz", &mean(Recorded::brightness), 0.0);
 }
 
 fn ride(change: &str, strike: Strike) -> Recorded {

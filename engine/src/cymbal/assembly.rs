@@ -27,7 +27,7 @@ use crate::schema::SCHEMA;
 use crate::shapes::{ShapeIndex, ShapeTable};
 use crate::split::Splitting;
 use crate::surface::rivets::Rivets;
-use crate::surface::swing::Swing;
+use crate::surface::swing::{Rock, Swing};
 use crate::surface::{Surface, SurfaceParts};
 use crate::transport::TransportSpec;
 use crate::von_karman::{CoupledPair, VonKarman};
@@ -119,8 +119,9 @@ pub struct CymbalPlate<'a> {
     splitting: Splitting,
     hammering: Option<HammeringSpec>,
     limit_hz: f64,
-    /// Sample rate, Hz, if it swings on its stand.
+    /// Sample rate, Hz, if it swings on its stand, and whether the stand tilts it or its own rock.
     swings: Option<f64>,
+    is_tilted: bool,
     /// Modes up to this are coupled, Hz.
     highest_hz: Option<f64>,
 }
@@ -145,7 +146,23 @@ impl<'a> CymbalPlate<'a> {
         let highest_hz = coupled_hz.map(|hz| VonKarman::reach(&known.plate, hz));
         let hammering = spec.hammering.filter(|_| !ideal.round);
         let swings = (!ideal.linear).then_some(options.sample_rate);
-        Ok(CymbalPlate { spec, receivers, known, tables, splitting, hammering, limit_hz, swings, highest_hz })
+        Ok(CymbalPlate {
+            spec,
+            receivers,
+            known,
+            tables,
+            splitting,
+            hammering,
+            limit_hz,
+            swings,
+            is_tilted: false,
+            highest_hz,
+        })
+    }
+
+    /// The plate, whose mount tilts it: it swings without a rock of its own.
+    pub fn tilted_by_its_mount(self) -> CymbalPlate<'a> {
+        CymbalPlate { is_tilted: true, ..self }
     }
 
     /// What is known of the plate.
@@ -227,8 +244,8 @@ impl<'a> CymbalPlate<'a> {
         (modes, PlateShapes { shapes, transfers: rows.transfers, coupled, swing })
     }
 
-    /// The swing of a cymbal that rocks: rigid motions of one nodal diameter. Its first modes are `coupled`. What is linear does not
-    /// swing, for a swing modulates.
+    /// The swing of a cymbal that rocks: rigid motions of one nodal diameter, or its mount. Its first modes are `coupled`. What is linear does
+    /// not swing, for a swing modulates.
     fn swing(
         &self,
         rigid: &[RigidMotion],
@@ -236,20 +253,26 @@ impl<'a> CymbalPlate<'a> {
         mixture: Option<&ModeMixture>,
     ) -> Option<Swing> {
         let sample_rate = self.swings?;
-        let rock = rigid.iter().position(|motion| motion.m == 1)?;
+        let rock = rigid.iter().position(|motion| motion.m == 1);
+        if rock.is_none() && !self.is_tilted {
+            return None;
+        }
         let members = |motion: &RigidMotion| Splitting::ROUND.members(motion.m, 0).count();
-        let [first, still] = [rock, rigid.len()].map(|n| rigid[..n].iter().map(members).sum::<usize>());
+        let before = |n: usize| rigid[..n].iter().map(members).sum::<usize>();
+        let rock = rock.map(|rock| Rock {
+            modes: [before(rock), before(rock) + 1],
+            // The slope of the rock's shape over the radius.
+            tilt_per_metre: (rigid[rock].shape)(1.0) / self.spec.plate().radius(),
+        });
         let lobes = Lobes::new(
             self.known.clone(),
             mixture.cloned(),
-            (&rows.index, &rows.shells, still),
+            (&rows.index, &rows.shells, before(rigid.len())),
             self.receivers,
             rows.transfers.clone(),
         );
-        // The slope of the rock's shape over the radius.
-        let slope = (rigid[rock].shape)(1.0) / self.spec.plate().radius();
         let modes = (rows.modes.len(), coupled);
-        Some(Swing::new(Box::new(lobes), [first, first + 1], slope, modes, sample_rate))
+        Some(Swing::new(Box::new(lobes), rock, modes, sample_rate))
     }
 
     /// What becomes of the modes by hammering, from [`MIXED_FROM_HZ`] on; they stand in order of their frequency.

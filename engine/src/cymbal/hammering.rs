@@ -11,8 +11,8 @@
 //!
 //! `W` the frequency of the flat plate at wavenumber 1.
 //!
-//! Limits: what hammering does to the curvature, and with it to the stress of the shell, is left out: it counts below the
-//! frequencies at which modes are mixed.
+//! Limits: what hammering does to the curvature, and with it to the stress of the shell, is left out. It would mix the lowest modes
+//! more.
 
 use serde::{Deserialize, Serialize};
 

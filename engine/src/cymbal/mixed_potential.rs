@@ -14,6 +14,8 @@ use crate::potential::{Evaluation, Potential};
 pub struct MixedPotential<P> {
     plain: P,
     mixture: ModeMixture,
+    /// The same, transposed.
+    transposed: ModeMixture,
     kernels: Kernels,
     displacement: Row,
     gradient: Row,
@@ -22,9 +24,11 @@ pub struct MixedPotential<P> {
 impl<P: Potential> MixedPotential<P> {
     /// A potential of the first `modes` plain modes. Allocates.
     pub fn new(plain: P, mixture: &ModeMixture, modes: usize) -> MixedPotential<P> {
+        let mixture = mixture.first(modes);
         MixedPotential {
             plain,
-            mixture: mixture.first(modes),
+            transposed: mixture.transposed(),
+            mixture,
             kernels: Kernels::detect(),
             displacement: zero_row(modes),
             gradient: zero_row(modes),
@@ -34,10 +38,11 @@ impl<P: Potential> MixedPotential<P> {
 
 impl<P: Potential> Potential for MixedPotential<P> {
     fn evaluate(&mut self, displacement: &[f32], gradient: &mut [f32]) -> Evaluation {
-        let MixedPotential { plain, mixture, kernels, displacement: unmixed, gradient: forces } = self;
+        let MixedPotential { plain, mixture, transposed, kernels, displacement: unmixed, gradient: forces } =
+            self;
         kernels.vectorized(
             #[inline(always)]
-            || mixture.unmix(displacement, unmixed),
+            || transposed.apply(displacement, unmixed),
         );
         let found = plain.evaluate(unmixed, forces);
         gradient[mixture.modes()..].fill(0.0);

@@ -129,10 +129,19 @@ impl Attachment for Pair {
         self.held_energy() - rock
     }
 
+    fn tilt(&self) -> Option<[f64; 2]> {
+        Some(self.rigid[0].tilt())
+    }
+
     fn settle(&mut self, body: &mut StruckBody, contacts: &mut Contacts) -> bool {
         let way = contacts.fastest_striker().map(|speed| speed * MAX_RUN as f64 * contacts.dt());
         match contacts.carry_by(body, |body| self.look(body.modal_mut(), way)) {
-            Settled::Moving => true,
+            Settled::Moving => {
+                if self.engaged {
+                    self.follow_swing(body.modal(), body.receiver());
+                }
+                true
+            }
             Settled::Parked => {
                 body.reset();
                 true
@@ -153,5 +162,81 @@ impl Attachment for Pair {
         self.begin_count();
         self.carried = [0.0; 3];
         self.pedal.work = 0.0;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::block::BLOCK;
+    use crate::build_context::BuildOptions;
+    use crate::hi_hat::HiHat;
+    use crate::hi_hat::foot::SPEED;
+    use crate::hi_hat::rigid::Rigid;
+    use crate::instrument::{Instrument as _, Pedal as _};
+    use crate::receiver::POINTS as RECEIVER_POINTS;
+    use crate::reference;
+    use crate::surface::Surface;
+
+    fn transfers(surface: &mut Surface) -> Vec<[f64; 2]> {
+        let mut all = Vec::new();
+        surface.with(|_: &mut Pair, site| {
+            let receiver = &mut site.body.sound_mut().receiver;
+            all.extend((0..RECEIVER_POINTS).flat_map(|point| receiver.transfer_mut(point).to_vec()));
+        });
+        all
+    }
+
+    /// Squares of the differences between pressures that follow the rims' forces.
+    fn apart(some: &[[Pressure; 2]], others: &[[Pressure; 2]]) -> f32 {
+        let flat = |all: &[[Pressure; 2]]| all.as_flattened().as_flattened().to_vec();
+        flat(some).into_iter().zip(flat(others)).map(|(one, other)| (one - other).powi(2)).sum()
+    }
+
+    #[test]
+    fn the_upper_cymbal_is_heard_from_where_it_looks_while_it_rocks() {
+        let context = reference::standard("hi-hat").context(BuildOptions::new(44_100.0));
+        let mut hat = HiHat::new(&reference::hi_hat(), &context).unwrap();
+        // So open that a rim which rocks comes near the other one.
+        hat.press(0.3, SPEED.1);
+        hat.finish_controls();
+        let surface = hat.surface_mut();
+        let (at_rest, heard_at_rest) =
+            (transfers(surface), surface.attachment::<Pair>().unwrap().dynamics.direct);
+        let run = |surface: &mut Surface, blocks: usize| {
+            for _ in 0..blocks {
+                let mut sound = [[0.0; BLOCK]; RECEIVERS];
+                surface.settle();
+                surface.render_in_air(sound.each_mut().map(|row| &mut row[..]), None);
+            }
+        };
+        // The side at angle 0 down by a tenth of the radius.
+        let radius = reference::hi_hat().top.plate().radius();
+        surface.with(|pair: &mut Pair, site| {
+            pair.engage(site.body.modal());
+            pair.rigid_mut()[0].put(&[0.0, 0.05 * radius, 0.0]);
+            assert_eq!(pair.rigid()[0].at(&Rigid::weights(1.0, 0.0)), 0.1 * radius);
+            let tilt = pair.tilt().unwrap();
+            assert!((tilt[0] - 0.1).abs() < 1e-12 && tilt[1] == 0.0, "{tilt:?}");
+        });
+        run(surface, 20);
+        let rocking = transfers(surface);
+        let (mut moved, mut all) = (0.0, 0.0);
+        for (now, rest) in rocking.iter().zip(&at_rest) {
+            moved += (now[0] - rest[0]).powi(2) + (now[1] - rest[1]).powi(2);
+            all += rest[0].powi(2) + rest[1].powi(2);
+        }
+        assert!(moved > 0.01 * all, "{moved:.1e} of {all:.1e}");
+        // What is heard of the rims' forces at once is what the weights of now say.
+        surface.with(|pair: &mut Pair, site| {
+            let heard = pair.dynamics.direct;
+            pair.follow_swing(site.body.modal(), site.body.receiver());
+            // The weights have moved on by four steps since the block began.
+            let (late, none) =
+                (apart(&heard, &pair.dynamics.direct), apart(&heard_at_rest, &pair.dynamics.direct));
+            assert!(late < 0.1 * none, "{late:.1e}, not following at all {none:.1e}");
+        });
+        surface.reset();
+        assert_eq!(transfers(surface), at_rest);
     }
 }

@@ -64,6 +64,8 @@ impl Half {
         context: &BuildContext,
     ) -> Result<(Half, PlateShapes), SpecError> {
         let plate = CymbalPlate::new(spec, coupled_hz, context)?;
+        // The lower one lies on its seat; and what is linear does not swing.
+        let plate = if coupled_hz.is_some() { plate.tilted_by_its_mount() } else { plate };
         let order = order(&plate);
         let (at_rim, at_mount) = (plate.shapes_at(meeting), plate.shapes_at(mount.reach));
         let mounted = |row: usize, shell: &ShellMode| {

@@ -21,8 +21,10 @@
 //!
 //! Contacts cost nothing while the largest possible motion of both rims is smaller than the gap.
 //!
+//! The upper cymbal's lobes [turn](crate::surface::swing) as it tilts, and with them what is heard of the rims' forces at once, once a block.
+//!
 //! Neglected: the stiffness of clutch and seat against deflection of the shells (they hold the mean displacement); motion along
-//! the rims; the air between.
+//! the rims; the air between; that the lower cymbal's lobes turn, which leans on a stiffer seat.
 
 pub(super) mod arrival;
 mod pedal;
@@ -214,6 +216,15 @@ impl Pair {
         } else {
             self.pedal.goal_place = f64::NAN;
         }
+    }
+
+    /// Follows the upper cymbal's receiver weights, which move while it swings.
+    ///
+    /// # Real-time
+    /// Linear in the number of modes.
+    pub(super) fn follow_swing(&mut self, top: &ModalBody, receiver: &ReceiverWeights) {
+        let bodies = [(top, receiver), (&self.lower.modal, &self.lower.receiver)];
+        self.dynamics.follow_receivers(bodies, &self.folded);
     }
 
     /// Measures the shells' displacements from another equilibrium. Nothing moves by that: what the static deflection gains is taken

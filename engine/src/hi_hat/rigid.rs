@@ -54,11 +54,13 @@ pub struct Rigid {
     stiffness: [f64; 3],
     /// Force per speed of the mount, N s/m.
     damping: f64,
+    /// m.
+    radius: f64,
 }
 
 impl Rigid {
-    /// A cymbal of that mass (kg), at rest.
-    pub fn new(mass: f64, mount: &Mount, lossless: bool, dt: f64) -> Rigid {
+    /// A cymbal of that mass (kg) and radius (m), at rest.
+    pub fn new((mass, radius): (f64, f64), mount: &Mount, lossless: bool, dt: f64) -> Rigid {
         let rock = (TAU * mount.rock_hz, mount.rock_q.unwrap_or(mount.q));
         let motions = [(TAU * mount.bounce_hz, mount.q), rock, rock];
         let sigma = |(omega, q): (f64, f64)| if lossless { 0.0 } else { omega / (2.0 * q) };
@@ -66,6 +68,7 @@ impl Rigid {
             parts: motions.map(|motion| Oscillator::sprung(mass, motion.0, sigma(motion), dt)),
             stiffness: motions.map(|(omega, _)| mass * omega * omega),
             damping: 2.0 * sigma(motions[0]) * mass,
+            radius,
         }
     }
 
@@ -83,6 +86,11 @@ impl Rigid {
     /// Heave and tilts, m.
     pub fn place(&self) -> [f64; 3] {
         self.parts.map(|part| part.q)
+    }
+
+    /// Its tilts, the side at angle 0 down and that at a right angle to it, rad.
+    pub fn tilt(&self) -> [f64; 2] {
+        [1, 2].map(|part| 2.0 * self.parts[part].q / self.radius)
     }
 
     /// Speeds of heave and tilts, m/s.

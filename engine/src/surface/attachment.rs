@@ -138,6 +138,12 @@ pub trait Attachment: Any + Send {
         0.0
     }
 
+    /// By how much it tilts the body, rad: of the side at angle 0 into the surface, and of that at a right angle to it. None if it does not
+    /// hold it.
+    fn tilt(&self) -> Option<[f64; 2]> {
+        None
+    }
+
     /// Called once a block: zeroes what has decayed. False if a value is not finite.
     fn settle(&mut self, _body: &mut StruckBody, _contacts: &mut Contacts) -> bool {
         true

@@ -1,7 +1,8 @@
 //! A body that swings while it rings: its lobes turn past the receivers.
 //!
-//! Model: the body's rock is a motion of the body as a whole; its two modes give the tilt. What each mode shows of itself toward a
-//! receiver is that of the direction in which the receiver lies from the tilted body.
+//! Model: the body's rock is a motion of the body as a whole; its two modes give the tilt, or what the body is
+//! [attached](super::attachment) to. What each mode shows of itself toward a receiver is that of the direction in which the receiver
+//! lies from the tilted body.
 //!
 //! Scheme: transfers are worked out once in a cycle of some blocks, a part in each block, for the tilt at its beginning. In the next
 //! cycle the weights go there in steps of eight samples. A cycle lasts as long as the body, at the speed of the last one, needs for
@@ -53,13 +54,20 @@ fn cycle_of(turn: f64, [fewest, most]: [usize; 2]) -> usize {
     ((TURN / turn.max(f64::MIN_POSITIVE)).min(most as f64) as usize).max(fewest)
 }
 
+/// The rock of a body among its modes.
+#[derive(Debug, Clone, Copy)]
+pub struct Rock {
+    /// The modes about either axis.
+    pub modes: [usize; 2],
+    /// Tilt in rad by a displacement of these modes in m.
+    pub tilt_per_metre: f64,
+}
+
 /// The swing of a body.
 pub struct Swing {
     directivity: Box<dyn Directivity>,
-    /// The modes of the rock about either axis.
-    rock: [usize; 2],
-    /// Tilt per displacement of these modes, rad/m.
-    tilt_per_metre: f64,
+    /// None where the rock is an attachment's.
+    rock: Option<Rock>,
     sway: Sway,
     /// Tilt that the cycle works for.
     tilt: [f64; 2],
@@ -78,8 +86,7 @@ impl Swing {
     /// A swing of a body at rest with so many modes, of which the first are `coupled`, at a sample rate (Hz). Allocates.
     pub fn new(
         directivity: Box<dyn Directivity>,
-        rock: [usize; 2],
-        tilt_per_metre: f64,
+        rock: Option<Rock>,
         (modes, coupled): (usize, usize),
         sample_rate: f64,
     ) -> Swing {
@@ -88,7 +95,6 @@ impl Swing {
         Swing {
             directivity,
             rock,
-            tilt_per_metre,
             sway,
             tilt: [0.0; 2],
             block: None,
@@ -99,24 +105,27 @@ impl Swing {
         }
     }
 
-    /// The present tilt, rad.
-    pub fn tilt(&self, body: &SoundingBody) -> [f64; 2] {
-        self.rock.map(|mode| self.tilt_per_metre * f64::from(body.modal.displacement(mode)))
+    /// The present tilt by the body's own modes, rad.
+    fn tilt(&self, body: &SoundingBody) -> [f64; 2] {
+        let of = |rock: Rock| {
+            rock.modes.map(|mode| rock.tilt_per_metre * f64::from(body.modal.displacement(mode)))
+        };
+        self.rock.map_or([0.0; 2], of)
     }
 
-    /// Begins a block.
+    /// Begins a block of a body that what it is attached to tilts, or else its own modes (rad).
     ///
     /// # Real-time
     /// Linear in the number of modes.
-    pub fn begin_block(&mut self, body: &mut SoundingBody) {
+    pub fn begin_block(&mut self, body: &mut SoundingBody, attached: Option<[f64; 2]>) {
         self.sample = 0;
+        let tilt = attached.unwrap_or_else(|| self.tilt(body));
         match self.block {
             Some(block) if block + 1 < self.cycle => {
                 self.directivity.work(block + 1, self.cycle);
                 self.block = Some(block + 1);
             }
             Some(_) => {
-                let tilt = self.tilt(body);
                 self.cycle = cycle_of(self.turned_to(tilt) / self.cycle as f64, self.cycles);
                 let Swing { directivity, sway, .. } = self;
                 directivity.write(sway.transfers_mut());
@@ -126,7 +135,6 @@ impl Swing {
                 self.begin_cycle(tilt);
             }
             None => {
-                let tilt = self.tilt(body);
                 self.cycle = cycle_of(self.turned_to(tilt), self.cycles);
                 self.begin_cycle(tilt);
             }

@@ -60,6 +60,18 @@ impl Dynamics {
                 self.whole[i][j] = self.shells[i][j] + mounts;
             }
         }
+        self.follow_receivers(bodies, folded);
+    }
+
+    /// Updates the pressure proportional to the forces after a change of the receiver weights alone.
+    ///
+    /// # Real-time
+    /// Linear in the number of modes.
+    pub(crate) fn follow_receivers(
+        &mut self,
+        bodies: [(&ModalBody, &ReceiverWeights); 2],
+        folded: &[RimHarmonics; 2],
+    ) {
         let [(top, near), (bottom, far)] = bodies;
         let [above, below] = [top.folded_direct(&folded[0], near), bottom.folded_direct(&folded[1], far)];
         for (class, direct) in self.direct.iter_mut().enumerate() {
