@@ -19,15 +19,12 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::Complex;
-
 use crate::air_load::{DENSITY, SPEED_OF_SOUND};
-use crate::cache::Shared;
 use crate::math::trigonometry::sin_cos;
 use crate::modal::RECEIVERS;
-use crate::modal::simd::MAX_RUN;
+use crate::modal::simd::{Kernels, MAX_RUN};
 use crate::receiver::{POINTS, ReceiverPosition, Receivers};
-use crate::stick::{BENDING, Beam, BendingMode, Stick};
+use crate::stick::{BENDING, Beam, Stick};
 
 use super::contacts::{MAX_STRIKERS, STRIKER_POINTS};
 use super::exciter::PARTS;
@@ -45,22 +42,60 @@ const NEAREST: f64 = 0.04;
 /// Energy below which a mode is still, J: 200 dB under a soft stroke's.
 const FAINT: f64 = 1e-24;
 
-/// One bending mode of a stick as it sounds.
-#[derive(Clone, Copy)]
-struct SoundingMode {
-    motion: Oscillator,
-    omega: f64,
-    sigma: f64,
-    /// Pressure at each point over its acceleration, and over its speed, Pa s2/m and Pa s/m.
-    heard: [[f64; 2]; POINTS],
+/// Bending modes filled up to whole vectors; those filled in are still.
+const LANES: usize = 16;
+
+/// A value of each bending mode.
+type PerMode = [f64; LANES];
+
+/// How the bending modes of every stick move and are heard in a sample.
+struct Bent {
+    /// What displacement (m) and speed (m/s) become of either: `[q, v] <- [[a, b], [c, d]] [q, v]`.
+    turn: [[PerMode; 2]; 2],
+    /// What a newton adds to both.
+    hold: [PerMode; 2],
+    /// Of a displacement of a metre and of a metre a second, what the acceleration lacks: 1/s2, 1/s.
+    drawn: [PerMode; 2],
+    /// Of each mode, kg.
+    mass: f64,
+}
+
+impl Bent {
+    /// Of a stick's beam, with a quality factor, at a time step, s.
+    fn new(beam: &Beam, q: f64, dt: f64) -> Bent {
+        let none = [0.0; LANES];
+        let mass = beam.rod.mass;
+        let mut bent = Bent { turn: [[none; 2]; 2], hold: [none; 2], drawn: [none; 2], mass };
+        for (k, mode) in beam.bending.iter().enumerate() {
+            let sigma = mode.omega / (2.0 * q);
+            let moved = |displaced: [f64; 2], force: f64| {
+                let mut motion = Oscillator::sprung(mass, mode.omega, sigma, dt);
+                (motion.q, motion.v) = (displaced[0], displaced[1]);
+                motion.step();
+                motion.push(force);
+                [motion.q, motion.v]
+            };
+            let (by_place, by_speed) = (moved([1.0, 0.0], 0.0), moved([0.0, 1.0], 0.0));
+            for part in 0..2 {
+                (bent.turn[part][0][k], bent.turn[part][1][k]) = (by_place[part], by_speed[part]);
+                bent.hold[part][k] = moved([0.0; 2], 1.0)[part];
+            }
+            (bent.drawn[0][k], bent.drawn[1][k]) = (mode.omega * mode.omega, 2.0 * sigma);
+        }
+        bent
+    }
 }
 
 /// A stick that strikes or has struck of late.
 #[derive(Clone)]
 struct SoundingStick {
-    modes: [SoundingMode; BENDING],
+    /// Displacement, m, and speed, m/s.
+    place: PerMode,
+    speed: PerMode,
+    /// Pressure at each point over acceleration, and over speed, Pa s2/m and Pa s/m.
+    heard: [[PerMode; 2]; POINTS],
     /// What each of its points feels of the modes, and its force in the present run, N.
-    weights: [[f64; BENDING]; STRIKER_POINTS],
+    weights: [PerMode; STRIKER_POINTS],
     forces: [[f32; MAX_RUN]; STRIKER_POINTS],
     pressed: bool,
     rings: bool,
@@ -74,9 +109,39 @@ pub struct StickSound {
     sticks: Vec<SoundingStick>,
     /// What a mode of unit mean square of a piece shows: volume of air pushed and carried, `[piece]`, m3.
     volumes: [f64; PIECES],
-    /// Of each mode, kg.
-    mass: f64,
-    beam: Shared<Beam>,
+    bent: Bent,
+    /// rad/s.
+    omegas: [f64; BENDING],
+    /// Shape of each mode in the middle of each piece, of unit mean square.
+    shapes: [[f64; PIECES]; BENDING],
+    kernels: Kernels,
+}
+
+/// What the pieces of a stick are to a point.
+struct Pieces {
+    /// Of the point from where delays are counted, m.
+    from: f64,
+    /// m, and its reciprocal.
+    distance: [f64; PIECES],
+    near: [f64; PIECES],
+    /// Pressure over acceleration, times the distance, Pa s2.
+    dipole: [f64; PIECES],
+}
+
+impl Pieces {
+    /// Pressure over acceleration (Pa s2/m), real and imaginary part, of a mode with that shape and wave number (1/m).
+    #[inline(always)]
+    fn heard(&self, shape: &[f64; PIECES], wave: f64) -> [f64; 2] {
+        // By piece first: so a loop of them goes side by side.
+        let (mut re, mut im) = ([0.0; PIECES], [0.0; PIECES]);
+        for i in 0..PIECES {
+            let (sin, cos) = sin_cos(wave * (self.from - self.distance[i]));
+            let share = shape[i] * self.dipole[i];
+            re[i] = share * (self.near[i] * cos - wave * sin);
+            im[i] = share * (self.near[i] * sin + wave * cos);
+        }
+        [re.iter().sum(), im.iter().sum()]
+    }
 }
 
 impl StickSound {
@@ -85,31 +150,18 @@ impl StickSound {
         let dt = 1.0 / sample_rate;
         let stick = Stick::at(Stick::BEAD);
         let beam = stick.beam();
-        let Beam { rod, bending } = &*beam;
-        let mode = |mode: &BendingMode| {
-            let sigma = mode.omega / (2.0 * stick.q);
-            SoundingMode {
-                motion: Oscillator::sprung(rod.mass, mode.omega, sigma, dt),
-                omega: mode.omega,
-                sigma,
-                heard: [[0.0; 2]; POINTS],
-            }
-        };
-        let silent = SoundingStick {
-            modes: std::array::from_fn(|k| mode(&bending[k])),
-            weights: [[0.0; BENDING]; STRIKER_POINTS],
-            forces: [[0.0; MAX_RUN]; STRIKER_POINTS],
-            pressed: false,
-            rings: false,
-        };
+        let bending = &beam.bending;
         let step = stick.length / PIECES as f64;
+        let middle = |i: usize| (i as f64 + 0.5) / PIECES as f64;
         StickSound {
-            mass: rod.mass,
-            beam: beam.clone(),
+            bent: Bent::new(&beam, stick.q, dt),
+            omegas: std::array::from_fn(|k| bending[k].omega),
+            shapes: std::array::from_fn(|k| std::array::from_fn(|i| bending[k].shape(middle(i)))),
+            kernels: Kernels::detect(),
             radius,
             points: receivers.points(),
             scales: receivers.scales(),
-            sticks: vec![silent; MAX_STRIKERS],
+            sticks: vec![SoundingStick::SILENT; MAX_STRIKERS],
             volumes: std::array::from_fn(|i| {
                 2.0 * PI * stick.radius_at((i as f64 + 0.5) * step).powi(2) * step
             }),
@@ -129,48 +181,49 @@ impl StickSound {
         felt: [&[f64; PARTS]; STRIKER_POINTS],
         rigid: usize,
     ) {
-        let StickSound { points, scales, sticks, volumes, beam, .. } = self;
+        let StickSound { points, scales, sticks, volumes, shapes, omegas, kernels, .. } = self;
         let stick = Stick::at(place);
         let [across, along] = [radius * self.radius * angle.sin(), radius * self.radius * angle.cos()];
         let (raised, lying) = (RAISED.sin(), RAISED.cos());
-        let mut pieces = [[(0.0, 0.0); PIECES]; POINTS];
-        for (point, pieces) in points.iter().zip(&mut pieces) {
-            let [height, offset] = point.height_and_offset();
-            let (aside, ahead) = (offset * point.azimuth.sin(), offset * point.azimuth.cos());
-            for (i, piece) in pieces.iter_mut().enumerate() {
-                let behind = ((i as f64 + 0.5) / PIECES as f64 - place) * stick.length;
-                let up = height - behind * raised;
-                let distance =
-                    ((aside - across).powi(2) + (ahead - along - behind * lying).powi(2) + up * up)
-                        .sqrt()
-                        .max(NEAREST);
-                // Into the surface is away from the point.
-                *piece = (distance, -DENSITY * volumes[i] * up / (4.0 * PI * distance * distance));
-            }
-        }
         let sounding = &mut sticks[striker];
-        for (mode, bending) in sounding.modes.iter_mut().zip(&beam.bending) {
-            let wave = mode.omega / SPEED_OF_SOUND;
-            for (at, heard) in mode.heard.iter_mut().enumerate() {
-                let mut sum = Complex::new(0.0, 0.0);
-                for (i, &(distance, dipole)) in pieces[at].iter().enumerate() {
-                    let shape = bending.shape((i as f64 + 0.5) / PIECES as f64);
-                    let phase = wave * (points[at].distance - distance);
-                    let (sin, cos) = sin_cos(phase);
-                    sum += Complex::new(distance.recip(), wave) * Complex::new(cos, sin) * (shape * dipole);
+        let all_heard = &mut sounding.heard;
+        kernels.vectorized(
+            #[inline(always)]
+            || {
+                for (at, point) in points.iter().enumerate() {
+                    let [height, offset] = point.height_and_offset();
+                    let (aside, ahead) = (offset * point.azimuth.sin(), offset * point.azimuth.cos());
+                    let none = [0.0; PIECES];
+                    let mut pieces =
+                        Pieces { from: point.distance, distance: none, near: none, dipole: none };
+                    for (i, volume) in volumes.iter().enumerate() {
+                        let behind = ((i as f64 + 0.5) / PIECES as f64 - place) * stick.length;
+                        let up = height - behind * raised;
+                        let beside = ahead - along - behind * lying;
+                        let square = (aside - across) * (aside - across) + beside * beside + up * up;
+                        let distance = square.sqrt().max(NEAREST);
+                        pieces.distance[i] = distance;
+                        pieces.near[i] = distance.recip();
+                        // Into the surface is away from the point.
+                        pieces.dipole[i] = -DENSITY * volume * up / (4.0 * PI * distance * distance);
+                    }
+                    let [accelerated, moved] = &mut all_heard[at];
+                    for (k, (shape, omega)) in shapes.iter().zip(&*omegas).enumerate() {
+                        let [re, im] = pieces.heard(shape, omega / SPEED_OF_SOUND);
+                        // A quarter of a period before the acceleration is the speed, `i a = -omega v`.
+                        (accelerated[k], moved[k]) = (scales[at] * re, -scales[at] * im * omega);
+                    }
                 }
-                // A quarter of a period before the acceleration is the speed, `i a = -omega v`.
-                *heard = [scales[at] * sum.re, -scales[at] * sum.im * mode.omega];
-            }
-        }
+            },
+        );
         for (weights, felt) in sounding.weights.iter_mut().zip(felt) {
-            weights.copy_from_slice(&felt[rigid..][..BENDING]);
+            weights[..BENDING].copy_from_slice(&felt[rigid..][..BENDING]);
         }
     }
 
     /// A striker arrives that does not bend.
     pub fn hush(&mut self, striker: usize) {
-        self.sticks[striker].weights = [[0.0; BENDING]; STRIKER_POINTS];
+        self.sticks[striker].weights = [[0.0; LANES]; STRIKER_POINTS];
     }
 
     /// A force (N) on a striker's point, held over a sample of the present run.
@@ -179,7 +232,7 @@ impl StickSound {
     /// If the sample is not below [`MAX_RUN`].
     pub fn push(&mut self, point: usize, sample: usize, force: f32) {
         let (stick, point) = (&mut self.sticks[point / STRIKER_POINTS], point % STRIKER_POINTS);
-        if stick.weights[point] == [0.0; BENDING] {
+        if stick.weights[point] == [0.0; LANES] {
             return;
         }
         stick.forces[point][sample] = force;
@@ -191,24 +244,14 @@ impl StickSound {
     /// # Real-time
     /// Linear in samples times sticks that ring; nothing at rest.
     pub fn render(&mut self, out: &mut [&mut [f32]; RECEIVERS]) {
-        let mass = self.mass;
-        for stick in self.sticks.iter_mut().filter(|stick| stick.rings) {
-            let SoundingStick { modes, weights, forces, pressed, .. } = stick;
-            for (k, mode) in modes.iter_mut().enumerate() {
-                for sample in 0..out[0].len() {
-                    let force: f64 =
-                        (0..STRIKER_POINTS).map(|i| -weights[i][k] * f64::from(forces[i][sample])).sum();
-                    mode.motion.step();
-                    mode.motion.push(force);
-                    let Oscillator { q, v, .. } = mode.motion;
-                    let acceleration = force / mass - mode.omega * mode.omega * q - 2.0 * mode.sigma * v;
-                    for (out, [accelerated, moved]) in out.iter_mut().zip(mode.heard) {
-                        out[sample] += (accelerated * acceleration + moved * v) as f32;
-                    }
-                }
-            }
-            if std::mem::take(pressed) {
-                forces.as_flattened_mut().fill(0.0);
+        let StickSound { sticks, bent, kernels, .. } = self;
+        for stick in sticks.iter_mut().filter(|stick| stick.rings) {
+            kernels.vectorized(
+                #[inline(always)]
+                || stick.render(bent, out),
+            );
+            if std::mem::take(&mut stick.pressed) {
+                stick.forces.as_flattened_mut().fill(0.0);
             }
         }
     }
@@ -218,11 +261,12 @@ impl StickSound {
         let mut finite = true;
         for stick in self.sticks.iter_mut().filter(|stick| stick.rings) {
             stick.rings = false;
-            for mode in &mut stick.modes {
-                let energy = mode.motion.energy();
+            for k in 0..BENDING {
+                let (q, v) = (&mut stick.place[k], &mut stick.speed[k]);
+                let energy = 0.5 * self.bent.mass * (*v * *v + self.bent.drawn[0][k] * *q * *q);
                 finite &= energy.is_finite();
                 if energy < FAINT {
-                    mode.motion.rest();
+                    (*q, *v) = (0.0, 0.0);
                 } else {
                     stick.rings = true;
                 }
@@ -243,12 +287,45 @@ impl StickSound {
 }
 
 impl SoundingStick {
+    const SILENT: SoundingStick = SoundingStick {
+        place: [0.0; LANES],
+        speed: [0.0; LANES],
+        heard: [[[0.0; LANES]; 2]; POINTS],
+        weights: [[0.0; LANES]; STRIKER_POINTS],
+        forces: [[0.0; MAX_RUN]; STRIKER_POINTS],
+        pressed: false,
+        rings: false,
+    };
+
+    /// Adds its sound to what is heard at each point, Pa.
+    #[inline(always)]
+    fn render(&mut self, bent: &Bent, out: &mut [&mut [f32]; RECEIVERS]) {
+        let SoundingStick { place, speed, heard, weights, forces, .. } = self;
+        let [[a, b], [c, d]] = &bent.turn;
+        for sample in 0..out[0].len() {
+            let pressed: [f64; STRIKER_POINTS] = std::array::from_fn(|i| f64::from(forces[i][sample]));
+            let mut acceleration = [0.0; LANES];
+            for k in 0..LANES {
+                let force: f64 = (0..STRIKER_POINTS).map(|i| -weights[i][k] * pressed[i]).sum();
+                let (q, v) = (place[k], speed[k]);
+                place[k] = a[k] * q + b[k] * v + bent.hold[0][k] * force;
+                speed[k] = c[k] * q + d[k] * v + bent.hold[1][k] * force;
+                acceleration[k] =
+                    force / bent.mass - bent.drawn[0][k] * place[k] - bent.drawn[1][k] * speed[k];
+            }
+            for (out, [accelerated, moved]) in out.iter_mut().zip(&*heard) {
+                let mut parts = [0.0; LANES];
+                for k in 0..LANES {
+                    parts[k] = accelerated[k] * acceleration[k] + moved[k] * speed[k];
+                }
+                out[sample] += parts.iter().sum::<f64>() as f32;
+            }
+        }
+    }
+
     /// Silences it.
     fn rest(&mut self) {
-        self.modes.iter_mut().for_each(|mode| mode.motion.rest());
-        self.forces.as_flattened_mut().fill(0.0);
-        self.weights = [[0.0; BENDING]; STRIKER_POINTS];
-        (self.pressed, self.rings) = (false, false);
+        *self = SoundingStick { heard: self.heard, ..SoundingStick::SILENT };
     }
 }
 
