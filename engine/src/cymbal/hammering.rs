@@ -6,10 +6,12 @@
 //!
 //! ```text
 //! W^2 int 3 eta t^3 [lap i lap j - (1 - nu) (A_i B_j + B_i A_j - 2 D_i D_j)] dA    bending goes with the thickness cubed,
-//! - (omega_i^2 + omega_j^2) / 2 int eta t i j dA                                   inertia with the thickness,
+//! - omega_i omega_j int eta t i j dA                                               inertia with the thickness,
 //! ```
 //!
-//! `W` the frequency of the flat plate at wavenumber 1.
+//! `W` the frequency of the flat plate at wavenumber 1. Of two modes `omega_i omega_j` stands for the mean of their squares, which is
+//! the same where they are near each other; of modes far apart the mean would take from the lower one, whose motion next to
+//! nothing of the higher one belongs to, more stiffness than it has.
 //!
 //! Limits: what hammering does to the curvature, and with it to the stress of the shell, is left out. It would mix the lowest modes
 //! more.

@@ -161,7 +161,7 @@ impl<'a> Problem<'a> {
         let (Some(p), Some(q)) = (&self.bent[one.shell], &self.bent[other.shell]) else {
             return PairIntegrals::default();
         };
-        let mass = 0.5 * (one.omega * one.omega + other.omega * other.omega);
+        let mass = one.omega * other.omega;
         let orders = [one.m.abs_diff(other.m), one.m + other.m].map(|l| l as usize);
         let mut integrals = PairIntegrals::default();
         for (at, (&weight, &[t, cube])) in self.weights.iter().zip(&self.thickness).enumerate() {

@@ -83,7 +83,7 @@ fn a_coupling_is_the_integral_of_bending_and_inertia_over_the_metal() {
     let unit = spec.flat_omega().powi(2);
     let rest = 1.0 - spec.poisson_ratio;
     let direct = |i: usize, j: usize| -> f64 {
-        let mass = 0.5 * (plain[i].omega.powi(2) + plain[j].omega.powi(2));
+        let mass = plain[i].omega * plain[j].omega;
         let mut sum = 0.0;
         for (at, &r) in radii.iter().enumerate() {
             let (t, area) = (spec.relative_thickness(r), 2.0 * r / f64::from(rings * spokes));
@@ -136,4 +136,18 @@ fn hammered_modes_are_rotations_of_plain_ones() {
     let ratio =
         square(&mut hammered.omegas.iter().copied()) / square(&mut plain.iter().map(|mode| mode.omega));
     assert!((ratio - 1.0).abs() < HAMMERING.rms, "{ratio}");
+}
+
+#[test]
+fn the_strongest_hammering_leaves_every_mode_stiff() {
+    for name in ["crash", "splash"] {
+        let (modes, tables) = plate(&reference::cymbal(name).plate(), 6000.0);
+        let plain = plain(&modes, MIXED_FROM_HZ);
+        for seed in 0..4 {
+            let strongest = HammeringSpec { rms: 0.1, correlation: 0.1, seed };
+            let hammered = HammeredModes::new(&modes, &tables, &strongest, 0, &plain);
+            let least = hammered.omegas[0] / plain[0].omega;
+            assert!(least > 0.7, "{name}, {seed}: {least}");
+        }
+    }
 }
