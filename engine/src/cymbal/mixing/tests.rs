@@ -1,6 +1,7 @@
 use std::f64::consts::TAU;
 
 use super::*;
+use crate::cymbal::spec::CymbalSpec;
 use crate::plate::PlateSpec;
 use crate::reference;
 use crate::split::Splitting;
@@ -140,14 +141,15 @@ fn hammered_modes_are_rotations_of_plain_ones() {
 
 #[test]
 fn the_strongest_hammering_leaves_every_mode_stiff() {
-    for name in ["crash", "splash"] {
-        let (modes, tables) = plate(&reference::cymbal(name).plate(), 6000.0);
-        let plain = plain(&modes, MIXED_FROM_HZ);
-        for seed in 0..4 {
-            let strongest = HammeringSpec { rms: 0.1, correlation: 0.1, seed };
-            let hammered = HammeredModes::new(&modes, &tables, &strongest, 0, &plain);
-            let least = hammered.omegas[0] / plain[0].omega;
-            assert!(least > 0.7, "{name}, {seed}: {least}");
-        }
+    // A small thick plate: a block of its modes reaches from the lowest up to ten kilohertz.
+    let small =
+        CymbalSpec { diameter: 0.18, mass: 0.25, bell: None, bow: 0.01, ..reference::cymbal("splash") };
+    let (modes, tables) = plate(&small.plate(), 21_000.0);
+    let plain = plain(&modes, MIXED_FROM_HZ);
+    for seed in 0..4 {
+        let strongest = HammeringSpec { rms: 0.1, correlation: 0.1, seed };
+        let hammered = HammeredModes::new(&modes, &tables, &strongest, 0, &plain);
+        let least = hammered.omegas[0] / plain[0].omega;
+        assert!(least > 0.85, "seed {seed}: {least}");
     }
 }
