@@ -119,8 +119,9 @@ pub struct CymbalPlate<'a> {
     splitting: Splitting,
     hammering: Option<HammeringSpec>,
     limit_hz: f64,
-    /// Sample rate, Hz, if it swings on its stand, and whether the stand tilts it or its own rock.
+    /// Sample rate, Hz, if it may swing.
     swings: Option<f64>,
+    /// Whether its mount tilts it, and not a rock of its own.
     is_tilted: bool,
     /// Modes up to this are coupled, Hz.
     highest_hz: Option<f64>,

@@ -22,7 +22,7 @@ use crate::plate::{PlateModes, PlateTables};
 
 use super::hammering::{HammeringSpec, ThicknessField};
 
-/// Modes are mixed from here on, Hz. *Derived*: of crash, ride and splash, modes from 300 to 500 Hz have 0 to 4 % of their energy in the shapes of
+/// Modes are mixed from here on, Hz. *Judgement* on what the eigenproblem says from 100 Hz on: of crash, ride and splash, modes from 300 to 500 Hz have 0 to 4 % of their energy in the shapes of
 /// others than their pair, from 500 to 800 Hz 5 to 15, to 2 kHz 11 to 18, above 12 to 35. Below, only the two of a pair meet, which are
 /// [split](crate::split) instead.
 pub const MIXED_FROM_HZ: f64 = 300.0;
