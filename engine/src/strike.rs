@@ -66,7 +66,7 @@ pub struct StrikerSpec {
     pub restitution: f64,
     /// Radius of the disc that the tip presses on a head, m. *Derived*: a head wraps around a solid tip of
     /// radius `R` to `sqrt(F R / (2 pi T))`, felt that gives way by `d` is flat to `sqrt(2 R d)`; both at the
-    /// force of a firm stroke. Where [heads wrap](crate::surface::local_compliance::LocalHeadCompliance::patch_grows), a stick's follows the stroke.
+    /// force of a firm stroke. Where [heads wrap](crate::surface::local_compliance::LocalHeadCompliance::wraps), a stick's is [smaller](crate::surface::local_compliance::LocalHeadCompliance::patch).
     pub patch: f64,
     /// What bends behind the tip.
     pub stick: Option<Stick>,

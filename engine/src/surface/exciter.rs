@@ -13,6 +13,7 @@ use crate::modal::{InputVector, Pressure};
 use crate::stick::{BENDING, Beam, Beams, Stick};
 use crate::strike::{Across, Striker, StrikerSpec};
 
+use super::film_band::FilmBand;
 use super::local_compliance::BANDS;
 use super::oscillator::Oscillator;
 
@@ -45,7 +46,7 @@ pub struct ContactPoint {
     /// Weights of each part of its exciter.
     pub weights: [f64; PARTS],
     /// Bands of the head's local compliance.
-    pub bands: [Oscillator; BANDS],
+    pub bands: [FilmBand; BANDS],
     /// Bands in use.
     pub band_count: usize,
     /// Displacement of its exciter at which it touches a surface at rest, m.
@@ -81,7 +82,7 @@ impl ContactPoint {
             port: InputVector::new(modes),
             direct: Pressure::default(),
             weights: [0.0; PARTS],
-            bands: [Oscillator::free(1.0, dt); BANDS],
+            bands: [FilmBand::linear(Oscillator::free(1.0, dt)); BANDS],
             band_count: 0,
             origin: 0.0,
             preload: 0.0,
@@ -118,7 +119,7 @@ impl ContactPoint {
         let mut gap = apart;
         for band in &mut self.bands[..self.band_count] {
             band.step();
-            gap -= band.q;
+            gap -= band.moved();
             compliance += band.compliance();
         }
         // The law gives the whole force, so the effect of the preload is added.
@@ -141,12 +142,12 @@ impl ContactPoint {
 
     /// Deflection of the head's local compliance, m.
     pub fn bands_bent(&self) -> f64 {
-        self.bands[..self.band_count].iter().map(|band| band.q).sum()
+        self.bands[..self.band_count].iter().map(FilmBand::moved).sum()
     }
 
     /// Energy of the contact and the local compliance above that of equilibrium, J.
     pub fn energy(&self) -> f64 {
-        let bands: f64 = self.bands[..self.band_count].iter().map(Oscillator::energy).sum();
+        let bands: f64 = self.bands[..self.band_count].iter().map(FilmBand::energy).sum();
         let held = self.law.potential(self.compression) - self.law.potential(self.static_compression);
         bands + held - self.preload * (self.compression - self.static_compression)
     }

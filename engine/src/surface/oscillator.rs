@@ -46,6 +46,11 @@ impl Oscillator {
         *self = Oscillator { q: self.q, v: self.v, ..other };
     }
 
+    /// Of its spring, N/m; zero of a free mass.
+    pub fn stiffness(&self) -> f64 {
+        self.mass * self.omega * self.omega
+    }
+
     /// One-sample compliance: displacement at the end of a sample by a unit force held over it, m/N.
     pub fn compliance(&self) -> f64 {
         self.hold[0]

@@ -39,7 +39,7 @@ use super::attachment::{Attachment, Site};
 use super::body::FreeStep;
 use super::contacts::{ATTACHED_POINTS, Contacts, owner, points_of};
 use super::exciter::{ContactPoint, Exciter, Ground};
-use super::local_compliance::{LocalHeadCompliance, Press};
+use super::local_compliance::LocalHeadCompliance;
 use super::oscillator::Oscillator;
 
 /// Rows of strands.
@@ -325,8 +325,9 @@ impl Attachment for SnareWires {
             (point.compression, point.force) = (point.static_compression, point.preload);
             if let Some(head) = self.head {
                 let place = x.hypot(y);
-                (point.bands, point.band_count) =
-                    head.at(place).bands(place, &Press::lightly(self.patch()), !self.lossless, self.dt);
+                // Wires press too softly to stretch the film.
+                let slack = LocalHeadCompliance { stretching: 0.0, ..head.at(place) };
+                (point.bands, point.band_count) = slack.bands(place, self.patch(), !self.lossless, self.dt);
             }
             point.origin = -site.body.modal().displacement_at(&point.port);
             point.stale = true;
