@@ -1,7 +1,8 @@
-//! Contour of a microphone made for kick drums: how far its response is from flat.
+//! Contour of a drum's close microphone: how far its response is from flat.
 //!
-//! Model: a dip in the lower midrange and a peak of presence, each a peaking filter of second order. Such microphones have both built in, by
-//! cavity, membrane or a network, so that what a kick has between its fundamental and the beater's click falls back.
+//! Model: a dip in the lower midrange and a peak of presence, each a peaking filter of second order. Dynamic microphones have presence built
+//! in, by cavity, membrane or a network; those made for kick drums the dip as well, so that what a kick has between its fundamental and the
+//! beater's click falls back.
 //!
 //! Limits: on the axis; a real one's pattern, its rise by proximity and what it loses above 10 kHz are left out.
 //!
@@ -40,6 +41,11 @@ impl ContourSpec {
     /// peaks at 60 Hz, 4 and 10 kHz, others dip at 250 to 300 Hz and rise at 3 to 4 kHz; these numbers lie in the middle (*judgement*).
     pub const KICK: ContourSpec =
         ContourSpec { dip_hz: 500.0, dip_db: -7.0, presence_hz: 4000.0, presence_db: 5.0 };
+
+    /// Of a microphone that is clipped to the rims of snares and toms. *Literature*: the usual dynamic ones are flat from 150 Hz to 1 or 2 kHz and rise to 4 to
+    /// 6 dB about 5 kHz; these numbers lie in the middle (*judgement*). The dip is none.
+    pub const RIM: ContourSpec =
+        ContourSpec { dip_hz: 500.0, dip_db: 0.0, presence_hz: 5000.0, presence_db: 5.0 };
 }
 
 /// Widths of dip and peak, middle frequency over the band at half the gain in dB: two octaves and one and a half. *Judgement*, as the

@@ -85,7 +85,7 @@ impl CloseSpec {
         height: fitted::OVER_RIM_HEIGHT,
         azimuth: fitted::OVER_RIM_AZIMUTH,
         gain: fitted::OVER_RIM_GAIN,
-        contour: None,
+        contour: Some(ContourSpec::RIM),
     };
 
     /// At a point, with a gain of 1.
