@@ -145,8 +145,8 @@ pub struct Drum {
     /// Shapes on the resonant head, where wires lie against it.
     far_shapes: Option<ShapeTable>,
     losses: Losses,
-    /// Whether the heads wrap themselves around tips.
-    wraps: bool,
+    /// Whether tips dent the heads.
+    dents: bool,
     controls: Controls,
     stale: Stale,
     /// `[kept pair, then mixed mode]`: where each rings now.
@@ -215,7 +215,7 @@ impl Drum {
                 lossless: ideal.lossless,
             },
             modes,
-            wraps: spec.contact == HeadContact::Wraps,
+            dents: spec.contact == HeadContact::Wraps,
             controls: Controls {
                 pitch: Glide::new(pitch, low, high),
                 muffling: Glide::new(0.0, 0.0, 1.0),
@@ -358,7 +358,7 @@ impl Instrument for Drum {
         self.follow_pressures(&place);
         let far = self.built.heads.resonant.as_ref().map(|head| head.film(&place));
         let near = self.built.heads.batter.film(&place);
-        self.surface.set_local_compliance(if self.wraps { near } else { near.under_fixed_discs() });
+        self.surface.set_local_compliance(if self.dents { near } else { near.under_fixed_discs() });
         if let Some(shapes) = &self.far_shapes {
             self.surface.with(|wires: &mut SnareWires, site| wires.lay(far, shapes, site));
         }

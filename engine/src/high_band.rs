@@ -30,7 +30,7 @@
 //! `J_0^2 + 2 sum J_m^2 = 1`. It is what the strip along the rim sends out; the point hears it from the rim's
 //! distances, by chance in any phase.
 //!
-//! Contact: the head wraps itself around a tip, whose pressure on it is even, over a patch that grows with the force.
+//! Contact: a tip presses evenly on the head, a soft one over a patch that grows with the force.
 //! An even pressure moves a wave by `2 J_1(k b) / (k b)`; averaged over the areas a stroke goes through, up to its
 //! largest patch of radius `b`, that is `4 (1 - J_0(k b)) / (k b)^2`.
 //!
@@ -280,7 +280,7 @@ impl HighBand {
             || waves.fill(radius, angle, shape),
         );
         for (k, (shape, slice)) in shape.iter_mut().zip(&*slices).enumerate() {
-            *shape *= known.map_or_else(|| taken(spec, slice, patch), |known| known.get(k)) as f32;
+            *shape *= known.map_or_else(|| taken(spec, slice, patch), |known| known[k]) as f32;
         }
         if lies_on_dot(&spec.head, radius) {
             shape.iter_mut().zip(&*slices).for_each(|(shape, slice)| *shape *= slice.on_dot as f32);

@@ -199,7 +199,7 @@ impl ShapeTable {
                 std::array::from_fn(|i| &self.radial[(stencil.first + i) * self.functions..][rows.clone()]);
             for (i, (here, row)) in here[..group.rows].iter_mut().zip(rows).enumerate() {
                 let felt = match (&known, self.waves.get(row)) {
-                    (Some(felt), _) => felt.get(row),
+                    (Some(felt), _) => felt[row],
                     (None, Some(&wave)) if disc > 0.0 => pressed_share(f64::from(wave) * disc),
                     _ => 1.0,
                 };

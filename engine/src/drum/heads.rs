@@ -106,7 +106,7 @@ impl TunedHead {
             rigidity: spec.dented_rigidity(),
             stretching: spec.material.youngs_modulus * spec.thickness,
             reached,
-            wraps: true,
+            dents: true,
             dot: spec.dot.map(|dot| {
                 let both = MembraneSpec { thickness: spec.thickness + dot.thickness, ..*spec };
                 LocalDot {

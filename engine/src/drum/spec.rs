@@ -83,7 +83,7 @@ pub enum PitchOf {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum HeadContact {
-    /// The head wraps itself around a stick's tip, the farther the harder the stroke, and resists being bent.
+    /// The head wraps itself around a stick's tip, resists being bent, and is tenser where it is dented.
     Wraps,
     /// Every stroke presses on the striker's own disc, whatever its force, and nothing but tension resists it: as published
     /// contacts have it.

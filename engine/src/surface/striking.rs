@@ -52,7 +52,7 @@ impl Surface {
             ..StrikeSnapshot::default()
         };
         let mut spec = strike.striker.spec();
-        if self.local_compliance.is_some_and(|head| !head.wraps) {
+        if self.local_compliance.is_some_and(|head| !head.dents) {
             spec.stick = spec.stick.map(Stick::even);
         }
         let striker = &mut self.contacts.exciters[i];

@@ -30,7 +30,7 @@ const PRIVATE: [(&str, &str); 68] = [
     ("yielding", "compliance"),
     ("eased", "preload_offset"),
     ("Film", "LocalHeadCompliance"),
-    ("wraps", "patch_grows"),
+    ("wraps", "dents"),
     ("Discs", "PatchFactors"),
     ("Rung", "ModeAtPitch"),
     ("rungs", "at_pitch"),
