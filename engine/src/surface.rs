@@ -18,7 +18,7 @@ pub mod body;
 pub mod contacts;
 pub mod direct_sound;
 pub mod exciter;
-mod film_band;
+pub mod film_band;
 pub mod incident_field;
 pub mod observer;
 pub mod oscillator;
