@@ -179,3 +179,6 @@ impl Surface {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;
