@@ -59,29 +59,41 @@ impl FilmBand {
         FilmBand { hardening, bent, dt, ..FilmBand::linear(waves) }
     }
 
+    /// Whether the film is never tense: then the lever is 1.
+    fn is_slack(&self) -> bool {
+        self.hardening == 0.0
+    }
+
     /// Displacement of the point by these waves, m.
     pub fn moved(&self) -> f64 {
-        self.moved
+        if self.is_slack() { self.waves.q } else { self.moved }
     }
 
     /// One-sample compliance: displacement at the end of a sample by a unit force held over it, m/N.
     pub fn compliance(&self) -> f64 {
+        if self.is_slack() {
+            return self.waves.compliance();
+        }
         self.lever * self.lever * self.waves.compliance()
     }
 
     /// Advances a sample without force; the lever is that of the middle of it.
     pub fn step(&mut self) {
-        let before = self.waves.q;
-        if self.hardening > 0.0 {
-            let middle = before + 0.5 * self.dt * self.waves.v;
-            self.lever = lever(self.hardening * middle * middle, self.bent);
+        if self.is_slack() {
+            return self.waves.step();
         }
+        let before = self.waves.q;
+        let middle = before + 0.5 * self.dt * self.waves.v;
+        self.lever = lever(self.hardening * middle * middle, self.bent);
         self.waves.step();
         self.moved += self.lever * (self.waves.q - before);
     }
 
     /// Adds the effect of a force (N) held over the sample just stepped.
     pub fn push(&mut self, force: f64) {
+        if self.is_slack() {
+            return self.waves.push(force);
+        }
         self.moved += self.compliance() * force;
         self.waves.push(self.lever * force);
     }
