@@ -111,10 +111,13 @@ mod tests {
     #[test]
     fn it_dips_and_peaks_where_it_should_and_leaves_the_fundamental() {
         for rate in [44_100.0, 48_000.0, 96_000.0, 192_000.0] {
-            let kick = ContourSpec::KICK;
-            for (hz, wanted, within) in [(50.0, 0.0, 0.2), (500.0, -7.0, 0.3), (4000.0, 5.0, 0.3)] {
-                let got = gain(&kick, hz, rate);
-                assert!((got - wanted).abs() < within, "{rate} Hz: {got} dB at {hz} Hz");
+            let kick = [(50.0, 0.0, 0.2), (500.0, -7.0, 0.3), (4000.0, 5.0, 0.3)];
+            let rim = [(50.0, 0.0, 0.1), (500.0, 0.0, 0.2), (5000.0, 5.0, 0.3)];
+            for (spec, heard) in [(ContourSpec::KICK, kick), (ContourSpec::RIM, rim)] {
+                for (hz, wanted, within) in heard {
+                    let got = gain(&spec, hz, rate);
+                    assert!((got - wanted).abs() < within, "{rate} Hz: {got} dB at {hz} Hz");
+                }
             }
         }
     }

@@ -98,15 +98,6 @@ impl StrikerSpec {
         StrikerSpec::new(grams, Tip::Solid { material, radius: radius_mm * 1e-3 }, restitution, patch_mm)
     }
 
-    /// Radius of the disc that the tip presses on a film that bends and is tenser where it is dented, m: of a stick less than
-    /// [its own](Self::patch) ([derivation](crate::surface::local_compliance)).
-    pub fn film_patch(&self) -> f64 {
-        match (&self.stick, self.tip) {
-            (Some(_), Tip::Solid { .. }) => STICK_ON_FILM,
-            _ => self.patch,
-        }
-    }
-
     const fn felt(grams: f64, stiffness: f64, exponent: f64, restitution: f64, patch_mm: f64) -> StrikerSpec {
         StrikerSpec::new(grams, Tip::Felt { stiffness, exponent }, restitution, patch_mm)
     }
@@ -122,6 +113,15 @@ impl StrikerSpec {
 
     const fn across(self, across: Across) -> StrikerSpec {
         StrikerSpec { across: Some(across), ..self }
+    }
+
+    /// Radius of the disc that the tip presses on a film that bends and is tenser where it is dented, m: of a stick less than
+    /// [its own](Self::patch) ([derivation](crate::surface::local_compliance)).
+    pub fn film_patch(&self) -> f64 {
+        match (&self.stick, self.tip) {
+            (Some(_), Tip::Solid { .. }) => STICK_ON_FILM,
+            _ => self.patch,
+        }
     }
 }
 
