@@ -8,6 +8,7 @@ use std::f64::consts::TAU;
 
 pub mod body;
 pub mod coupled;
+mod dent;
 pub mod heads;
 mod losses;
 pub mod lugs;
@@ -249,6 +250,7 @@ impl Drum {
         if !ideal.linear {
             let StretchModel { potential, modes, above } =
                 StretchModel::new(&drum.built, drum.mixed(), pitch);
+            let potential = if drum.dents { potential } else { potential.evenly() };
             drum.surface.set_potential(Box::new(potential), modes, stretch::stride(options.sample_rate));
             drum.surface.set_glide(modes, above);
         }

@@ -30,23 +30,23 @@
 //! errors: every other evaluation is left out, and two of three where the share is very small. Where `psi` strays from the
 //! true energy, the plate moves faster than predicted, and there are three evaluations in place of one.
 //!
-//! Drift: `psi` is integrated along the path, and its errors add up. Each evaluation gives `U`, hence the true `psi`. A share
-//! of the difference is corrected. The energy this takes is exchanged with the kinetic energy of the same modes by scaling
-//! their velocities, so that the sum of both stays the same to rounding. The change of velocity is part of the acceleration and
-//! sounds; without it the sound would have an offset.
+//! Drift: `psi` is integrated along the path, and its errors add up. Each evaluation gives `U`, hence the true `psi`. A share of the difference is
+//! corrected. The energy this takes is exchanged with the kinetic energy of the same modes by scaling their velocities, so that the sum of both stays
+//! the same to rounding; so is what `U` changes by when another tip presses. The change of velocity is part of the acceleration and sounds; without
+//! it the sound would have an offset.
 //!
 //! `C` follows the motion. Raising it by `D` turns `psi` into `sqrt(psi^2 + 2 D)` and changes no energy.
 //!
-//! Rest: once the potential's share of the energy is negligible, it is not evaluated until the next stroke. The share is taken
-//! from the peaks over a window, as `U` crosses zero often.
+//! Rest: once the potential's share of the peaks of the energy is negligible, it is not evaluated until the next stroke.
 //!
-//! Inside out: a dome has a second equilibrium, turned inside out, where `U` is about as far below zero as the bending energy
-//! is above. A plate in that state would hold its energy for ever. [`NonlinearForce::is_inside_out`] detects it.
+//! Inside out: a dome has a second equilibrium, where `U` is about as far below zero as the bending energy is above. A plate in that
+//! state would hold its energy for ever. [`NonlinearForce::is_inside_out`] detects it.
 //!
 //! Source: Bilbao, Ducceschi, Zama, Explicit exactly energy-conserving methods for Hamiltonian
 //! systems, J. Comput. Phys. 472, 2023. The exact hold, the contacts and the exchange are ours.
 
 mod safety;
+mod scalar;
 mod schedule;
 mod sound;
 
@@ -56,6 +56,7 @@ use crate::modal::sway::Sway;
 use crate::modal::{InputVector, ModalBody, Pressure, RECEIVERS, ReceiverWeights, Row, zero_row};
 
 use safety::Safety;
+use scalar::{LEAST_SHIFT, Scalar};
 use schedule::Schedule;
 use sound::Sound;
 
@@ -80,6 +81,12 @@ pub trait Potential: Send {
     /// Must not allocate, lock or fail.
     fn evaluate(&mut self, displacement: &[f32], gradient: &mut [f32]) -> Evaluation;
 
+    /// A tip comes to press so far from the centre (share of the radius); it meets the modes with these shapes, `[mode]`.
+    ///
+    /// # Real-time
+    /// Must not allocate, lock or fail.
+    fn press(&mut self, _radius: f64, _shapes: &[f32]) {}
+
     /// Whether the energy is never negative and rises from rest in every direction. The error of the energy then counts
     /// against all the energy there is: a head that sticks hold down hardly moves, however much it is stretched.
     fn is_convex(&self) -> bool {
@@ -99,43 +106,6 @@ const PULL: f64 = 1.0 / 16.0;
 
 /// Largest share of the kinetic energy exchanged at once. At turning points the modes have little.
 const LARGEST_EXCHANGE: f64 = 0.01;
-
-/// Ratio of `C` to the largest depth so far. *Converged*: under 8, a heavy beater on a cymbal's centre at 13 m/s takes `psi`
-/// to zero, and the plate then returns it faster than it came. Ordinary strokes do not change from 1.5 up.
-const HEADROOM: f64 = 12.0;
-
-/// Smallest `C`, J: under the energy of anything that can be heard.
-const LEAST_SHIFT: f64 = 1e-14;
-
-/// Time in which an unneeded `C` falls by `e`, s.
-const SHIFT_TIME: f64 = 0.05;
-
-/// `psi` and `C`.
-struct Scalar {
-    /// The root of J.
-    psi: f64,
-    /// `C`, J.
-    shift: f64,
-}
-
-impl Scalar {
-    const REST: Scalar = Scalar { psi: 0.0, shift: LEAST_SHIFT };
-
-    /// Energy held, J.
-    fn energy(&self) -> f64 {
-        0.5 * self.psi * self.psi - self.shift
-    }
-
-    /// Keeps `C` above the depth (J), and lets it fall where it is higher than needed; `stretch` is the time passed, s.
-    fn shift_to(&mut self, depth: f64, stretch: f64) {
-        let sunk = self.shift * (1.0 - stretch / SHIFT_TIME).max(0.0);
-        // Not so far that psi would vanish.
-        let least = self.shift - 0.25 * self.psi * self.psi;
-        let shift = sunk.max(least).max(HEADROOM * depth).max(LEAST_SHIFT);
-        self.psi = self.psi.signum() * (self.psi * self.psi + 2.0 * (shift - self.shift)).max(0.0).sqrt();
-        self.shift = shift;
-    }
-}
 
 /// A potential acting on the first modes of a body.
 pub struct NonlinearForce {
@@ -227,16 +197,14 @@ impl NonlinearForce {
         &self.coupled
     }
 
-    /// Energy it holds as the scheme has it, `psi^2 / 2 - C`, J; zero at rest.
+    /// Energy it holds as the scheme has it, `psi^2 / 2 - C`, and owes, J; zero at rest.
     pub fn energy(&self) -> f64 {
         if self.schedule.is_evaluated() { self.scalar.energy() } else { 0.0 }
     }
 
     /// True energy it holds, J, and the relative error of `psi`.
     pub fn true_energy(&mut self, body: &ModalBody) -> (f64, f64) {
-        let n = self.coupled.length();
-        let truth = self.potential.evaluate(&body.displacements()[..n], &mut self.gradient);
-        let energy = self.stiffness * truth.energy;
+        let energy = self.potential_at(body);
         let psi = (2.0 * (energy + self.scalar.shift).max(0.0)).sqrt();
         (energy, self.scalar.psi / psi - 1.0)
     }
@@ -268,6 +236,27 @@ impl NonlinearForce {
         if self.schedule.wake() {
             self.safety.forget();
         }
+    }
+
+    /// See [`Potential::press`], `radius` a share of the body's; acts from now on. What it then holds more, at the displacements of `body`, it
+    /// owes to the modes.
+    ///
+    /// # Real-time
+    /// Two evaluations.
+    pub fn press(&mut self, radius: f64, shapes: &[f32], body: &ModalBody) {
+        let before = self.potential_at(body);
+        self.potential.press(radius, shapes);
+        if self.schedule.is_evaluated() {
+            let after = self.potential_at(body);
+            self.scalar.rise_by(after - before);
+        }
+        self.wake();
+    }
+
+    /// The potential at the displacements of `body`, J.
+    fn potential_at(&mut self, body: &ModalBody) -> f64 {
+        let displacements = &body.displacements()[..self.coupled.length()];
+        self.stiffness * self.potential.evaluate(displacements, &mut self.gradient).energy
     }
 
     /// Whether the body rests inside out, where it would hold energy for ever.
@@ -444,7 +433,7 @@ impl NonlinearForce {
         self.safety.forget();
     }
 
-    /// Moves `psi` toward its true value, and exchanges the energy with the velocities.
+    /// Moves `psi` toward its true value, exchanges the energy with the velocities, and pays some of what it owes them.
     fn exchange(&mut self, (body, weights): (&mut ModalBody, &ReceiverWeights), target: f64, kinetic: f64) {
         if kinetic <= 0.0 || !target.is_finite() {
             return;
@@ -453,14 +442,16 @@ impl NonlinearForce {
         let aim = psi + PULL * (target - psi);
         let limit = LARGEST_EXCHANGE * kinetic;
         let cost = (0.5 * (aim * aim - psi * psi)).clamp(-limit, limit);
-        let factor = (1.0 - cost / kinetic).sqrt() as f32;
+        let paid = self.scalar.owed.clamp(-limit, limit);
+        let factor = (1.0 - (cost - paid) / kinetic).sqrt() as f32;
         // psi gets exactly what the rounded factor takes.
         let given = kinetic * (1.0 - f64::from(factor) * f64::from(factor));
-        let square = psi * psi + 2.0 * given;
-        if factor != 1.0 && square > 0.0 {
+        let square = psi * psi + 2.0 * (given + paid);
+        if (factor != 1.0 || paid != 0.0) && square > 0.0 {
             self.sound.rescale_velocity(body.rescale_velocity(&mut self.coupled, weights, factor));
             self.scalar.psi = square.sqrt();
             self.exchanged += given.abs();
+            self.scalar.owed -= paid;
         }
     }
 }

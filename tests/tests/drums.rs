@@ -204,7 +204,7 @@ fn the_floor_tom_of_the_kit_glides_as_the_square_of_the_stroke() {
     // The stretch is quadratic in the displacement, and so in the speed as long as the contact lasts as long; a head that is
     // stretched by some percent is stiffer, and takes up a little less.
     for (less, more) in [(soft, firm), (firm, hard)] {
-        assert!((3.1..4.6).contains(&(more / less)), "{less} and {more} cents");
+        assert!((2.9..4.6).contains(&(more / less)), "{less} and {more} cents");
     }
     // Recorded toms glide by 65 to 269 cents, by strokes of unknown speed.
     assert!((65.0..269.0).contains(&hard), "{hard} cents");
@@ -217,12 +217,11 @@ fn a_pillow_takes_6_db_off_a_kicks_boom() {
     assert!(down >= 6.0, "{down}");
 }
 
-/// The published figure is 10 dB, which the standard kick misses (docs/limits.md). This test holds what the kick has.
 #[test]
-fn a_plastic_beater_is_21_db_brighter_than_felt_where_10_are_published() {
+fn a_plastic_beater_is_10_db_brighter_than_felt_as_published() {
     let brighter = report::drums::plastic_db(&spec("kick"));
     println!("{brighter:.1} dB");
-    assert!((brighter - 20.6).abs() < 3.0, "{brighter}");
+    assert!((brighter - 10.0).abs() < 4.0, "{brighter}");
 }
 
 #[test]

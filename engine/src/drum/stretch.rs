@@ -10,6 +10,8 @@
 //! is `S / 4`; past the film's yield strain the tension grows no more. The potential is `A dT S / 4` up
 //! to there and a straight line in `S` beyond: never negative, and its gradient continuous.
 //!
+//! About the tip that came last the struck head is tenser than that: see [`dent`](super::dent).
+//!
 //! The struck head and the resonant head stretch alike, each by its own displacement. The drum's modes mix those of the heads,
 //! within each order. Modes that are [mixed](super::mixing) of many orders stretch a head each by itself: what they are made of has
 //! nearly one wavenumber, and the sum over all of them is the same. Shares are those of the default pitch.
@@ -21,6 +23,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::drum::dent::Dent;
 use crate::drum::heads::TunedHead;
 use crate::drum::mixing::{self, MixedModes};
 use crate::drum::modes::DrumModes;
@@ -114,8 +117,17 @@ pub struct Stretch {
     sorted: Row,
     /// The struck one first.
     heads: Vec<HeadStretch>,
+    /// What the tip that came last stretches the struck one more, unless all of it stretches alike.
+    dent: Option<Dent>,
     /// Evaluations since the tensions were asked for.
     evaluations: u32,
+}
+
+impl Stretch {
+    /// Lets the struck head stretch everywhere alike, however it is dented.
+    pub fn evenly(self) -> Stretch {
+        Stretch { dent: None, ..self }
+    }
 }
 
 /// The stretch of a drum, and what it means for modes that do not take part in it.
@@ -173,6 +185,7 @@ impl StretchModel {
             .map_or(0, |mixed| (0..mixed.len()).take_while(|&k| mixed.at(k, &place).omega < limit).count());
         let alone = alone(drum, mixed, &place);
         let (first, modes) = (count as usize, count as usize + below);
+        let waves = waves(drum, mixed, &place, &alone);
         let heads = heads.into_iter().enumerate().map(|(head, spec)| {
             let squares: Vec<f64> = alone[first..modes].iter().map(|squares| squares[head]).collect();
             HeadStretch::new(spec, &columns[head], start, &squares)
@@ -183,6 +196,7 @@ impl StretchModel {
             rows,
             sorted: zero_row(start),
             heads: heads.collect(),
+            dent: Some(Dent::new(drum.heads.batter.membrane.spec(), &waves[..modes])),
             evaluations: 0,
         };
         let above = alone[modes..].iter().map(|squares| {
@@ -199,25 +213,53 @@ fn heads(drum: &DrumModes) -> Vec<&MembraneSpec> {
     [Some(&drum.heads.batter), resonant].into_iter().flatten().map(|head| head.membrane.spec()).collect()
 }
 
-/// Shares of a drum's mode times the wavenumbers, 1/m, by head.
-fn bent(drum: &DrumModes, mode: usize, place: &PitchPosition) -> [Vec<f64>; HEADS] {
+/// Shares of a drum's mode in those of the heads, `[head]`, and the wavenumbers of these, 1/m.
+fn shares(drum: &DrumModes, mode: usize, place: &PitchPosition) -> [Vec<(f64, f64)>; HEADS] {
     let mode = &drum.modes[mode];
     let (_, near) = drum.heads.batter.order(mode.m);
-    let shares = |head: &TunedHead, before: usize| -> Vec<f64> {
+    let shares = |head: &TunedHead, before: usize| -> Vec<(f64, f64)> {
         let (first, count) = head.order(mode.m);
         let modes = &head.membrane.modes()[first..first + count];
         let wave = |zero: f64| zero / head.membrane.spec().radius;
-        modes.iter().enumerate().map(|(i, bare)| wave(bare.zero) * mode.share(before + i, place)).collect()
+        modes.iter().enumerate().map(|(i, bare)| (mode.share(before + i, place), wave(bare.zero))).collect()
     };
     let resonant = drum.heads.resonant.as_ref().map_or_else(Vec::new, |head| shares(head, near));
     [shares(&drum.heads.batter, 0), resonant]
 }
 
+/// Shares of a drum's mode times the wavenumbers, 1/m, by head.
+fn bent(drum: &DrumModes, mode: usize, place: &PitchPosition) -> [Vec<f64>; HEADS] {
+    shares(drum, mode, place).map(|shares| shares.into_iter().map(|(share, wave)| share * wave).collect())
+}
+
 /// `S` of each mode of the body by itself, 1/m2, `[mode][head]`.
 fn alone(drum: &DrumModes, mixed: Option<&MixedModes>, place: &PitchPosition) -> Vec<[f64; HEADS]> {
-    let square = |mode: usize| bent(drum, mode, place).map(|bent| bent.iter().map(|a| a * a).sum::<f64>());
+    of_body(drum, mixed, |mode| bent(drum, mode, place).map(|bent| bent.iter().map(|a| a * a).sum::<f64>()))
+}
+
+/// The wavenumber of each mode of the body on the struck head, times its radius; `alone` as [`alone`] gives it.
+fn waves(
+    drum: &DrumModes,
+    mixed: Option<&MixedModes>,
+    place: &PitchPosition,
+    alone: &[[f64; HEADS]],
+) -> Vec<f64> {
+    let squares = |shares: Vec<(f64, f64)>| shares.iter().map(|(share, _)| share * share).sum::<f64>();
+    let held = of_body(drum, mixed, |mode| shares(drum, mode, place).map(squares));
+    let radius = drum.heads.batter.membrane.spec().radius;
+    let wave =
+        |(s, held): (&[f64; HEADS], [f64; HEADS])| if held[0] > 0.0 { (s[0] / held[0]).sqrt() } else { 0.0 };
+    alone.iter().zip(held).map(|both| radius * wave(both)).collect()
+}
+
+/// What each mode of the body has by head, in any unit, from what the drum's pairs have: of mixed ones the mean by their shares.
+fn of_body(
+    drum: &DrumModes,
+    mixed: Option<&MixedModes>,
+    of_pair: impl Fn(usize) -> [f64; HEADS],
+) -> Vec<[f64; HEADS]> {
     let kept = mixed.map_or(drum.modes.len(), |_| drum.kept);
-    let pairs: Vec<[f64; HEADS]> = (0..drum.modes.len()).map(square).collect();
+    let pairs: Vec<[f64; HEADS]> = (0..drum.modes.len()).map(of_pair).collect();
     let simple = (0..kept).flat_map(|pair| {
         std::iter::repeat_n(pairs[pair], Splitting::ROUND.members(drum.modes[pair].m, 0).count())
     });
@@ -225,8 +267,8 @@ fn alone(drum: &DrumModes, mixed: Option<&MixedModes>, place: &PitchPosition) ->
     let mixture = |mixed: &MixedModes, k: usize| {
         let mut sum = [0.0; HEADS];
         for (part, share) in mixed.mixture.parts(k) {
-            let squares = pairs[even[part].pair];
-            sum.iter_mut().zip(squares).for_each(|(sum, square)| *sum += share * share * square);
+            let of_pair = pairs[even[part].pair];
+            sum.iter_mut().zip(of_pair).for_each(|(sum, of_pair)| *sum += share * share * of_pair);
         }
         sum
     };
@@ -259,7 +301,12 @@ impl Potential for Stretch {
             let mixed = gradient[count..].iter_mut().zip(&*head.mixed_product);
             mixed.for_each(|(gradient, product)| *gradient += factor * product);
         }
+        sum += self.dent.as_ref().map_or(0.0, |dent| dent.evaluate(displacement, gradient));
         Evaluation { energy: sum, depth: 0.0 }
+    }
+
+    fn press(&mut self, radius: f64, shapes: &[f32]) {
+        self.dent.iter_mut().for_each(|dent| dent.press(radius, shapes));
     }
 
     fn is_convex(&self) -> bool {
@@ -296,6 +343,8 @@ mod tests {
             StretchModel::new(drum, mixed, spec.pitch_hz);
         let mut gradient = zero_row(modes);
         let mut scratch = zero_row(modes);
+        let shapes: Vec<f32> = (0..modes).map(|k| (2.3 * k as f32).cos()).collect();
+        stretch.press(0.3, &shapes);
         for size in [1e-4_f32, 3e-3, 3e-2] {
             let mut q: Vec<f32> =
                 (0..modes).map(|k| size * (1.7 * k as f32).sin() / (1.0 + k as f32)).collect();
@@ -324,6 +373,7 @@ mod tests {
         let StretchModel { potential: mut stretch, modes, .. } =
             StretchModel::new(&drum, Some(&mixed), spec.pitch_hz);
         let (mut q, mut gradient) = (zero_row(modes), zero_row(modes));
+        stretch.press(0.2, &vec![1.0; modes]);
         for k in 0..modes {
             q[k] = 1e-4;
             let energy = stretch.evaluate(&q[..modes], &mut gradient).energy;

@@ -46,7 +46,7 @@ impl KitSpec {
                     "Kick",
                     kick(),
                     ([0.0, 0.30, -0.23], [0.0, 0.0, -1.0]),
-                    (0.15, 0.0, 0.0),
+                    (0.15, -5.0, 0.0),
                 )),
                 PieceSpec {
                     defaults: Defaults {

@@ -188,6 +188,14 @@ impl StruckBody {
         self.update_thresholds();
     }
 
+    /// A tip comes so far from the centre (share of the radius) and meets the modes with these shapes, `[mode]`: the nonlinear force acts.
+    ///
+    /// # Real-time
+    /// Linear in the number of modes.
+    pub(super) fn meet(&mut self, radius: f64, shapes: &[f32]) {
+        self.nonlinear_force.iter_mut().for_each(|force| force.press(radius, shapes, &self.sound.modal));
+    }
+
     /// Lets energy be carried above the coupled modes. Allocates.
     pub(super) fn set_transport(&mut self, spec: TransportSpec) {
         self.transport = Transport::new(spec, &self.sound.modal, &self.sound.receiver);

@@ -90,9 +90,7 @@ impl Surface {
         self.observers.arrive(i, (radius, strike.angle), sounding.as_ref(), [felt, felt_beside], rigid);
         self.contacts.list();
         self.connect(tip);
-        if let Some(force) = self.body.nonlinear_force_mut() {
-            force.wake();
-        }
+        self.body.meet(radius, self.contacts.points[tip].port.shape());
     }
 
     /// Lets a stick strike head and rim, from the player's side. Returns the weights of its parts at the tip, or `None` without

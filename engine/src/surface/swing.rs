@@ -19,8 +19,8 @@ use super::body::{SoundingBody, StruckBody};
 const TURN: f64 = 0.02;
 
 /// How long a cycle lasts, s, at least and at most. At least *derived*: a crash turns by 3 rad/s at most, by 0.01 rad in so long, a splash
-/// by 0.04. At most *judgement*: a swing that begins anew is heard 12 ms late.
-const CYCLE: [f64; 2] = [0.003, 0.006];
+/// by 0.04. At most *judgement*: a swing that begins anew is heard 24 ms late, a twentieth of a period or less.
+const CYCLE: [f64; 2] = [0.003, 0.012];
 
 /// Samples of a step of the weights. *Derived*: images at 5.5 kHz from a mode at 10 kHz lie 40 dB under it.
 const STEP: usize = 8;

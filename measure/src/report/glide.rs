@@ -9,7 +9,7 @@ use overhear_engine::piece::BuildOptions;
 use overhear_engine::strike::Striker;
 
 use super::page::bodies::{FIXED_DISC, PLAYED};
-use super::page::sources::EARLIER;
+use super::page::sources::{EARLIER, EXACT};
 use super::page::{Claim, Page, Sheet};
 use super::plot::{Axis, Curve, Plot};
 use crate::analysis::glide::{frequency, strongest_mode};
@@ -56,13 +56,17 @@ pub fn page() -> Result<Page> {
         met: Some((0.3..1.1).contains(&soft)),
     });
     let [soft, firm, hard] = [0.5, 3.0, 6.0].map(|speed| played.at(speed));
+    let by_square = |firm: f64| firm * (0.5_f64 / 3.0).powi(2);
     sheet.claim(Claim {
         what: "two heads, at 0.5, 3 and 6 m/s".to_owned(),
         on: PLAYED,
         figure: format!("{soft:.2}, {firm:.1}, {hard:.1} cents"),
-        reference: "almost none for a soft stroke (1.1 at most), more for each harder one".to_owned(),
-        source: EARLIER,
-        met: Some(soft < 1.1 && soft < firm && firm < hard),
+        reference: format!(
+            "as the square of the stroke: {:.2} for the soft one within half; more for each harder one",
+            by_square(firm)
+        ),
+        source: EXACT,
+        met: Some((soft / by_square(firm) - 1.0).abs() < 0.5 && soft < firm && firm < hard),
     });
     for (on, heads, glides) in [(FIXED_DISC, "one head", &published), (PLAYED, "two heads", &played)] {
         glides.claims(&mut sheet, on, heads);

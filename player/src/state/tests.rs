@@ -45,7 +45,8 @@ fn broken_values_are_put_right_and_unknown_ones_dropped() {
         (BYPASS_ID, StoredValue::Number(1.0)),
     ]);
     assert_eq!((values["01tune"], values["02muff"]), (12.0, 0.0));
-    assert_eq!((values["01levl"], values["02tune"]), (0.0, -12.0));
+    let level = parameters().iter().find(|parameter| parameter.id == "01levl").unwrap();
+    assert_eq!((values["01levl"], values["02tune"]), (level.default, -12.0));
     assert!(!values.contains_key("nobody"));
     assert_eq!(values[BYPASS_ID], 0.0);
     assert_eq!(ordered(&[(BYPASS_ID, StoredValue::Switch(true))])[BYPASS_ID], 1.0);
