@@ -81,11 +81,14 @@ pub trait Potential: Send {
     /// Must not allocate, lock or fail.
     fn evaluate(&mut self, displacement: &[f32], gradient: &mut [f32]) -> Evaluation;
 
-    /// A tip comes to press so far from the centre (share of the radius); it meets the modes with these shapes, `[mode]`.
+    /// A tip comes to press so far from the centre (share of the radius); it meets the modes with these shapes, `[mode]`. Returns by how
+    /// much that raises the energy at `displacement` (m, `[mode]`), J.
     ///
     /// # Real-time
     /// Must not allocate, lock or fail.
-    fn press(&mut self, _radius: f64, _shapes: &[f32]) {}
+    fn press(&mut self, _radius: f64, _shapes: &[f32], _displacement: &[f32]) -> f64 {
+        0.0
+    }
 
     /// Whether the energy is never negative and rises from rest in every direction. The error of the energy then counts
     /// against all the energy there is: a head that sticks hold down hardly moves, however much it is stretched.
@@ -204,7 +207,9 @@ impl NonlinearForce {
 
     /// True energy it holds, J, and the relative error of `psi`.
     pub fn true_energy(&mut self, body: &ModalBody) -> (f64, f64) {
-        let energy = self.potential_at(body);
+        let n = self.coupled.length();
+        let truth = self.potential.evaluate(&body.displacements()[..n], &mut self.gradient);
+        let energy = self.stiffness * truth.energy;
         let psi = (2.0 * (energy + self.scalar.shift).max(0.0)).sqrt();
         (energy, self.scalar.psi / psi - 1.0)
     }
@@ -242,21 +247,13 @@ impl NonlinearForce {
     /// owes to the modes.
     ///
     /// # Real-time
-    /// Two evaluations.
+    /// Linear in the modes it acts on.
     pub fn press(&mut self, radius: f64, shapes: &[f32], body: &ModalBody) {
-        let before = self.potential_at(body);
-        self.potential.press(radius, shapes);
-        if self.schedule.is_evaluated() {
-            let after = self.potential_at(body);
-            self.scalar.rise_by(after - before);
+        let more = self.potential.press(radius, shapes, &body.displacements()[..self.coupled.length()]);
+        if self.schedule.is_evaluated() && more != 0.0 {
+            self.scalar.rise_by(self.stiffness * more);
         }
         self.wake();
-    }
-
-    /// The potential at the displacements of `body`, J.
-    fn potential_at(&mut self, body: &ModalBody) -> f64 {
-        let displacements = &body.displacements()[..self.coupled.length()];
-        self.stiffness * self.potential.evaluate(displacements, &mut self.gradient).energy
     }
 
     /// Whether the body rests inside out, where it would hold energy for ever.

@@ -305,8 +305,12 @@ impl Potential for Stretch {
         Evaluation { energy: sum, depth: 0.0 }
     }
 
-    fn press(&mut self, radius: f64, shapes: &[f32]) {
-        self.dent.iter_mut().for_each(|dent| dent.press(radius, shapes));
+    fn press(&mut self, radius: f64, shapes: &[f32], displacement: &[f32]) -> f64 {
+        self.dent.as_mut().map_or(0.0, |dent| {
+            let before = dent.energy(displacement);
+            dent.press(radius, shapes);
+            dent.energy(displacement) - before
+        })
     }
 
     fn is_convex(&self) -> bool {
@@ -344,7 +348,7 @@ mod tests {
         let mut gradient = zero_row(modes);
         let mut scratch = zero_row(modes);
         let shapes: Vec<f32> = (0..modes).map(|k| (2.3 * k as f32).cos()).collect();
-        stretch.press(0.3, &shapes);
+        stretch.press(0.3, &shapes, &scratch);
         for size in [1e-4_f32, 3e-3, 3e-2] {
             let mut q: Vec<f32> =
                 (0..modes).map(|k| size * (1.7 * k as f32).sin() / (1.0 + k as f32)).collect();
@@ -373,7 +377,7 @@ mod tests {
         let StretchModel { potential: mut stretch, modes, .. } =
             StretchModel::new(&drum, Some(&mixed), spec.pitch_hz);
         let (mut q, mut gradient) = (zero_row(modes), zero_row(modes));
-        stretch.press(0.2, &vec![1.0; modes]);
+        stretch.press(0.2, &vec![1.0; modes], &q);
         for k in 0..modes {
             q[k] = 1e-4;
             let energy = stretch.evaluate(&q[..modes], &mut gradient).energy;

@@ -19,7 +19,7 @@ use super::body::{SoundingBody, StruckBody};
 const TURN: f64 = 0.02;
 
 /// How long a cycle lasts, s, at least and at most. At least *derived*: a crash turns by 3 rad/s at most, by 0.01 rad in so long, a splash
-/// by 0.04. At most *judgement*: a swing that begins anew is heard 24 ms late, a twentieth of a period or less.
+/// by 0.04. At most *judgement*: a swing that begins anew is heard 24 ms late, a fifteenth of a splash's period.
 const CYCLE: [f64; 2] = [0.003, 0.012];
 
 /// Samples of a step of the weights. *Derived*: images at 5.5 kHz from a mode at 10 kHz lie 40 dB under it.
