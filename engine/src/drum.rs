@@ -7,6 +7,7 @@
 use std::f64::consts::TAU;
 
 pub mod body;
+mod complete;
 pub mod coupled;
 mod dent;
 pub mod heads;
@@ -37,6 +38,7 @@ use crate::receiver::POINTS;
 use crate::rim::{Rim, RimPart};
 use crate::schema::SCHEMA;
 use crate::shapes::ShapeTable;
+use crate::strike::{Strike, Striker};
 use crate::surface::contacts::STRIKER_PLACES;
 use crate::surface::incident_field::Volume;
 use crate::surface::rim::AttachedRim;
@@ -44,6 +46,7 @@ use crate::surface::wires::{PRELOAD, SnareWires};
 use crate::surface::{Surface, SurfaceParts};
 
 use body::{BodyMode, all_around, describe, sampled};
+use complete::{at_pitch, continued};
 use losses::{Losses, palm};
 use mixing::MixedModes;
 use mode_transfer::{ModeTransfer, ModeTransfers};
@@ -75,8 +78,9 @@ struct Controls {
     pitch: Glide,
     /// 0 to 1.
     muffling: Glide,
-    /// How firmly a hand lies on the batter head.
+    /// How firmly a hand lies on the batter head, and whether that of the latest cross-stick lies there.
     hand: Grip,
+    under_stick: bool,
     /// Force of the strainer, N.
     preload: Glide,
 }
@@ -120,17 +124,6 @@ impl Mixing {
         let count = modes.mixture.modes();
         Mixing { modes, even: vec![HeardRow::default(); count], heard: vec![HeardRow::default(); count] }
     }
-}
-
-/// Where the kept pairs and then the mixed modes ring at a pitch.
-fn at_pitch<'a>(
-    built: &'a DrumModes,
-    mixed: Option<&'a MixedModes>,
-    place: &'a PitchPosition,
-) -> impl Iterator<Item = ModeAtPitch> + 'a {
-    let kept = mixed.map_or(built.modes.len(), |_| built.kept);
-    let kept = built.modes[..kept].iter().map(|mode| mode.at(place));
-    kept.chain(mixed.into_iter().flat_map(|mixed| (0..mixed.len()).map(|k| mixed.at(k, place))))
 }
 
 /// A drum that can be struck.
@@ -221,16 +214,18 @@ impl Drum {
                 pitch: Glide::new(pitch, low, high),
                 muffling: Glide::new(0.0, 0.0, 1.0),
                 hand: Grip::new(),
+                under_stick: false,
                 preload: Glide::new(*PRELOAD.start(), *PRELOAD.start(), *PRELOAD.end()),
             },
             stale: Stale { pitch: true, losses: true, shapes: true },
             at_pitch,
         };
         if spec.high_band {
-            let near = HighBand::new(&drum.built.high_band(spec, context));
-            let far = drum.built.far_high_band(spec, context).filter(|_| spec.wires.is_some());
+            let band = |band| HighBand::new(&continued(&drum.built, drum.mixed(), band));
+            let near = band(drum.built.high_band(spec, context));
+            let far = drum.built.far_high_band(spec, context).filter(|_| spec.wires.is_some()).map(band);
             drum.surface.observe(0, near);
-            far.iter().for_each(|far| drum.surface.observe(STRIKER_PLACES, HighBand::new(far)));
+            far.into_iter().for_each(|far| drum.surface.observe(STRIKER_PLACES, far));
         }
         drum.follow_controls();
         if let (Some(resonant), Some(wires)) = (spec.resonant, spec.wires) {
@@ -345,6 +340,17 @@ impl Instrument for Drum {
         &mut self.surface
     }
 
+    /// A cross-stick lies on the head under a hand, which has left before another stroke.
+    fn strike(&mut self, strike: &Strike) {
+        self.follow_shapes();
+        let lies = strike.striker == Striker::CrossStick && self.surface.rim().is_some();
+        if lies != std::mem::replace(&mut self.controls.under_stick, lies) {
+            self.stale.losses = true;
+            self.follow_controls();
+        }
+        self.surface.strike(strike);
+    }
+
     /// Brings the shapes and what is heard of them to where the pitch is; only strokes need the shapes, and hide that
     /// what still rings is heard a little differently.
     fn follow_shapes(&mut self) {
@@ -415,7 +421,8 @@ impl Instrument for Drum {
         if amount > 0.0 && !self.losses.is_known {
             self.losses.follow_pitch(&self.modes, &self.at_pitch, &self.built, &place);
         }
-        let hand = self.controls.hand.follow() * self.losses.palm;
+        let firmness = self.controls.hand.follow().max(f64::from(u8::from(self.controls.under_stick)));
+        let hand = firmness * self.losses.palm;
         let (modes, at_pitch, losses) = (&self.modes, &self.at_pitch, &self.losses);
         self.surface.retune(|k, _| {
             let rung = &at_pitch[modes[k].row];
@@ -435,7 +442,7 @@ impl Instrument for Drum {
 
     fn finish_controls(&mut self) {
         self.controls.move_modes(Glide::jump, &mut self.stale);
-        self.stale.losses |= self.controls.hand.jump();
+        self.stale.losses |= self.controls.hand.jump() | std::mem::take(&mut self.controls.under_stick);
         if self.controls.preload.jump() {
             self.follow_preload();
         }

@@ -13,11 +13,14 @@
 //!
 //! ```text
 //! omega^2 (s + 2 Re z) = T k^2 + D k^4      z = rho / sqrt(k^2 - (omega/c)^2 - i eta)
-//! sigma = film(omega) + edge(omega) + omega Im z / (2 (s + 2 Re z))      eta = 4 omega / (pi c a)
+//! sigma = film(omega) + edge(omega) + A omega Im z / (2 (s + 2 Re z))      eta = 4 omega / (pi c a)
 //! ```
 //!
 //! `z` is that of an endless head; `eta` gives it what a head of radius `a` radiates by its rim (below),
-//! and keeps it finite where a wave on the head is as fast as sound.
+//! and keeps it finite where a wave on the head is as fast as sound. `A` is what a drum's head loses to the air more than that, on both sides and
+//! to what lies behind it: the mean over the complete modes of the last third of an octave below
+//! ([`HighBandSpec::losing_as`]). It is 2 and 6 of the toms, 6 of the snare drum and 30 of the kick, whose slack head by itself gives next to nothing to
+//! the air.
 //!
 //! Count: `N(k) = (k a)^2 / 4 - k a / 2` (Weyl, clamped). What is heard: of the modes about `k` in a baffle the mean square
 //! of `int W e^(i x) dA`, over all of them and all directions, is with `j = k a`, `u = (omega a / c) sin`
@@ -46,7 +49,8 @@
 //! A [dot](crate::membrane::dot) takes its share of the losses by its area, weighs where it is struck directly, and gives way to a force as
 //! an endless head of its thickness does; that waves on it are of another speed is neglected.
 //!
-//! Limits: a chance shape per slice is right for the mean over slices and places, not for one.
+//! Limits: a chance shape per slice is right for the mean over slices and places, not for one. All slices lose alike: of real modes at one frequency
+//! those of low orders radiate more than others and are sooner over, as far as orders do not mix.
 //!
 //! Source: Weyl's law as in Rossing & Fletcher, Principles of Vibration and Sound, ch. 3; Cremer, Heckl &
 //! Petersson, Structure-Borne Sound, ch. 6 (radiation of bending waves at an edge). The mean square is derived here.

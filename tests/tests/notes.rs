@@ -138,3 +138,42 @@ fn thirty_two_equal_notes_differ_as_strokes_of_a_hand_do() {
     let mean = levels_of_all.iter().sum::<f64>() / levels_of_all.len() as f64;
     assert!((0.8..1.4).contains(&mean), "{mean} dB in the mean of all");
 }
+
+/// Notes, and the energy of the first 0.4 s in the mix over that of toms, dB: the least and the most of five kits that are published as mixed one-shots,
+/// medium to hard strokes (`docs/realism.md` names them).
+const BALANCE: [(u8, &str, [f64; 2]); 9] = [
+    (36, "kick", [-2.0, 4.5]),
+    (38, "snare", [-5.0, -2.3]),
+    (37, "cross-stick", [-11.2, -5.9]),
+    (42, "closed hats", [-16.1, -4.5]),
+    (46, "open hats", [-6.3, -2.5]),
+    (49, "crash", [-8.0, 0.9]),
+    (51, "ride", [-13.8, -5.1]),
+    (53, "bell of the ride", [-13.9, -3.8]),
+    (55, "splash", [-6.8, -2.3]),
+];
+
+#[test]
+fn pieces_are_as_loud_beside_each_other_as_in_mixed_recordings() {
+    let mut performer = Performer::new(RATE, &KitDocument::standard(), Arc::default());
+    performer.install_kit(RATE, Pace::RealTime).expect("a rate that pieces can be built for");
+    let mut level = |note: u8| {
+        let velocities = [80, 100, 120];
+        let levels = velocities.map(|velocity| {
+            performer.reset();
+            assert!(performer.note_on(note, velocity_from_midi(velocity), 9), "{note} is silent");
+            let mut sides = [vec![0.0; (0.4 * RATE) as usize], vec![0.0; (0.4 * RATE) as usize]];
+            let [left, right] = &mut sides;
+            performer.render(left, right);
+            let mono = left.iter().zip(right).map(|(left, right)| f64::from(*left + *right));
+            10.0 * mono.map(|x| x * x).sum::<f64>().log10()
+        });
+        levels.iter().sum::<f64>() / levels.len() as f64
+    };
+    let toms = 0.5 * (level(48) + level(43));
+    for (note, name, [least, most]) in BALANCE {
+        let beside = level(note) - toms;
+        println!("{name}: {beside:.1} dB beside toms, recorded {least} to {most}");
+        assert!((least - 1.0..=most + 1.0).contains(&beside), "{name}: {beside} dB for {least} to {most}");
+    }
+}

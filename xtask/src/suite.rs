@@ -55,7 +55,7 @@ pub fn run() -> Result<()> {
     runner::heading("release bundles");
     if let Err(error) = bundle::run() {
         eprintln!("{error:#}");
-        tally.failed += 1;
+        tally.fail("release bundles");
     } else {
         tally.passed += 1;
     }
@@ -170,12 +170,13 @@ fn with_traps<'a>(targets: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
     arguments
 }
 
-/// Prints the times and the last line.
+/// Prints the times, what failed, and the last line.
 ///
 /// # Errors
 /// If anything failed.
 fn told(tally: &Tally) -> Result<()> {
     tally.print_times();
+    tally.print_failures();
     println!("{tally}");
     if tally.failed > 0 {
         bail!("{} failed", tally.failed);

@@ -88,13 +88,19 @@ impl TunedHead {
             seed: 100 + u32::from(ear.far),
             places,
             apart,
+            air_loss: 1.0,
         }
+    }
+
+    /// Where the complete set ends at a place of the scale, rad/s.
+    pub fn top(&self, place: &PitchPosition) -> f64 {
+        TAU * self.limit_hz * (self.tension(place) / self.tensions[MIDDLE]).sqrt()
     }
 
     /// The head as a tip feels it from near, at a place of the scale.
     pub fn film(&self, place: &PitchPosition) -> LocalHeadCompliance {
         let (spec, now) = (self.membrane.spec(), self.tension(place));
-        let reached = TAU * self.limit_hz * (now / self.tensions[MIDDLE]).sqrt();
+        let reached = self.top(place);
         // Waves that fine move the air within their own length only: rho / k on either face.
         let bare = spec.area_density();
         let air = 2.0 * DENSITY * (now / bare).sqrt() / reached;

@@ -1,5 +1,7 @@
 //! What a drum's modes lose to its muffler and to a hand.
 
+use crate::fitted;
+
 use super::body::BodyMode;
 use super::modes::DrumModes;
 use super::muffler::MufflerCoefs;
@@ -20,14 +22,11 @@ pub struct Losses {
     pub lossless: bool,
 }
 
-/// Resistance of a palm that is pressed on a head, kg/s, spread over it. *Assumed*: no measurement is known. A film of 30 g by itself
-/// loses 67 1/s to it.
-const PALM: f64 = 4.0;
-
-/// Decay rate that a palm adds to a drum's batter head by itself, 1/s. *Derived*: half of the resistance over the film's mass.
+/// Decay rate that a palm pressed on it adds to a drum's batter head by itself, 1/s. *Derived*: half of its resistance, spread over the head, over the
+/// film's mass: a film of 30 g loses 25 1/s.
 pub fn palm(spec: &DrumSpec) -> f64 {
     let membrane = spec.membrane(&spec.batter);
-    0.5 * PALM / (membrane.area_density() * membrane.area())
+    0.5 * fitted::PALM / (membrane.area_density() * membrane.area())
 }
 
 impl Losses {

@@ -10,7 +10,7 @@
 //! is `S / 4`; past the film's yield strain the tension grows no more. The potential is `A dT S / 4` up
 //! to there and a straight line in `S` beyond: never negative, and its gradient continuous.
 //!
-//! About the tip that came last the struck head is tenser than that: see [`dent`](super::dent).
+//! About the tip that came last the struck head is tenser than that: see `dent.rs` beside.
 //!
 //! The struck head and the resonant head stretch alike, each by its own displacement. The drum's modes mix those of the heads,
 //! within each order. Modes that are [mixed](super::mixing) of many orders stretch a head each by itself: what they are made of has

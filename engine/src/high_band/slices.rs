@@ -5,8 +5,7 @@
 use std::f64::consts::{PI, TAU};
 
 use crate::air_load::{DENSITY, SPEED_OF_SOUND};
-use crate::diffraction;
-use crate::diffraction::Outside;
+use crate::diffraction::{self, Outside};
 use crate::math::cubic::Stencil;
 use crate::math::trigonometry::sin_cos;
 use crate::membrane::MembraneSpec;
@@ -65,6 +64,24 @@ pub struct HighBandSpec {
     pub places: usize,
     /// Whether these are more than half a wave apart.
     pub apart: bool,
+    /// Decay rate by the air over that of waves on an endless head with air on one side, dimensionless.
+    pub air_loss: f64,
+}
+
+impl HighBandSpec {
+    /// With the mean loss to the air of some of the head's complete modes, given as angular frequency (rad/s) and decay rate (1/s), at a
+    /// tension (N/m); as it is if there are none.
+    pub fn losing_as(self, modes: impl Iterator<Item = (f64, f64)>, tension: f64) -> HighBandSpec {
+        let (mut sum, mut count) = (0.0, 0.0);
+        for (omega, sigma) in modes {
+            let zero = wavenumber(&self.head, omega, tension);
+            let (_, air, mass) = wave(&self.head, zero, tension);
+            sum += (sigma - by_solids(&self.head, zero, (omega, mass), tension)) / air;
+            count += 1.0;
+        }
+        let air_loss = if count > 0.0 { (sum / count).max(0.0) } else { self.air_loss };
+        HighBandSpec { air_loss, ..self }
+    }
 }
 
 /// One slice: a chance wave.
@@ -367,12 +384,19 @@ impl SliceTable {
 }
 
 pub(super) fn mode(spec: &HighBandSpec, slice: &Slice, tension: f64) -> Mode {
-    let (omega, radiated, mass) = wave(&spec.head, slice.zero, tension);
-    let edge = spec.head.edge_sigma(tension, slice.zero / spec.head.radius, mass, omega);
-    // Waves are on the dot for its share of the area.
-    let glue = spec.head.added_by_dot().map_or(0.0, |dot| dot.reach.powi(2) * dot.loss.sigma(omega));
-    let sigma = if spec.lossless { 0.0 } else { spec.head.loss.sigma(omega) + edge + radiated + glue };
+    let (omega, air, mass) = wave(&spec.head, slice.zero, tension);
+    let solids = by_solids(&spec.head, slice.zero, (omega, mass), tension);
+    let sigma = if spec.lossless { 0.0 } else { solids + spec.air_loss * air };
     Mode { omega, sigma, mass: mass * spec.head.area() / slice.count }
+}
+
+/// Decay rate by the film, its edge and what is glued to it of waves of `k a`, of that angular frequency (rad/s) and mass with its air
+/// (kg/m2), 1/s.
+fn by_solids(head: &MembraneSpec, zero: f64, (omega, mass): (f64, f64), tension: f64) -> f64 {
+    let edge = head.edge_sigma(tension, zero / head.radius, mass, omega);
+    // Waves are on the dot for its share of the area.
+    let glue = head.added_by_dot().map_or(0.0, |dot| dot.reach.powi(2) * dot.loss.sigma(omega));
+    head.loss.sigma(omega) + edge + glue
 }
 
 /// Root mean square of `int W e^(i x) dA` over the real modes, m2.

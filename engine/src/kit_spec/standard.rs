@@ -46,12 +46,12 @@ impl KitSpec {
                     "Kick",
                     kick(),
                     ([0.0, 0.30, -0.23], [0.0, 0.0, -1.0]),
-                    (0.15, -5.0, 0.0),
+                    (0.15, 0.0, 0.0),
                 )),
                 PieceSpec {
                     defaults: Defaults {
                         muffle: 0.0,
-                        level_db: -2.5,
+                        level_db: 0.0,
                         pan: -0.35,
                         preload: Some(fitted::SNARE_PRELOAD),
                     },
@@ -68,35 +68,35 @@ impl KitSpec {
                     "Rack tom",
                     rack_tom(),
                     ([-0.14, 0.88, -0.12], [0.15, 0.85, -0.5]),
-                    (0.0, 3.0, -0.12),
+                    (0.0, -2.0, -0.12),
                 ),
                 piece(
                     "floor-tom",
                     "Floor tom",
                     floor_tom(),
                     ([0.47, 0.62, -0.34], [0.0, 1.0, 0.0]),
-                    (0.0, 2.0, 0.41),
+                    (0.0, -3.0, 0.41),
                 ),
                 piece(
                     "crash",
                     "Crash",
                     crash(),
                     ([-0.64, 1.20, 0.0], [0.22, 0.95, -0.25]),
-                    (0.0, 6.0, -0.56),
+                    (0.0, 1.0, -0.56),
                 ),
                 from_above(piece(
                     "ride",
                     "Ride",
                     ride(),
                     ([0.68, 1.06, -0.04], [-0.16, 0.96, -0.22]),
-                    (0.0, 0.0, 0.60),
+                    (0.0, 1.5, 0.60),
                 )),
                 piece(
                     "splash",
                     "Splash",
                     splash(),
                     ([0.16, 1.22, 0.08], [0.0, 0.97, -0.25]),
-                    (0.0, 3.0, 0.14),
+                    (0.0, -2.0, 0.14),
                 ),
                 // Beyond the floor tom, a turn of the stool away.
                 piece(
@@ -111,7 +111,7 @@ impl KitSpec {
                     "Hi-hat",
                     hi_hat(),
                     ([-0.72, 0.86, -0.30], [0.0, 1.0, 0.0]),
-                    (0.0, -4.0, -0.63),
+                    (0.0, -2.0, -0.63),
                 ),
             ],
             microphones: MicrophonesSpec {
@@ -124,7 +124,7 @@ impl KitSpec {
     }
 }
 
-/// A piece of the kit: its centre (m) and where it faces; muffling, level (dB, *by ear*) and pan: where it stands, seen from the stool.
+/// A piece of the kit: its centre (m) and where it faces; muffling, level (dB, *fitted* to the balance of five mixed recordings, `docs/realism.md`) and pan.
 fn piece(
     name: &str,
     title: &str,

@@ -9,7 +9,7 @@
 //! | 47, 48, 50 | low-mid, hi-mid, high tom | rack tom, stick |
 //! | 49, 57, 52 | crashes, Chinese cymbal | crash, stick shoulder on the edge |
 //! | 51, 59 | rides | ride, stick on the bow |
-//! | 53 | ride bell | ride, stick on the bell |
+//! | 53 | ride bell | ride, stick shoulder on the bell |
 //! | 55 | splash | splash, stick on the edge |
 //! | 60 to 63 | bongos, high congas | rack tom, soft mallet for a hand |
 //! | 64 | low conga | floor tom, soft mallet for a hand |
@@ -25,7 +25,7 @@
 //! | 88 | timpani, soft mallet where timpanists play |
 //! | 89 | timpani, hard mallet at the same place |
 //! | 90 | timpani, soft mallet in the middle: a thud |
-//! | 91, 92 | crash, stick on the bow and on the bell |
+//! | 91, 92 | crash, stick on the bow, its shoulder on the bell |
 //! | 93 | ride, stick shoulder on the edge |
 //! | 94 | snare, stick near the rim |
 //! | 95, 96 | rack tom, floor tom, rimshots |
@@ -196,7 +196,7 @@ const NOTES_PLAYED: [Note; 65] = [
     note(50, "High Tom", "rack-tom", (0.35, 0.2), Stick),
     note(51, "Ride Cymbal 1", "ride", (0.60, 0.0), Stick),
     note(52, "Chinese Cymbal", "crash", (0.97, PI / 2.0), Shoulder),
-    note(53, "Ride Bell", "ride", (0.12, 0.0), Stick),
+    note(53, "Ride Bell", "ride", (0.12, 0.0), Shoulder),
     note(55, "Splash Cymbal", "splash", (0.95, 0.0), Stick),
     note(57, "Crash Cymbal 2", "crash", (0.97, 0.7), Shoulder),
     note(59, "Ride Cymbal 2", "ride", (0.75, 0.3), Stick),
@@ -211,7 +211,7 @@ const NOTES_PLAYED: [Note; 65] = [
     note(89, "Timpani Hard", "timpani", (0.75, 0.0), HardMallet),
     note(90, "Timpani Centre", "timpani", (0.10, 0.0), TimpaniMallet),
     note(91, "Crash Bow", "crash", (0.60, 0.0), Stick),
-    note(92, "Crash Bell", "crash", (0.12, 0.0), Stick),
+    note(92, "Crash Bell", "crash", (0.12, 0.0), Shoulder),
     note(93, "Ride Edge", "ride", (0.97, 0.0), Shoulder),
     note(94, "Snare Edge", "snare", (0.85, 0.3), Stick),
     note(95, "Rack Tom Rim Shot", "rack-tom", (0.40, 0.2), RimShot),

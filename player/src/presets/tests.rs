@@ -111,7 +111,7 @@ fn what_is_not_named_is_at_its_default_but_the_player_s_set_up_stays() {
     let value = |name: &str| preset.value(at(name), &standard());
     let hertz = crate::parameters::text(at("kick_tune"), value("kick_tune").unwrap(), &standard());
     assert_eq!(hertz, "60.00 Hz");
-    assert_eq!((value("snare_tune"), value("snare_level")), (Some(0.0), Some(-2.5)));
+    assert_eq!((value("snare_tune"), value("snare_level")), (Some(0.0), Some(0.0)));
     for name in ["note_map", "midi_channel", "chokes", "quality", "offline_quality", "velocity_curve"] {
         assert_eq!(value(name), None, "{name}");
     }

@@ -100,7 +100,7 @@ pub fn run(tally: &mut Tally, rows: Vec<Row>, environment: &[(&str, &Path)]) {
                         let mut tally = tally.lock().unwrap_or_else(PoisonError::into_inner);
                         heading(&program.name);
                         print!("{said}");
-                        tally.count(&said, succeeded);
+                        tally.count(&program.name, &said, succeeded);
                         tally.took(&program.name, begun.elapsed());
                     }
                 }

@@ -12,13 +12,15 @@ pub struct Tally {
     pub passed: u64,
     /// Tests and checks that failed.
     pub failed: u64,
+    /// What failed, by name.
+    failures: Vec<String>,
     begun: Instant,
     times: Vec<(String, Duration)>,
 }
 
 impl Default for Tally {
     fn default() -> Tally {
-        Tally { passed: 0, failed: 0, begun: Instant::now(), times: Vec::new() }
+        Tally { passed: 0, failed: 0, failures: Vec::new(), begun: Instant::now(), times: Vec::new() }
     }
 }
 
@@ -38,20 +40,38 @@ impl Tally {
         println!("{:>5} s  in all", self.begun.elapsed().as_secs());
     }
 
+    /// Prints the name of everything that failed: what was printed about it may be far above, or cut off.
+    pub fn print_failures(&self) {
+        for failure in &self.failures {
+            println!("failed: {failure}");
+        }
+    }
+
+    /// Counts one failure.
+    pub fn fail(&mut self, what: &str) {
+        self.failed += 1;
+        self.failures.push(what.to_owned());
+    }
+
     /// Notes how long a part took.
     pub fn took(&mut self, what: &str, time: Duration) {
         self.times.push((what.to_owned(), time));
     }
 
-    /// Adds up the summaries in what a program of tests has printed.
-    pub fn count(&mut self, said: &str, succeeded: bool) {
+    /// Adds up the summaries in what a program of tests has printed, and notes the names of those that failed.
+    pub fn count(&mut self, what: &str, said: &str, succeeded: bool) {
         let mut summed = (0, 0);
         for (passed, failed) in said.lines().filter_map(summary) {
             summed = (summed.0 + passed, summed.1 + failed);
         }
         self.passed += summed.0;
+        self.failed += summed.1;
+        let names = said.lines().filter_map(|line| line.strip_prefix("test ")?.strip_suffix(" ... FAILED"));
+        self.failures.extend(names.map(|name| format!("{what}, {name}")));
         // A test that does not compile, or takes its runner down, is in no summary.
-        self.failed += summed.1.max(u64::from(!succeeded));
+        if summed.1 == 0 && !succeeded {
+            self.fail(what);
+        }
     }
 }
 
@@ -74,7 +94,7 @@ pub fn timed(tally: &mut Tally, what: &str, run: impl FnOnce() -> io::Result<Exi
     tally.took(what, begun.elapsed());
     if !passed {
         eprintln!("{what}: failed");
-        tally.failed += 1;
+        tally.fail(what);
     }
     passed
 }
@@ -88,7 +108,7 @@ pub fn tests(tally: &mut Tally, what: &str, command: &mut Command) {
     let said = said.unwrap_or_default();
     print!("{said}");
     tally.took(what, begun.elapsed());
-    tally.count(&said, output.as_ref().is_ok_and(|output| output.status.success()));
+    tally.count(what, &said, output.as_ref().is_ok_and(|output| output.status.success()));
 }
 
 /// Passed and failed tests in a line like `test result: ok. 12 passed; 0 failed; ...`.
@@ -111,6 +131,17 @@ mod tests {
         let line = "test result: FAILED. 12 passed; 3 failed; 1 ignored; 0 measured; 0 filtered out";
         assert_eq!(summary(line), Some((12, 3)));
         assert_eq!(summary("test a_result ... ok"), None);
+    }
+
+    #[test]
+    fn tests_that_failed_are_known_by_their_names() {
+        let said =
+            "test a::b ... ok\ntest a::c ... FAILED\ntest result: FAILED. 1 passed; 1 failed; 0 ignored";
+        let mut tally = Tally::default();
+        tally.count("units", said, false);
+        tally.count("aborted", "", false);
+        assert_eq!(tally.to_string(), "1 passed, 2 failed");
+        assert_eq!(tally.failures, ["units, a::c", "aborted"]);
     }
 
     #[test]
