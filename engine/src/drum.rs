@@ -47,7 +47,7 @@ use crate::surface::{Surface, SurfaceParts};
 
 use body::{BodyMode, all_around, describe, sampled};
 use complete::{at_pitch, continued};
-use losses::{Losses, palm};
+use losses::{LYING, Losses, palm};
 use mixing::MixedModes;
 use mode_transfer::{ModeTransfer, ModeTransfers};
 use modes::{DrumModes, most_volume};
@@ -421,8 +421,8 @@ impl Instrument for Drum {
         if amount > 0.0 && !self.losses.is_known {
             self.losses.follow_pitch(&self.modes, &self.at_pitch, &self.built, &place);
         }
-        let firmness = self.controls.hand.follow().max(f64::from(u8::from(self.controls.under_stick)));
-        let hand = firmness * self.losses.palm;
+        let lying = if self.controls.under_stick { LYING } else { 0.0 };
+        let hand = self.controls.hand.follow().max(lying) * self.losses.palm;
         let (modes, at_pitch, losses) = (&self.modes, &self.at_pitch, &self.losses);
         self.surface.retune(|k, _| {
             let rung = &at_pitch[modes[k].row];

@@ -90,9 +90,9 @@ fitted! {
         to "by ear: a pad as drummers place it"; tried "not recorded"; moves "what full muffling takes";
     RING_SIGMA = 60.0, "1/s", "ring_sigma";
         to "by ear: a ring as they are sold"; tried "not recorded"; moves "what full muffling takes";
-    PALM = 1.5, "kg/s", "palm";
+    LYING_HAND = 1.5, "kg/s", "lying_hand";
         to "decays of cross-sticks in four public sets of one-shots: from 300 Hz to 2.4 kHz -6 to -13 dB within 50 ms, -17 to -23 within 100, -25 to -34 within 200";
-        tried "0, 1.5, 2.5 and 4"; moves "cross-sticks, a hand on a drum";
+        tried "0, 1.5, 2.5 and 4"; moves "cross-sticks";
     AIR_Q = 60.0, "1", "pieces.kick.shell.air_q";
         to "by ear: losses at the wall, and through vents that are not described"; tried "not recorded"; moves "decay of modes of the enclosed air";
     // Hoops, sticks, wires.

@@ -22,11 +22,17 @@ pub struct Losses {
     pub lossless: bool,
 }
 
-/// Decay rate that a palm pressed on it adds to a drum's batter head by itself, 1/s. *Derived*: half of its resistance, spread over the head, over the
-/// film's mass: a film of 30 g loses 25 1/s.
+/// Resistance of a palm that is pressed on a head, kg/s, spread over it. *Assumed*: no measurement is known. A film of 30 g by itself
+/// loses 67 1/s to it.
+const PALM: f64 = 4.0;
+
+/// How firm a hand that lies under a cross-stick is, beside one that is pressed on the head, 0 to 1.
+pub const LYING: f64 = fitted::LYING_HAND / PALM;
+
+/// Decay rate that a palm adds to a drum's batter head by itself, 1/s. *Derived*: half of the resistance over the film's mass.
 pub fn palm(spec: &DrumSpec) -> f64 {
     let membrane = spec.membrane(&spec.batter);
-    0.5 * fitted::PALM / (membrane.area_density() * membrane.area())
+    0.5 * PALM / (membrane.area_density() * membrane.area())
 }
 
 impl Losses {
