@@ -91,7 +91,7 @@ fitted! {
     RING_SIGMA = 60.0, "1/s", "ring_sigma";
         to "by ear: a ring as they are sold"; tried "not recorded"; moves "what full muffling takes";
     LYING_HAND = 1.5, "kg/s", "lying_hand";
-        to "decays of cross-sticks in four public sets of one-shots: from 300 Hz to 2.4 kHz -6 to -13 dB within 50 ms, -17 to -23 within 100, -25 to -34 within 200";
+        to "decays of cross-sticks in four public sets of one-shots: from 300 Hz to 2.4 kHz -3 to -14 dB after 20 to 50 ms, -11 to -23 after 50 to 100, -24 to -44 after 100 to 200";
         tried "0, 1.5, 2.5 and 4"; moves "cross-sticks";
     AIR_Q = 60.0, "1", "pieces.kick.shell.air_q";
         to "by ear: losses at the wall, and through vents that are not described"; tried "not recorded"; moves "decay of modes of the enclosed air";
