@@ -69,7 +69,8 @@ pub fn plays(settings: &[Setting], notes: &NoteTable, note: u8) -> bool {
     played.and_then(|note| notes.row(note)).is_some_and(|row| row.meaning != Meaning::Silent)
 }
 
-/// The kit and the values of `--preset` (a name or a file), `--kit` in place of the preset's kit, `--set` after both.
+/// The kit and the values of `--preset` (a name or a file), `--kit` in place of the preset's kit, `--set` after both. What they ask for
+/// is not for a song to take back: if they move anything that presets set, program changes are off unless they are asked for.
 ///
 /// # Errors
 /// [`BadInput`](crate::error::BadInput) naming the presets, or the line of the file that is wrong.
@@ -78,6 +79,11 @@ pub fn choose(preset: &str, file: Option<&Path>, assignments: &[String]) -> Resu
     let kit = if file.is_some() { kit(file)? } else { kit_of(&preset) };
     let mut settings = moved(&preset, &kit.kit);
     settings.extend(parse(assignments, &kit.kit)?);
+    let drives = |index: usize| parameters()[index].drives;
+    let programs = (0..parameters().len()).find(|&i| drives(i) == Drives::Playing(Manner::FollowsPrograms));
+    let asks = |index: &usize| settings.iter().any(|(moved, _)| moved == index);
+    let moves_sound = settings.iter().any(|&(index, _)| !presets::is_set_up(&parameters()[index]));
+    settings.splice(0..0, programs.filter(|index| moves_sound && !asks(index)).map(|index| (index, 0.0)));
     Ok(Chosen { kit, settings })
 }
 
@@ -203,6 +209,20 @@ mod tests {
         assert_eq!(jazz.settings.last(), Some(&(kick, 0.5)));
         assert!(load_preset("polka").unwrap_err().to_string().contains("accepted: default, studio, jazz"));
         assert!(load_preset("no/such.toml").unwrap_err().to_string().contains("no/such.toml"));
+    }
+
+    #[test]
+    fn a_song_takes_back_nothing_that_was_asked_for() {
+        let off = |assignments: &[&str]| {
+            let texts: Vec<String> = assignments.iter().map(|&text| text.to_owned()).collect();
+            let chosen = choose("default", None, &texts).unwrap();
+            let programs = parameters::find("program_changes", &chosen.kit.kit).unwrap();
+            let told = chosen.settings.iter().rfind(|(index, _)| *index == programs);
+            told.map_or(1.0, |&(_, value)| value) < 0.5
+        };
+        assert!(off(&["kick_muffle=.5"]) && off(&["offline_quality=high", "crash_level=-3"]));
+        assert!(!off(&[]) && !off(&["offline_quality=high"]));
+        assert!(!off(&["kick_muffle=.5", "program_changes=on"]));
     }
 
     #[test]

@@ -32,7 +32,7 @@ mod programs;
 
 pub use error::PresetError;
 pub use library::{Entry, Library, Origin, load_file};
-pub use preset::{DEFAULT, FACTORY, FORMAT, Preset};
+pub use preset::{DEFAULT, FACTORY, FORMAT, Preset, is_set_up};
 pub use programs::{Program, Programs};
 
 #[cfg(test)]

@@ -6,7 +6,6 @@ use std::f64::consts::{PI, TAU};
 
 use crate::build_context::Idealization;
 use crate::contact::Material;
-use crate::contour::ContourSpec;
 use crate::cymbal::FELT_RADIUS;
 use crate::cymbal::alloy::Alloy;
 use crate::cymbal::hammering::HammeringSpec;
@@ -159,15 +158,9 @@ fn from_above(piece: PieceSpec) -> PieceSpec {
     PieceSpec { close: CloseSpec::beside(beside_a_cymbal(fitted::SPOT_INCLINATION)), ..piece }
 }
 
-/// The piece, its close microphone as far from the head as those of kicks stand, and with their contour.
+/// The piece with a kick drum's microphone.
 fn at_a_kick(piece: PieceSpec) -> PieceSpec {
-    let close = CloseSpec::OverRim {
-        height: fitted::KICK_CLOSE_HEIGHT,
-        azimuth: fitted::OVER_RIM_AZIMUTH,
-        gain: fitted::KICK_CLOSE_GAIN,
-        contour: Some(ContourSpec::KICK),
-    };
-    PieceSpec { close, ..piece }
+    PieceSpec { close: CloseSpec::AT_A_KICK, ..piece }
 }
 
 /// Modes of a struck head reach this far; above, single modes can no longer be told apart. Hz.
@@ -457,7 +450,8 @@ fn crash() -> InstrumentSpec {
 
 /// A 20 in ride.
 fn ride() -> InstrumentSpec {
-    hammered(bronze(20.0, 2.50, fitted::RIDE_BOW, (fitted::RIDE_BELL_RADIUS, fitted::RIDE_BELL_RISE)), 2)
+    let bell = (fitted::RIDE_BELL_RADIUS, fitted::RIDE_BELL_RISE);
+    hammered(bronze(20.0, fitted::RIDE_MASS, fitted::RIDE_BOW, bell), 2)
 }
 
 /// A 10 in splash.

@@ -104,8 +104,8 @@ impl Preset {
 /// The kit of presets that carry none.
 pub(super) static STANDARD: LazyLock<KitDocument> = LazyLock::new(KitDocument::standard);
 
-/// Whether a parameter belongs to the player's set-up rather than to the sound.
-fn is_set_up(parameter: &Parameter) -> bool {
+/// Whether a parameter belongs to the player's set-up rather than to the sound: presets leave it unless they name it.
+pub fn is_set_up(parameter: &Parameter) -> bool {
     use Manner::{Channel, Chokes, Curve, FollowsPosition, FollowsPrograms, Map};
     match parameter.drives {
         Drives::Playing(Map | Channel | Chokes | FollowsPosition | FollowsPrograms | Curve) => true,
