@@ -87,6 +87,13 @@ pub fn choose(preset: &str, file: Option<&Path>, assignments: &[String]) -> Resu
     Ok(Chosen { kit, settings })
 }
 
+/// Whether program changes act under such settings.
+pub fn follows_programs(settings: &[Setting]) -> bool {
+    let moved =
+        |&&(index, _): &&Setting| parameters()[index].drives == Drives::Playing(Manner::FollowsPrograms);
+    settings.iter().rfind(moved).is_none_or(|&(_, value)| value >= 0.5)
+}
+
 /// Parameters of a kit that a preset changes from their defaults.
 pub fn moved(preset: &Preset, kit: &KitSpec) -> Vec<Setting> {
     let mut values = preset.values_at(kit);
