@@ -163,7 +163,7 @@ fn report(
         println!("  {:<10}{}", piece, peaks.map(|peak| format!("{:8.1}", 20.0 * peak.log10())).concat());
     }
     println!("peak of the song: {}", decibels(played.peak));
-    println!("\n{:.1} s of sound, {} notes", seconds(&taken.take), taken.notes);
+    println!("\n{:.1} s of sound, {} notes", seconds(&taken.take), taken.counts.notes);
     println!(
         "Playing live takes {:.0} % of one core; this file was bounced at the highest quality, which took {:.0} % of real \
          time.",
