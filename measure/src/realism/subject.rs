@@ -27,7 +27,7 @@ pub const SUBJECTS: [Subject; 9] = [
     Subject { name: "kick", places: [0.1, 0.2, 0.3], piece: "kick", note: None },
     Subject { name: "snare", places: [0.15, 0.25, 0.35], piece: "snare", note: None },
     Subject { name: "rack-tom", places: [0.2, 0.3, 0.4], piece: "rack-tom", note: None },
-    Subject { name: "floor-tom", places: [0.25, 0.35, 0.45], piece: "floor-tom", note: None },
+    Subject { name: "floor-tom", places: [0.12, 0.22, 0.32], piece: "floor-tom", note: None },
     Subject { name: "crash", places: [0.9, 0.94, 0.97], piece: "crash", note: None },
     Subject { name: "ride", places: [0.5, 0.6, 0.7], piece: "ride", note: None },
     Subject { name: "splash", places: [0.9, 0.95, 0.97], piece: "splash", note: None },
@@ -104,6 +104,20 @@ mod tests {
     fn every_subject_is_a_piece_of_the_standard_kit() {
         let document = KitDocument::standard();
         assert!(SUBJECTS.iter().all(|subject| subject.slot(&document).is_ok()));
+    }
+
+    #[test]
+    fn every_subject_is_struck_about_where_its_note_lands() {
+        let document = KitDocument::standard();
+        for subject in SUBJECTS {
+            let played = subject.strike(&document, subject.slot(&document).unwrap()).radius;
+            let [nearer, middle, farther] = subject.places;
+            println!("{}: {played}", subject.name);
+            assert!(
+                (middle - played).abs() < 0.051 && nearer < middle && middle < farther,
+                "{subject:?} {played}"
+            );
+        }
     }
 
     #[test]
