@@ -167,9 +167,9 @@ const fn pedal(number: u8, name: &'static str, foot: Foot) -> Note {
 }
 
 /// Place of the pedal in an open note: the rims just lean on each other at one side. *Fitted* to how much louder recorded closed
-/// strokes are than what open ones still have after a quarter of a second, 4 to 9 dB, and to how open ones of three kits ring from 7 to
-/// 14 kHz, 1.1 to 1.7 s; tried 0.40 to 0.48: EXPERIMENTS.md, "Open hi-hats are struck twice" and "Open hi-hats rang like rides".
-const OPEN: f64 = 0.475;
+/// strokes are than what open ones still have after a quarter of a second, 4 to 9 dB, and to how long recorded open ones ring, 2.5 s at
+/// 8 kHz (1.1 to 3.4 in ten sets); tried 0.40 to 0.48: EXPERIMENTS.md, "Open hi-hats are struck twice" and "Open hi-hats rang like rides".
+const OPEN: f64 = 0.47;
 
 /// Place of the pedal in a half-open note: the rims lean on each other at one side, by 2 N. *Fitted* to how much recorded half-open
 /// hats have lost after a quarter of a second, 9 to 13 dB; tried 0.47 to 0.52.
