@@ -213,13 +213,10 @@ fitted! {
     // Microphones, room, mix.
     OVER_RIM_HEIGHT = 0.08, "m", "pieces.snare.close.height_m";
         to "49 of 60 figures of recorded kicks, snares and toms inside"; tried "nine places, 0.05 to 0.5"; moves "every drum close by";
-    KICK_CLOSE_DISTANCE = 0.20, "m", "pieces.kick.close.distance_m";
-        to "spectra and decays of recorded kicks; microphones stand 15 to 25 cm from the batter"; tried "over the rim at 0.08, 0.12, 0.15, 0.3; before the middle at 0.2, 0.25, 0.3";
-        moves "the kick's 200 Hz to 1 kHz close by";
-    KICK_CLOSE_INCLINATION = 0.5, "rad", "pieces.kick.close.inclination_rad";
-        to "the same"; tried "0: texture 2.7; 0.5, 0.9"; moves "modes with nodal diameters of the kick close by";
-    KICK_CLOSE_GAIN = 0.25, "1", "pieces.kick.close.gain";
-        to "as loud in the mix as recorded kicks beside their toms, 2 dB over them (-2 to 4)"; tried "not recorded"; moves "the kick in the mix";
+    KICK_CLOSE_HEIGHT = 0.15, "m", "pieces.kick.close.height_m";
+        to "spectra and decays of recorded kicks; microphones stand 5 to 20 cm from them"; tried "0.08, 0.12, 0.15, 0.3; 20 cm before the middle of the batter"; moves "the kick's 300 Hz to 1 kHz close by";
+    KICK_CLOSE_GAIN = 0.36, "1", "pieces.kick.close.gain";
+        to "as loud as from 8 cm before"; tried "not recorded"; moves "the kick in the mix";
     OVER_RIM_AZIMUTH = 2.5, "rad", "pieces.snare.close.azimuth_rad";
         to "out of the way of sticks"; tried "not recorded"; moves "modes with nodal diameters close by";
     OVER_RIM_GAIN = 0.28, "1", "pieces.snare.close.gain";

@@ -88,17 +88,6 @@ impl CloseSpec {
         contour: Some(ContourSpec::RIM),
     };
 
-    /// As far from a kick's batter as microphones in a shell stand, off the beater's spot, with their contour. It hears the batter as from
-    /// before it: the air in the shell is not listened to.
-    pub const AT_A_KICK: CloseSpec = CloseSpec::Beside {
-        distance: fitted::KICK_CLOSE_DISTANCE,
-        inclination: fitted::KICK_CLOSE_INCLINATION,
-        azimuth: fitted::OVER_RIM_AZIMUTH,
-        time_zero: fitted::KICK_CLOSE_DISTANCE,
-        gain: fitted::KICK_CLOSE_GAIN,
-        contour: Some(ContourSpec::KICK),
-    };
-
     /// At a point, with a gain of 1.
     pub const fn beside(point: ReceiverPosition) -> CloseSpec {
         let ReceiverPosition { distance, inclination, azimuth } = point;

@@ -42,6 +42,7 @@ fn instruments_sound_and_decay() {
 #[test]
 fn whole_kits_sound_on_every_piece_and_do_not_clip() {
     let all: Vec<WholeKit> = library::kits().collect();
+    let mut clipping = Vec::new();
     for kit in sampled(&all, &[], 2) {
         let document = kit.document().expect("a kit");
         let mut playing = kit_of(&document.kit, RATE);
@@ -57,6 +58,7 @@ fn whole_kits_sound_on_every_piece_and_do_not_clip() {
             loudest = loudest.max(own);
         }
         println!("{}: {} pieces, at most {loudest:.2} of full scale", kit.name, struck.len());
-        assert!(loudest < 1.0, "{}: {loudest}", kit.name);
+        clipping.extend((loudest >= 1.0).then(|| format!("{}: {loudest:.2}", kit.name)));
     }
+    assert!(clipping.is_empty(), "{clipping:?}");
 }

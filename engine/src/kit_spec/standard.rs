@@ -6,6 +6,7 @@ use std::f64::consts::{PI, TAU};
 
 use crate::build_context::Idealization;
 use crate::contact::Material;
+use crate::contour::ContourSpec;
 use crate::cymbal::FELT_RADIUS;
 use crate::cymbal::alloy::Alloy;
 use crate::cymbal::hammering::HammeringSpec;
@@ -158,9 +159,15 @@ fn from_above(piece: PieceSpec) -> PieceSpec {
     PieceSpec { close: CloseSpec::beside(beside_a_cymbal(fitted::SPOT_INCLINATION)), ..piece }
 }
 
-/// The piece with a kick drum's microphone.
+/// The piece, its close microphone as far from the head as those of kicks stand, and with their contour.
 fn at_a_kick(piece: PieceSpec) -> PieceSpec {
-    PieceSpec { close: CloseSpec::AT_A_KICK, ..piece }
+    let close = CloseSpec::OverRim {
+        height: fitted::KICK_CLOSE_HEIGHT,
+        azimuth: fitted::OVER_RIM_AZIMUTH,
+        gain: fitted::KICK_CLOSE_GAIN,
+        contour: Some(ContourSpec::KICK),
+    };
+    PieceSpec { close, ..piece }
 }
 
 /// Modes of a struck head reach this far; above, single modes can no longer be told apart. Hz.
@@ -456,10 +463,8 @@ fn ride() -> InstrumentSpec {
 
 /// A 10 in splash.
 fn splash() -> InstrumentSpec {
-    hammered(
-        bronze(10.0, 0.25, fitted::SPLASH_BOW, (fitted::SPLASH_BELL_RADIUS, fitted::SPLASH_BELL_RISE)),
-        3,
-    )
+    let bell = (fitted::SPLASH_BELL_RADIUS, fitted::SPLASH_BELL_RISE);
+    hammered(bronze(10.0, 0.25, fitted::SPLASH_BOW, bell), 3)
 }
 
 /// 14 in hats.

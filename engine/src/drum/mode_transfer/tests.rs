@@ -20,7 +20,7 @@ fn shares(spec: &DrumSpec, point: ReceiverPosition) -> [f64; 4] {
 
 #[test]
 fn over_its_rim_a_drum_shows_modes_that_it_hardly_sends_out() {
-    for name in ["snare", "rack-tom", "floor-tom"] {
+    for name in ["kick", "snare", "rack-tom", "floor-tom"] {
         let build = reference::standard(name);
         let spec = build.spec.drum().unwrap();
         let far = shares(spec, build.receivers.far[0]);
