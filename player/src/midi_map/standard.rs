@@ -167,9 +167,9 @@ const fn pedal(number: u8, name: &'static str, foot: Foot) -> Note {
 }
 
 /// Place of the pedal in an open note: the rims just reach each other at one side. *Fitted* to how much louder recorded closed
-/// strokes are than what open ones still have after a quarter of a second, 4 to 9 dB, and to how long recorded open ones ring, 2.5 s at
-/// 8 kHz (1.2 to 5.4 in nine sets); tried 0.40 to 0.48: EXPERIMENTS.md, "Open hi-hats are struck twice" and "Open hi-hats rang like rides".
-const OPEN: f64 = 0.46;
+/// strokes are than what open ones still have after a quarter of a second, 4 to 9 dB; tried 0.40 to 0.48: EXPERIMENTS.md, "Open
+/// hi-hats are struck twice".
+const OPEN: f64 = 0.44;
 
 /// Place of the pedal in a half-open note: the rims lean on each other at one side, by 2 N. *Fitted* to how much recorded half-open
 /// hats have lost after a quarter of a second, 9 to 13 dB; tried 0.47 to 0.52.
