@@ -63,8 +63,7 @@ pub fn parse(assignments: &[String], kit: &KitSpec) -> Result<Vec<Setting>> {
 
 /// Whether a note plays something of a kit under the settings' note map: by a stroke or by foot.
 pub fn plays(settings: &[Setting], notes: &NoteTable, note: u8) -> bool {
-    let moved = |&&(index, _): &&Setting| parameters()[index].drives == Drives::Playing(Manner::Map);
-    let map = settings.iter().rfind(moved).map_or(0, |&(_, value)| value as usize);
+    let map = told(settings, Manner::Map).map_or(0, |value| value as usize);
     let played = NoteMap::ALL.get(map).copied().unwrap_or_default().plays(note);
     played.and_then(|note| notes.row(note)).is_some_and(|row| row.meaning != Meaning::Silent)
 }
@@ -79,19 +78,27 @@ pub fn choose(preset: &str, file: Option<&Path>, assignments: &[String]) -> Resu
     let kit = if file.is_some() { kit(file)? } else { kit_of(&preset) };
     let mut settings = moved(&preset, &kit.kit);
     settings.extend(parse(assignments, &kit.kit)?);
-    let drives = |index: usize| parameters()[index].drives;
-    let programs = (0..parameters().len()).find(|&i| drives(i) == Drives::Playing(Manner::FollowsPrograms));
-    let asks = |index: &usize| settings.iter().any(|(moved, _)| moved == index);
     let moves_sound = settings.iter().any(|&(index, _)| !presets::is_set_up(&parameters()[index]));
-    settings.splice(0..0, programs.filter(|index| moves_sound && !asks(index)).map(|index| (index, 0.0)));
+    if moves_sound && told(&settings, Manner::FollowsPrograms).is_none() {
+        let programs = (0..parameters().len()).find(|&index| is(index, Manner::FollowsPrograms));
+        settings.splice(0..0, programs.map(|index| (index, 0.0)));
+    }
     Ok(Chosen { kit, settings })
+}
+
+/// Whether a parameter, by its place in the table, is that one of playing.
+fn is(index: usize, manner: Manner) -> bool {
+    parameters()[index].drives == Drives::Playing(manner)
+}
+
+/// The value that settings end with for a parameter of playing, in its unit, if they set it.
+fn told(settings: &[Setting], manner: Manner) -> Option<f32> {
+    settings.iter().rfind(|&&(index, _)| is(index, manner)).map(|&(_, value)| value)
 }
 
 /// Whether program changes act under such settings.
 pub fn follows_programs(settings: &[Setting]) -> bool {
-    let moved =
-        |&&(index, _): &&Setting| parameters()[index].drives == Drives::Playing(Manner::FollowsPrograms);
-    settings.iter().rfind(moved).is_none_or(|&(_, value)| value >= 0.5)
+    told(settings, Manner::FollowsPrograms).is_none_or(|value| value >= 0.5)
 }
 
 /// Parameters of a kit that a preset changes from their defaults.
@@ -222,10 +229,7 @@ mod tests {
     fn a_song_takes_back_nothing_that_was_asked_for() {
         let off = |assignments: &[&str]| {
             let texts: Vec<String> = assignments.iter().map(|&text| text.to_owned()).collect();
-            let chosen = choose("default", None, &texts).unwrap();
-            let programs = parameters::find("program_changes", &chosen.kit.kit).unwrap();
-            let told = chosen.settings.iter().rfind(|(index, _)| *index == programs);
-            told.map_or(1.0, |&(_, value)| value) < 0.5
+            !follows_programs(&choose("default", None, &texts).unwrap().settings)
         };
         assert!(off(&["kick_muffle=.5"]) && off(&["offline_quality=high", "crash_level=-3"]));
         assert!(!off(&[]) && !off(&["offline_quality=high"]));

@@ -136,7 +136,7 @@ fitted! {
     CRASH_BELL_RISE = 0.020, "m", "pieces.crash.bell.rise_m";
         to "recorded crashes"; tried "some dozen shapes each"; moves "the crash's bell";
     RIDE_MASS = 2.2, "kg", "pieces.ride.mass_kg";
-        to "where recorded rides end, 14 kHz: from 100 ms on 10.7 to 14 kHz lie at -10 to 1 dB over 7 to 10 kHz, 14 to 17 kHz at -18 to -38; coincidence falls as the plate is thicker; within trade weights of 20 in, 1.8 to 2.7 kg";
+        to "where recorded rides end, 14 kHz: from 100 ms on 10.7 to 14 kHz lie at -10 to 1 dB over 7 to 10 kHz, 14 to 17 kHz at -18 to -38, of one at -10; coincidence falls as the plate is thicker; within trade weights of 20 in, 1.8 to 2.7 kg";
         tried "2.5: -21 to -25 and -31 to -44 dB; 2.2: -2 to -10 and -26 to -44; 2.1, 2.0; tapers of 0.6 to 1";
         moves "where ride and bell end, density of modes, loudness";
     RIDE_BOW = 0.018, "m", "pieces.ride.bow_m";

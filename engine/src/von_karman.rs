@@ -48,8 +48,8 @@ use crate::potential::{Evaluation, Potential};
 
 use airy::AiryOrder;
 
-/// Radii per unit of the largest wave number. *Converged*: 0.7 leaves 6e-4 of a cap's gradient, 0.66 less than 2e-3. Of a belled crash's or ride's to 2 kHz, for whom
-/// it comes to 16 lanes, it leaves 4 % in a state that rings everywhere; to 4 kHz 4e-6. The next 16 would make them half as
+/// Radii per unit of the largest wave number. *Converged*: 0.66 leaves 1.3e-3 of a cap's gradient. Where it comes to 16 lanes for plates with
+/// bells, to 2 kHz, it leaves 3 % (crash) and 4 to 7 % (ride) in a state that rings everywhere; to 4 kHz 5e-6. The next 16 would make them half as
 /// dear again and move no band of a hard stroke by more than 0.2 dB (crash) and 0.4 (ride; 0.1 in the mean).
 const RADII: f64 = 0.66;
 

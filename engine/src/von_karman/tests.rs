@@ -61,7 +61,7 @@ fn finest(plate: &PlateModes, count: usize) -> f64 {
 fn of_random_states_energy_and_gradient_are_those_of_direct_quadrature_of_the_bracket() {
     let played = |name| cymbal(name).plate();
     // Of plates with bells the same number of radii leaves more: see `RADII`. Of eleven states the worst had 1.5e-4 and 1.4e-3 on
-    // caps, 3.1e-2 and 1.1e-1 on plates with bells to 2 kHz.
+    // caps, 3.1e-2 and 1.1e-1 on plates with bells to 2 kHz, before the ride became thinner; of the two here now 2.0e-2 and 7.3e-2.
     for (spec, hz, energies, gradients) in [
         (cap_crash(), 2000.0, 3e-4, 2e-3),
         (cap_ride(), 1000.0, 3e-4, 1e-3),
@@ -87,6 +87,11 @@ fn of_random_states_energy_and_gradient_are_those_of_direct_quadrature_of_the_br
             let wanted = to_body(&plate, &pairs, &want.gradient, modes);
             let size: f32 = wanted.iter().map(|g| g * g).sum::<f32>().sqrt();
             let error: f32 = wanted.iter().zip(&gradient).map(|(a, b)| (a - b).powi(2)).sum::<f32>().sqrt();
+            println!(
+                "to {hz} Hz: energy {:.1e}, gradient {:.1e}",
+                (got.energy - want.energy).abs() / scale,
+                error / size
+            );
             assert!(error < gradients * size, "{error} of {size}");
         }
     }
