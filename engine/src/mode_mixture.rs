@@ -125,15 +125,34 @@ impl ModeMixture {
         let (first, last) = (runs.start - self.kept, runs.end - self.kept);
         for (out, run) in mixed[runs].iter_mut().zip(&self.runs[first..last]) {
             let coefs = &self.coefs[run.start as usize..][..run.length as usize];
-            let mut sum = [0.0; N];
-            for (coef, row) in coefs.iter().zip(&even[run.first as usize..]) {
-                for i in 0..N {
-                    sum[i] += coef * row[i];
-                }
-            }
-            *out = sum;
+            *out = sum_of_rows(coefs, &even[run.first as usize..][..coefs.len()]);
         }
     }
+}
+
+/// Sum of the rows, each times its coefficient. Four sums hide each other's latency.
+#[inline(always)]
+fn sum_of_rows<const N: usize>(coefs: &[f32], rows: &[[f32; N]]) -> [f32; N] {
+    let (mut a, mut b, mut c, mut d) = ([0.0; N], [0.0; N], [0.0; N], [0.0; N]);
+    let (fours, rest) = coefs.as_chunks::<4>();
+    let (four_rows, rest_rows) = rows.as_chunks::<4>();
+    for (coefs, rows) in fours.iter().zip(four_rows) {
+        for i in 0..N {
+            a[i] += coefs[0] * rows[0][i];
+            b[i] += coefs[1] * rows[1][i];
+            c[i] += coefs[2] * rows[2][i];
+            d[i] += coefs[3] * rows[3][i];
+        }
+    }
+    for (coef, row) in rest.iter().zip(rest_rows) {
+        for i in 0..N {
+            a[i] += coef * row[i];
+        }
+    }
+    for i in 0..N {
+        a[i] = (a[i] + b[i]) + (c[i] + d[i]);
+    }
+    a
 }
 
 /// `sum a b` in eight partial sums, which the compiler keeps in vector registers.

@@ -65,7 +65,11 @@ impl<const N: usize> ContactLanes<N> {
     /// Roots of the compressions at the start of the sample, for [`gradient`](Self::gradient), root of m.
     #[inline(always)]
     pub fn roots(&self) -> [f64; N] {
-        std::array::from_fn(|i| self.before[i].max(0.0).sqrt())
+        let mut roots = [0.0; N];
+        for i in 0..N {
+            roots[i] = self.before[i].max(0.0).sqrt();
+        }
+        roots
     }
 
     /// Forces (N) of a sample that ends at the compressions `d` (m), and their slopes by `d`, N/m; `roots` (root of m) are

@@ -78,17 +78,16 @@ fn newton<const N: usize, const ALL_HERTZ: bool>(
     compliances: &Compliances<N>,
 ) -> bool {
     let roots = lanes.roots();
-    let own: [f64; N] = std::array::from_fn(|i| compliances[i][i]);
-    let compressions = |force: &[f64; N], free: &[f64; N]| -> [f64; N] {
-        let moved = product(compliances, force);
-        std::array::from_fn(|i| free[i] - moved[i])
-    };
-    let mut d = compressions(&lanes.force, &lanes.free);
+    let mut own = [0.0; N];
+    for i in 0..N {
+        own[i] = compliances[i][i];
+    }
+    let mut d = less(&lanes.free, &product(compliances, &lanes.force));
     let mut by_jacobi = if ALL_HERTZ { MAX_STEPS } else { 0 };
     for step in 0..by_jacobi + MAX_STEPS {
         let (force, slope) = lanes.gradient::<ALL_HERTZ>(&roots, &d);
-        let moved = compressions(&force, &lanes.free);
-        let left: [f64; N] = std::array::from_fn(|i| moved[i] - d[i]);
+        let moved = less(&lanes.free, &product(compliances, &force));
+        let left = less(&moved, &d);
         let change = if step < by_jacobi {
             let (change, converges) = jacobi(compliances, &own, &slope, &left);
             if !converges {
@@ -98,8 +97,11 @@ fn newton<const N: usize, const ALL_HERTZ: bool>(
         } else {
             eliminated(compliances, &slope, left)
         };
-        lanes.force = std::array::from_fn(|i| force[i] + slope[i] * change[i]);
-        let found = compressions(&lanes.force, &lanes.free);
+        let added = times(&slope, &change);
+        for i in 0..N {
+            lanes.force[i] = force[i] + added[i];
+        }
+        let found = less(&moved, &product(compliances, &added));
         // NaN does not count as settled. The bodies alone may agree while the law does not, where a change is far from the solution.
         let mut settled = true;
         for i in 0..N {
@@ -123,17 +125,18 @@ fn jacobi<const N: usize>(
     slope: &[f64; N],
     left: &[f64; N],
 ) -> ([f64; N], bool) {
-    let own: [f64; N] = std::array::from_fn(|i| own[i] * slope[i]);
-    let alone: [f64; N] = own.map(|own| 1.0 / (1.0 + own));
-    let mut change: [f64; N] = std::array::from_fn(|i| left[i] * alone[i]);
+    let own = times(own, slope);
+    let mut alone = [0.0; N];
+    for i in 0..N {
+        alone[i] = 1.0 / (1.0 + own[i]);
+    }
+    let mut change = times(left, &alone);
     let mut converges = true;
     if N > 1 {
         for _ in 0..JACOBI_SWEEPS {
-            let pushed: [f64; N] = std::array::from_fn(|i| slope[i] * change[i]);
-            let all = product(compliances, &pushed);
-            let next: [f64; N] = std::array::from_fn(|i| (left[i] - all[i] + own[i] * change[i]) * alone[i]);
-            let whole = total(&next.map(f64::abs));
-            let moved = total::<N>(&std::array::from_fn(|i| (next[i] - change[i]).abs()));
+            let others = less(&product(compliances, &times(slope, &change)), &times(&own, &change));
+            let next = times(&less(left, &others), &alone);
+            let (whole, moved) = (sizes(&next), sizes(&less(&next, &change)));
             change = next;
             // A sweep moves the change by less than the one before by the ratio in which it moved the first one.
             converges = moved <= MOST_MOVED * whole;
@@ -226,34 +229,68 @@ fn between_bounds(lane: &ContactLanes<1>, compliance: f64) -> f64 {
     if compliance > 0.0 { ((free - d) / compliance).max(0.0) } else { force }
 }
 
+/// Values of a product that are summed at once, and columns that are summed apart, so that they hide each other's latency.
+const WIDE: usize = 8;
+const APART: usize = 4;
+
 /// A symmetric matrix times a vector.
 #[inline(always)]
 pub(crate) fn product<const N: usize>(matrix: &[[f64; N]; N], x: &[f64; N]) -> [f64; N] {
-    let mut sums = [[0.0; N]; 2];
-    // By columns, which are rows: the sums run side by side, and those of two columns hide each other's latency.
-    let (rows, last) = matrix.as_chunks::<2>();
-    let (xs, last_x) = x.as_chunks::<2>();
-    for (rows, xs) in rows.iter().zip(xs) {
-        for i in 0..N {
-            sums[0][i] += rows[0][i] * xs[0];
-            sums[1][i] += rows[1][i] * xs[1];
+    let mut out = [0.0; N];
+    if N % WIDE != 0 {
+        for (row, x) in matrix.iter().zip(x) {
+            for i in 0..N {
+                out[i] += row[i] * x;
+            }
+        }
+        return out;
+    }
+    for (at, out) in out.as_chunks_mut::<WIDE>().0.iter_mut().enumerate() {
+        let mut sums = [[0.0; WIDE]; APART];
+        // By columns, which are rows.
+        for (rows, xs) in matrix.as_chunks::<APART>().0.iter().zip(x.as_chunks::<APART>().0) {
+            for k in 0..APART {
+                let row = &rows[k].as_chunks::<WIDE>().0[at];
+                for i in 0..WIDE {
+                    sums[k][i] += row[i] * xs[k];
+                }
+            }
+        }
+        for i in 0..WIDE {
+            out[i] = (sums[0][i] + sums[1][i]) + (sums[2][i] + sums[3][i]);
         }
     }
-    for (row, x) in last.iter().zip(last_x) {
-        sums[0].iter_mut().zip(row).for_each(|(sum, y)| *sum += y * x);
-    }
-    std::array::from_fn(|i| sums[0][i] + sums[1][i])
+    out
 }
 
-/// Sum of all, in an order that takes several at once.
+/// `a - b`. Loops, here as above: closures would be compiled without the machine's instructions.
 #[inline(always)]
-fn total<const N: usize>(x: &[f64; N]) -> f64 {
-    let mut parts = [0.0; 4];
-    let (quads, rest) = x.as_chunks::<4>();
-    for quad in quads {
-        parts.iter_mut().zip(quad).for_each(|(part, x)| *part += x);
+fn less<const N: usize>(a: &[f64; N], b: &[f64; N]) -> [f64; N] {
+    let mut out = [0.0; N];
+    for i in 0..N {
+        out[i] = a[i] - b[i];
     }
-    (parts[0] + parts[1]) + (parts[2] + parts[3]) + rest.iter().sum::<f64>()
+    out
+}
+
+/// Each of `a` times its partner of `b`.
+#[inline(always)]
+fn times<const N: usize>(a: &[f64; N], b: &[f64; N]) -> [f64; N] {
+    let mut out = [0.0; N];
+    for i in 0..N {
+        out[i] = a[i] * b[i];
+    }
+    out
+}
+
+/// Sum of all sizes, in an order that takes several at once.
+#[inline(always)]
+fn sizes<const N: usize>(x: &[f64; N]) -> f64 {
+    let mut parts = [0.0; 8];
+    for (i, x) in x.iter().enumerate() {
+        parts[i % 8] += x.abs();
+    }
+    ((parts[0] + parts[1]) + (parts[2] + parts[3])) + ((parts[4] + parts[5]) + (parts[6] + parts[7]))
 }
 
 /// Solves a system of `n` equations. Without pivots: `1 + Y F'` is, but for a scaling, symmetric and positive.

@@ -144,7 +144,7 @@ mod tests {
         let mut body = ModalBody::new(modes, 44_100.0);
         let bent: Vec<f32> = (0..body.len()).map(|k| ((k * 37 % 101) as f32 - 50.0) * 1e-6).collect();
         body.set_displacements(&bent);
-        let all = rim_points::at_points(&body.folded_displacement(&half.folded));
+        let all = rim_points::at_points(&rim_points::fine(&body.folded_displacement(&half.folded)));
         let mut port = crate::modal::InputVector::new(body.len());
         for (j, &at) in all.iter().enumerate() {
             shapes.fill(1.0, rim_points::angle(j), port.shape_mut());
@@ -155,7 +155,7 @@ mod tests {
         let forces: [f64; POINTS] = std::array::from_fn(|j| (j as f64 * 1.7).sin());
         let mut one_by_one = ModalBody::new(body.modes().to_vec(), 44_100.0);
         body.reset();
-        body.push_folded(&half.folded, &rim_points::amplitudes(&forces));
+        body.push_folded(&half.folded, &rim_points::rounded(&rim_points::amplitudes(&forces)));
         for (j, &force) in forces.iter().enumerate() {
             shapes.fill(1.0, rim_points::angle(j), port.shape_mut());
             one_by_one.connect(&mut port);

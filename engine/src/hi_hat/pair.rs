@@ -44,6 +44,7 @@ use super::foot::Foot;
 use super::rigid::{Rigid, Weights};
 use super::rigid_sound::RigidSound;
 use super::rim_points::{self, POINTS};
+use super::solving::NearCompliances;
 
 use pedal::Pedal;
 use rest::Rest;
@@ -82,6 +83,7 @@ pub struct Pair {
     pub(super) rigid: [Rigid; 2],
     pub(super) statics: Statics,
     pub(super) dynamics: Dynamics,
+    pub(super) near: NearCompliances,
     pub(super) rims: RimState,
     pub(super) pedal: Pedal,
     pub(super) strikers: [StrikerPlace; STRIKER_PLACES],
@@ -111,6 +113,7 @@ impl Pair {
             rigid: parts.rigid,
             statics: Statics::new(parts.depth, parts.meeting),
             dynamics: Dynamics::new(parts.rigid_sounds),
+            near: NearCompliances::default(),
             rims: RimState::new(parts.law, parts.lasting_loss, parts.depth),
             pedal: Pedal::up(1.0 / parts.sample_rate),
             strikers: [StrikerPlace::default(); STRIKER_PLACES],
@@ -206,6 +209,7 @@ impl Pair {
             && self.statics.follow(bodies.map(|(body, _)| body), &self.folded, &self.rigid);
         self.followed = Some(retunings);
         self.dynamics.follow(bodies, &self.folded, &self.rigid, &self.statics.weights);
+        self.near.forget();
         self.dynamics.update_offset(&self.pedal.rest.preload);
         if !changed {
             return;
@@ -235,7 +239,7 @@ impl Pair {
     pub(super) fn measure_from(&mut self, rest: Rest, top: &mut ModalBody) {
         let before = self.held_energy() + top.energy();
         let gained = std::array::from_fn(|j| rest.preload[j] - self.pedal.rest.preload[j]);
-        let down = rim_points::amplitudes(&gained);
+        let down = rim_points::rounded(&rim_points::amplitudes(&gained));
         top.displace_folded(&self.folded[0], &down);
         self.lower.modal.displace_folded(&self.folded[1], &down.map(|pair| pair.map(|x| -x)));
         self.pedal.arrive(rest);
@@ -270,14 +274,31 @@ impl Pair {
 
     /// Overlap at the rim points with the present deflection of both shells, m.
     pub(super) fn overlaps(&self, top: &ModalBody) -> [f64; POINTS] {
-        let mut shells = top.folded_displacement(&self.folded[0]);
+        let above = top.folded_displacement(&self.folded[0]);
         let below = self.lower.modal.folded_displacement(&self.folded[1]);
-        shells.as_flattened_mut().iter_mut().zip(below.as_flattened()).for_each(|(a, b)| *a -= b);
-        let shells = self.kernels.vectorized(
+        let Pair { pedal, statics, .. } = self;
+        let [upper, lower]: [Weights; 2] = [0, 1].map(|which: usize| {
+            let (place, around) = (self.rigid[which].place(), &statics.around[which]);
+            std::array::from_fn(|part| place[part] * around[part])
+        });
+        let rigid: Weights = std::array::from_fn(|part| upper[part] - lower[part]);
+        self.kernels.vectorized(
             #[inline(always)]
-            || rim_points::at_points(&shells),
-        );
-        std::array::from_fn(|j| shells[j] + self.apart(j))
+            || {
+                let mut apart = rim_points::fine(&above);
+                for (apart, below) in apart.as_flattened_mut().iter_mut().zip(below.as_flattened()) {
+                    *apart -= f64::from(*below);
+                }
+                apart[0][0] += rigid[0];
+                apart[1][0] += rigid[1];
+                apart[1][1] += rigid[2];
+                let mut overlaps = rim_points::at_points(&apart);
+                for j in 0..POINTS {
+                    overlaps[j] += pedal.rest.bend[j] - statics.depth[j];
+                }
+                overlaps
+            },
+        )
     }
 
     /// Overlap without the shells' motion, m.

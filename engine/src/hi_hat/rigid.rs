@@ -75,7 +75,14 @@ impl Rigid {
     /// Weights of the point at `radius` (share of it) in direction `angle` (rad).
     pub fn weights(radius: f64, angle: f64) -> Weights {
         let (sin, cos) = angle.sin_cos();
-        [1.0, 2.0 * radius * cos, 2.0 * radius * sin]
+        let [heave, x, z] = Rigid::around(radius);
+        [heave, x * cos, z * sin]
+    }
+
+    /// Amplitudes of what the heave, the one and the other tilt do at `radius` (share of it): the first is the same all around, the second goes as the
+    /// cosine and the third as the sine of the angle.
+    pub fn around(radius: f64) -> Weights {
+        [1.0, 2.0 * radius, 2.0 * radius]
     }
 
     /// Displacement of a point, m.

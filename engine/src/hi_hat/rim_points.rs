@@ -53,32 +53,113 @@ static WAVES: [[[f64; POINTS]; 2]; CLASSES] = {
     waves
 };
 
-/// Values at each point from the amplitudes, in the same unit.
-#[inline(always)]
-pub fn at_points(amplitudes: &Amplitudes) -> [f64; POINTS] {
-    let mut out = [0.0; POINTS];
-    for (amplitude, waves) in amplitudes.iter().flatten().zip(WAVES.as_flattened()) {
-        let amplitude = f64::from(*amplitude);
-        for (out, wave) in out.iter_mut().zip(waves) {
-            *out += amplitude * wave;
+/// Points on one side: a wave of even order is the same half a turn on, one of odd order its opposite.
+const SIDE: usize = POINTS / 2;
+
+/// Even classes and one more, so that rows of them are whole registers.
+const EVEN: usize = 12;
+
+/// Values on one side of the waves of even and of odd order: `[place][cosines, sines]`.
+static EVEN_WAVES: [[[f64; EVEN]; 2]; SIDE] = {
+    let mut waves = [[[0.0; EVEN]; 2]; SIDE];
+    let mut place = 0;
+    while place < SIDE {
+        let mut class = 0;
+        while class < CLASSES {
+            waves[place][0][class / 2] = WAVES[class][0][place];
+            waves[place][1][class / 2] = WAVES[class][1][place];
+            class += 2;
         }
+        place += 1;
+    }
+    waves
+};
+static ODD_WAVES: [[[f64; SIDE / 2]; 2]; SIDE] = {
+    let mut waves = [[[0.0; SIDE / 2]; 2]; SIDE];
+    let mut place = 0;
+    while place < SIDE {
+        let mut class = 1;
+        while class < CLASSES {
+            waves[place][0][class / 2] = WAVES[class][0][place];
+            waves[place][1][class / 2] = WAVES[class][1][place];
+            class += 2;
+        }
+        place += 1;
+    }
+    waves
+};
+
+/// Amplitude of the cosine and of the sine, `[class]`, in double precision.
+pub type FineAmplitudes = [[f64; 2]; CLASSES];
+
+/// In double precision.
+#[inline(always)]
+pub fn fine(amplitudes: &Amplitudes) -> FineAmplitudes {
+    let mut out = [[0.0; 2]; CLASSES];
+    for (out, amplitude) in out.as_flattened_mut().iter_mut().zip(amplitudes.as_flattened()) {
+        *out = f64::from(*amplitude);
     }
     out
 }
 
+/// In single precision.
+#[inline(always)]
+pub fn rounded(amplitudes: &FineAmplitudes) -> Amplitudes {
+    let mut out = Amplitudes::default();
+    for (out, amplitude) in out.as_flattened_mut().iter_mut().zip(amplitudes.as_flattened()) {
+        *out = *amplitude as f32;
+    }
+    out
+}
+
+/// Values at each point from the amplitudes, in the same unit.
+#[inline(always)]
+pub fn at_points(amplitudes: &FineAmplitudes) -> [f64; POINTS] {
+    let (mut even, mut odd) = ([0.0; SIDE], [0.0; SIDE]);
+    let (pairs, last) = amplitudes.as_chunks::<2>();
+    let (waves, last_wave) = WAVES.as_chunks::<2>();
+    for (pair, waves) in pairs.iter().zip(waves) {
+        add_wave(&mut even, &pair[0], &waves[0]);
+        add_wave(&mut odd, &pair[1], &waves[1]);
+    }
+    for (last, waves) in last.iter().zip(last_wave) {
+        add_wave(&mut even, last, waves);
+    }
+    let mut out = [0.0; POINTS];
+    for i in 0..SIDE {
+        (out[i], out[i + SIDE]) = (even[i] + odd[i], even[i] - odd[i]);
+    }
+    out
+}
+
+/// Adds the wave of a class on one side.
+#[inline(always)]
+fn add_wave(out: &mut [f64; SIDE], [cos, sin]: &[f64; 2], waves: &[[f64; POINTS]; 2]) {
+    for i in 0..SIDE {
+        out[i] += cos * waves[0][i] + sin * waves[1][i];
+    }
+}
+
 /// Forces on each amplitude from forces at the points, N.
 #[inline(always)]
-pub fn amplitudes(forces: &[f64; POINTS]) -> Amplitudes {
-    let mut out = Amplitudes::default();
-    for (out, waves) in out.as_flattened_mut().iter_mut().zip(WAVES.as_flattened()) {
-        // Sums side by side, so that the compiler may use all lanes.
-        let mut sums = [0.0; 4];
-        for (force, wave) in forces.as_chunks::<4>().0.iter().zip(waves.as_chunks::<4>().0) {
-            for i in 0..4 {
-                sums[i] += force[i] * wave[i];
+pub fn amplitudes(forces: &[f64; POINTS]) -> FineAmplitudes {
+    let (mut even, mut odd) = ([[0.0; EVEN]; 2], [[0.0; SIDE / 2]; 2]);
+    for place in 0..SIDE {
+        let (same, opposite) = (forces[place] + forces[place + SIDE], forces[place] - forces[place + SIDE]);
+        for part in 0..2 {
+            for i in 0..EVEN {
+                even[part][i] += same * EVEN_WAVES[place][part][i];
+            }
+            for i in 0..SIDE / 2 {
+                odd[part][i] += opposite * ODD_WAVES[place][part][i];
             }
         }
-        *out = (sums[0] + sums[1] + sums[2] + sums[3]) as f32;
+    }
+    let mut out = [[0.0; 2]; CLASSES];
+    for (class, out) in out.iter_mut().enumerate() {
+        for part in 0..2 {
+            out[part] = if class % 2 == 0 { even[part][class / 2] } else { odd[part][class / 2] };
+        }
     }
     out
 }
@@ -100,6 +181,25 @@ pub fn between_points(classes: &ClassCompliances) -> [[f64; POINTS]; POINTS] {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn values_and_forces_are_sums_over_all_waves() {
+        let amplitude = |class: usize, part: usize| ((class * 7 + part * 3) as f64 * 0.71).sin();
+        let given: FineAmplitudes =
+            std::array::from_fn(|class| std::array::from_fn(|part| amplitude(class, part)));
+        let forces: [f64; POINTS] = std::array::from_fn(|place| (place as f64 * 1.7).cos());
+        let (values, felt) = (at_points(&given), amplitudes(&forces));
+        for place in 0..POINTS {
+            let waves = given.iter().zip(&WAVES).map(|(a, wave)| a[0] * wave[0][place] + a[1] * wave[1][place]);
+            assert!((values[place] - waves.sum::<f64>()).abs() < 1e-12, "place {place}");
+        }
+        for (class, felt) in felt.iter().enumerate() {
+            for (part, felt) in felt.iter().enumerate() {
+                let sum: f64 = forces.iter().zip(&WAVES[class][part]).map(|(force, wave)| force * wave).sum();
+                assert!((felt - sum).abs() < 1e-12, "class {class}, part {part}");
+            }
+        }
+    }
 
     #[test]
     fn waves_are_cosines_and_sines() {

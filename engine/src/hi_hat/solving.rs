@@ -2,7 +2,7 @@
 
 use crate::contact::ContactStep;
 use crate::contact::force::ContactLanes;
-use crate::contact::solver;
+use crate::contact::solver::{self, Compliances};
 use crate::surface::contacts::{Contacts, STRIKER_PLACES};
 
 use super::pair::Pair;
@@ -19,6 +19,7 @@ const MARGIN: f64 = 2e-4;
 const NEAR: f64 = 1e-5;
 
 /// Points of the rims to be solved for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Near {
     all: [usize; POINTS],
     count: usize,
@@ -27,6 +28,60 @@ struct Near {
 impl Near {
     fn listed(&self) -> &[usize] {
         &self.all[..self.count]
+    }
+}
+
+/// Compliances between the points solved for last, which are the same for dozens of samples: collecting them takes as long as a third of
+/// a solution.
+pub(super) struct NearCompliances {
+    near: Near,
+    /// `[lane][lane]`, m/N.
+    rows: Compliances<POINTS>,
+}
+
+impl Default for NearCompliances {
+    /// Of no points.
+    fn default() -> NearCompliances {
+        NearCompliances { near: Near { all: [0; POINTS], count: 0 }, rows: [[0.0; POINTS]; POINTS] }
+    }
+}
+
+impl NearCompliances {
+    /// Forgets them, after a change of the compliances.
+    pub(super) fn forget(&mut self) {
+        self.near.count = 0;
+    }
+
+    /// Collects those between these points out of those between all, unless they are the same points as last.
+    fn collect(&mut self, near: &Near, whole: &Compliances<POINTS>) {
+        if self.near == *near {
+            return;
+        }
+        self.near = *near;
+        for (row, &i) in self.rows.iter_mut().zip(near.listed()) {
+            row.iter_mut().zip(near.listed()).for_each(|(out, &j)| *out = whole[i][j]);
+        }
+    }
+
+    /// Takes away what the nonlinear force takes: `coupling` and `divisor` as [`FreeStep`](crate::surface::body::FreeStep) has them.
+    #[inline(always)]
+    fn less<const N: usize>(&self, coupling: &[f64; POINTS], divisor: f64) -> Compliances<N> {
+        let mut coupled = [0.0; N];
+        for (coupled, &i) in coupled.iter_mut().zip(self.near.listed()) {
+            *coupled = coupling[i];
+        }
+        let mut out = [[0.0; N]; N];
+        for lane in 0..self.near.count.min(N) {
+            let (row, taken) = (&self.rows[lane], coupled[lane] / divisor);
+            for i in 0..N.min(POINTS) {
+                out[lane][i] = row[i] - taken * coupled[i];
+            }
+            // Lanes beyond are strikers' or none's.
+            for out in &mut out[lane][self.near.count.min(N)..] {
+                *out = 0.0;
+            }
+        }
+        out
     }
 }
 
@@ -108,7 +163,12 @@ impl Pair {
 
     /// [`solve_rims`](Self::solve_rims) of at most `N` contacts: the rims' first.
     fn solve_in<const N: usize>(&mut self, near: &Near, strikers: Option<&mut Contacts>, divisor: f64) {
-        let (mut lanes, mut compliances) = (ContactLanes::<N>::APART, [[0.0; N]; N]);
+        self.near.collect(near, &self.dynamics.whole);
+        let mut compliances = self.kernels.vectorized(
+            #[inline(always)]
+            || self.near.less::<N>(&self.dynamics.coupling, divisor),
+        );
+        let mut lanes = ContactLanes::<N>::APART;
         for (lane, &i) in near.listed().iter().enumerate() {
             let step = ContactStep {
                 before: self.rims.compression[i],
@@ -118,10 +178,6 @@ impl Pair {
                 dt: self.dt,
             };
             lanes.set(lane, &self.rims.law, &step, self.rims.force[i]);
-            let taken = self.dynamics.coupling[i] / divisor;
-            for (compliance, &j) in compliances[lane].iter_mut().zip(near.listed()) {
-                *compliance = self.dynamics.whole[i][j] - taken * self.dynamics.coupling[j];
-            }
         }
         let Some(contacts) = strikers else {
             solver::solve(self.kernels, &mut lanes, &compliances);

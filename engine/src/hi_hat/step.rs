@@ -12,12 +12,24 @@ use crate::potential::NonlinearForce;
 use crate::surface::body::add;
 
 use super::pair::Pair;
-use super::rigid::Rigid;
+use super::rigid::{Rigid, Weights};
 use super::rim_points;
 use super::rim_points::POINTS;
 
 /// Time constant in which the loss of a contact becomes that of a lasting one, s. *By ear*.
 const SETTLING: f64 = fitted::HAT_SETTLING;
+
+/// Sum over all points, several at once.
+#[inline(always)]
+fn total(x: &[f64; POINTS]) -> f64 {
+    let mut parts = [0.0; 8];
+    for x in x.as_chunks::<8>().0 {
+        for i in 0..8 {
+            parts[i] += x[i];
+        }
+    }
+    ((parts[0] + parts[1]) + (parts[2] + parts[3])) + ((parts[4] + parts[5]) + (parts[6] + parts[7]))
+}
 
 impl Pair {
     /// Sets the position of a striker: `radius` as a share of the radius, `angle` in rad.
@@ -27,7 +39,7 @@ impl Pair {
 
     /// Updates the compliances of a striker after a change of its input vector.
     pub(super) fn connect_striker(&mut self, point: usize, top: &ModalBody, port: &InputVector) {
-        let shell = rim_points::at_points(&top.folded_compliance(&self.folded[0], port));
+        let shell = rim_points::at_points(&rim_points::fine(&top.folded_compliance(&self.folded[0], port)));
         let place = &mut self.strikers[point];
         for (j, shell) in shell.into_iter().enumerate() {
             place.shell[j] = -shell;
@@ -44,13 +56,29 @@ impl Pair {
     }
 
     fn preloads_coupled(&self) -> f64 {
-        self.dynamics.coupling.iter().zip(&self.pedal.rest.preload).map(|(u, p)| u * p).sum()
+        let (coupling, preload) = (&self.dynamics.coupling, &self.pedal.rest.preload);
+        self.kernels.vectorized(
+            #[inline(always)]
+            || {
+                let mut coupled = [0.0; POINTS];
+                for j in 0..POINTS {
+                    coupled[j] = coupling[j] * preload[j];
+                }
+                total(&coupled)
+            },
+        )
     }
 
     /// Updates the coupling with the upper cymbal's nonlinear force; without one it is zero.
     pub(super) fn couple_with(&mut self, top: &ModalBody, force: Option<&NonlinearForce>) {
         self.dynamics.coupling = force.map_or([0.0; POINTS], |force| {
-            rim_points::at_points(&force.folded_coupling(top, &self.folded[0])).map(|q| -q)
+            let coupling = rim_points::fine(&force.folded_coupling(top, &self.folded[0]));
+            let mut coupling = self.kernels.vectorized(
+                #[inline(always)]
+                || rim_points::at_points(&coupling),
+            );
+            coupling.iter_mut().for_each(|q| *q = -*q);
+            coupling
         });
     }
 
@@ -135,16 +163,33 @@ impl Pair {
         if !self.engaged {
             return (0.0, Pressure::default());
         }
-        let dynamic: [f64; POINTS] = std::array::from_fn(|j| self.rims.force[j] - self.pedal.rest.preload[j]);
-        if dynamic == [0.0; POINTS] && self.rims.force == [0.0; POINTS] {
+        let (force, preload) = (&self.rims.force, &self.pedal.rest.preload);
+        if *preload == [0.0; POINTS] && *force == [0.0; POINTS] {
             return (0.0, Pressure::default());
         }
-        let felt = self.statics.weights.each_ref().map(|places| {
-            let mut felt = [0.0; 3];
-            for (weights, force) in places.iter().zip(&self.rims.force) {
-                felt.iter_mut().zip(weights).for_each(|(felt, weight)| *felt += weight * force);
-            }
-            felt
+        let direct = &self.dynamics.direct;
+        let (whole, down, heard, pressed) = self.kernels.vectorized(
+            #[inline(always)]
+            || {
+                let whole = rim_points::amplitudes(force);
+                let mut dynamic = whole;
+                let preloads = self.dynamics.preload_waves.as_flattened();
+                for (dynamic, preload) in dynamic.as_flattened_mut().iter_mut().zip(preloads) {
+                    *dynamic -= preload;
+                }
+                let (down, mut heard) = (rim_points::rounded(&dynamic), Pressure::default());
+                for (force, direct) in down.as_flattened().iter().zip(direct.as_flattened()) {
+                    heard.iter_mut().zip(direct).for_each(|(heard, direct)| *heard += force * direct);
+                }
+                let mut pressed = [0.0; POINTS];
+                for (j, pressed) in pressed.iter_mut().enumerate() {
+                    *pressed = (force[j] - preload[j]) * self.dynamics.coupling[j];
+                }
+                (whole, down, heard, total(&pressed))
+            },
+        );
+        let felt: [Weights; 2] = self.statics.around.map(|[heave, x, z]| {
+            [heave * whole[0][0], x * whole[1][0], z * whole[1][1]]
         });
         let before = self.rigid.each_ref().map(Rigid::speeds);
         self.rigid[0].push_parts(&felt[0].map(|force| -force));
@@ -158,21 +203,9 @@ impl Pair {
                 (0..now.len()).for_each(|part| heard_from[part] += now[part] - before[part]);
             }
         }
-        let (direct, mut heard) = (&self.dynamics.direct, Pressure::default());
-        let down = self.kernels.vectorized(
-            #[inline(always)]
-            || {
-                let down = rim_points::amplitudes(&dynamic);
-                for (force, direct) in down.as_flattened().iter().zip(direct.as_flattened()) {
-                    heard.iter_mut().zip(direct).for_each(|(heard, direct)| *heard += force * direct);
-                }
-                down
-            },
-        );
         let up: Amplitudes = down.map(|pair| pair.map(|x| -x));
         top.push_folded(&self.folded[0], &up);
         self.lower.modal.push_folded(&self.folded[1], &down);
-        let pressed = dynamic.iter().zip(&self.dynamics.coupling).map(|(force, u)| force * u).sum();
         (pressed, heard)
     }
 
@@ -190,7 +223,7 @@ impl Pair {
         }
         self.rims.compression = self.reached(strikers, divisor);
         self.rims.count();
-        add(&mut heard, self.lower.modal.listen(&self.lower.receiver));
+        add(&mut heard, self.lower.listen());
         heard
     }
 

@@ -4,7 +4,7 @@ use crate::contact::ContactLaw;
 use crate::contact::solver::Compliances;
 use crate::hi_hat::rigid::{Rigid, Weights};
 use crate::hi_hat::rigid_sound::{RigidHeard, RigidSound};
-use crate::hi_hat::rim_points::{self, POINTS};
+use crate::hi_hat::rim_points::{self, FineAmplitudes, POINTS};
 use crate::modal::simd::rim_harmonics::{MAX_CLASSES, RimHarmonics};
 use crate::modal::{ModalBody, Pressure, ReceiverWeights};
 
@@ -25,6 +25,8 @@ pub(crate) struct Dynamics {
     pub(crate) whole: Compliances<POINTS>,
     /// `shells` times the preloads, m.
     pub(crate) preload_offset: [f64; POINTS],
+    /// The preloads as forces on the amplitudes, N.
+    pub(crate) preload_waves: FineAmplitudes,
     /// Pressure at each receiver proportional to the force, of both cymbals, per amplitude of the force that presses the lower one
     /// down, `[class][cosine, sine]`, Pa/N.
     pub(crate) direct: [[Pressure; 2]; MAX_CLASSES],
@@ -83,8 +85,9 @@ impl Dynamics {
         }
     }
 
-    /// Updates the offset of the preloads (N).
+    /// Updates what follows from the preloads (N).
     pub(crate) fn update_offset(&mut self, preload: &[f64; POINTS]) {
+        self.preload_waves = rim_points::amplitudes(preload);
         self.preload_offset = self.shells.map(|row| row.iter().zip(preload).map(|(y, p)| y * p).sum());
     }
 }

@@ -16,6 +16,8 @@ pub(crate) struct Statics {
     pub(crate) depth: [f64; POINTS],
     /// What each place feels of the upper and of the lower cymbal as stiff bodies.
     pub(crate) weights: [[Weights; POINTS]; 2],
+    /// The same as [amplitudes](Rigid::around).
+    pub(crate) around: [Weights; 2],
     /// Steady compliance of shells, and of shells and mounts, between the places, m/N.
     shells: Compliances<POINTS>,
     whole: Compliances<POINTS>,
@@ -36,7 +38,7 @@ impl Statics {
         let weights =
             radii.map(|radius| std::array::from_fn(|j| Rigid::weights(radius, rim_points::angle(j))));
         let none = [[0.0; POINTS]; POINTS];
-        Statics { depth, weights, shells: none, whole: none }
+        Statics { depth, weights, around: radii.map(Rigid::around), shells: none, whole: none }
     }
 
     /// Follows the modes of the upper and the lower cymbal; whether that changes the balance.

@@ -10,7 +10,7 @@
 
 use pulp::Simd;
 
-use super::dispatch::{Kernel, Kernels};
+use super::dispatch::{Kernel, Kernels, LANES};
 use crate::modal::row::{Row, zero_row};
 
 /// Radial functions of one order, at most.
@@ -18,6 +18,9 @@ pub const SLOTS: usize = 16;
 
 /// Rows or angles taken together.
 pub const BLOCK: usize = 3;
+
+/// Curvatures of a surface, whose fields lie side by side.
+const CURVATURES: usize = 3;
 
 /// Transform between spectrum and field for one number of orders and angles.
 pub struct Circle {
@@ -237,38 +240,66 @@ impl Kernel for Unfold<'_> {
         let (even_rows, odd_rows) = (&even_rows[..2 * w * orders[0]], &odd_rows[..2 * w * orders[1]]);
         for (turns, out) in unfold.chunks_exact(rows).zip(field.chunks_exact_mut(4 * BLOCK * w)) {
             let (even_turns, odd_turns) = turns.split_at(*evens);
-            for v in 0..w {
-                let even = sum_rows(simd, fma, (even_rows, w, v), even_turns);
-                let odd = sum_rows(simd, fma, (odd_rows, w, v), odd_turns);
-                for i in 0..BLOCK {
-                    let ([ec, es], [oc, os]) = (even[i], odd[i]);
-                    let (near, far) = (simd.add_f32s(ec, oc), simd.sub_f32s(ec, oc));
-                    let (up, down) = (simd.add_f32s(es, os), simd.sub_f32s(es, os));
-                    let out = &mut out[4 * i * w..][..4 * w];
-                    out[v] = simd.add_f32s(near, up);
-                    out[w + v] = simd.sub_f32s(near, up);
-                    out[2 * w + v] = simd.sub_f32s(far, down);
-                    out[3 * w + v] = simd.add_f32s(far, down);
-                }
+            let mut v = 0;
+            // A curvature each, where a field of them is a vector wide: their cosines and sines are read once.
+            while S::F32_LANES == LANES && v + CURVATURES <= w {
+                unfold_some::<S, CURVATURES>(simd, fma, (v, w), (even_rows, even_turns), (odd_rows, odd_turns), out);
+                v += CURVATURES;
+            }
+            for v in v..w {
+                unfold_some::<S, 1>(simd, fma, (v, w), (even_rows, even_turns), (odd_rows, odd_turns), out);
             }
         }
     }
 }
 
-/// Sums of a spectrum's rows, vector `v` of `w`, each weighted by the cosines and sines of a block of angles.
+/// Rows of a spectrum, and the cosines and sines of a block of angles for each.
+type TurnedRows<'a, S> = (&'a [<S as Simd>::f32s], &'a [[f32; 2 * BLOCK]]);
+
+/// A block of angles of a field, `V` vectors of its `w` from `v` on.
 #[inline(always)]
-fn sum_rows<S: Simd>(
+fn unfold_some<S: Simd, const V: usize>(
+    simd: S,
+    fma: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s + Copy,
+    (v, w): (usize, usize),
+    even: TurnedRows<'_, S>,
+    odd: TurnedRows<'_, S>,
+    out: &mut [S::f32s],
+) {
+    let even = sum_rows::<S, V>(simd, fma, (even.0, 2 * w, [v, w + v]), even.1);
+    let odd = sum_rows::<S, V>(simd, fma, (odd.0, 2 * w, [v, w + v]), odd.1);
+    for i in 0..BLOCK {
+        let out = &mut out[4 * i * w..][..4 * w];
+        for j in 0..V {
+            let ([ec, es], [oc, os]) = (even[i][j], odd[i][j]);
+            let (near, far) = (simd.add_f32s(ec, oc), simd.sub_f32s(ec, oc));
+            let (up, down) = (simd.add_f32s(es, os), simd.sub_f32s(es, os));
+            out[v + j] = simd.add_f32s(near, up);
+            out[w + v + j] = simd.sub_f32s(near, up);
+            out[2 * w + v + j] = simd.sub_f32s(far, down);
+            out[3 * w + v + j] = simd.add_f32s(far, down);
+        }
+    }
+}
+
+/// Sums of rows of so many vectors, each weighted by the cosines and sines of a block: those take the vectors from either place on, `V`
+/// vectors in turn. `[of the block][vector][cos, sin]`
+#[inline(always)]
+fn sum_rows<S: Simd, const V: usize>(
     simd: S,
     fma: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s,
-    (rows, w, v): (&[S::f32s], usize, usize),
+    (rows, length, [cos, sin]): (&[S::f32s], usize, [usize; 2]),
     turns: &[[f32; 2 * BLOCK]],
-) -> [[S::f32s; 2]; BLOCK] {
-    let mut sums = [[simd.splat_f32s(0.0); 2]; BLOCK];
-    for (row, turn) in rows.chunks_exact(2 * w).zip(turns) {
-        let (cos, sin) = (row[v], row[w + v]);
+) -> [[[S::f32s; 2]; V]; BLOCK] {
+    let mut sums = [[[simd.splat_f32s(0.0); 2]; V]; BLOCK];
+    for (row, turn) in rows.chunks_exact(length).zip(turns) {
+        let (cos, sin) = (&row[cos..cos + V], &row[sin..sin + V]);
         for i in 0..BLOCK {
-            sums[i][0] = fma(simd.splat_f32s(turn[2 * i]), cos, sums[i][0]);
-            sums[i][1] = fma(simd.splat_f32s(turn[2 * i + 1]), sin, sums[i][1]);
+            let (by_cos, by_sin) = (simd.splat_f32s(turn[2 * i]), simd.splat_f32s(turn[2 * i + 1]));
+            for j in 0..V {
+                sums[i][j][0] = fma(by_cos, cos[j], sums[i][j][0]);
+                sums[i][j][1] = fma(by_sin, sin[j], sums[i][j][1]);
+            }
         }
     }
     sums
@@ -303,20 +334,31 @@ impl Kernel for Fold<'_> {
         let blocks = fold.chunks_exact(*quarter).zip(spectrum.chunks_exact_mut(2 * BLOCK * w));
         for (block, (turns, out)) in blocks.enumerate() {
             let first = if block * BLOCK < *evens { 0 } else { 2 * w };
-            for v in 0..w {
-                let mut sums = [[simd.splat_f32s(0.0); 2]; BLOCK];
-                for (x, turn) in field.chunks_exact(4 * w).zip(turns) {
-                    let (cos, sin) = (x[first + v], x[first + w + v]);
-                    for i in 0..BLOCK {
-                        sums[i][0] = fma(simd.splat_f32s(turn[2 * i]), cos, sums[i][0]);
-                        sums[i][1] = fma(simd.splat_f32s(turn[2 * i + 1]), sin, sums[i][1]);
-                    }
-                }
-                for i in 0..BLOCK {
-                    out[2 * i * w + v] = sums[i][0];
-                    out[(2 * i + 1) * w + v] = sums[i][1];
-                }
+            let mut v = 0;
+            while S::F32_LANES == LANES && v + CURVATURES <= w {
+                fold_some::<S, CURVATURES>(simd, fma, (v, w), (field, first, turns), out);
+                v += CURVATURES;
             }
+            for v in v..w {
+                fold_some::<S, 1>(simd, fma, (v, w), (field, first, turns), out);
+            }
+        }
+    }
+}
+
+/// A block of rows of a spectrum, `V` vectors of its `w` from `v` on; a field's mirrors for these rows are `first` vectors from the beginning of each angle's.
+#[inline(always)]
+fn fold_some<S: Simd, const V: usize>(
+    simd: S,
+    fma: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s + Copy,
+    (v, w): (usize, usize),
+    (field, first, turns): (&[S::f32s], usize, &[[f32; 2 * BLOCK]]),
+    out: &mut [S::f32s],
+) {
+    let sums = sum_rows::<S, V>(simd, fma, (field, 4 * w, [first + v, first + w + v]), turns);
+    for (i, sums) in sums.iter().enumerate() {
+        for (j, sum) in sums.iter().enumerate() {
+            (out[2 * i * w + v + j], out[(2 * i + 1) * w + v + j]) = (sum[0], sum[1]);
         }
     }
 }
