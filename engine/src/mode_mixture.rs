@@ -62,6 +62,15 @@ impl ModeMixture {
         coefs.iter().enumerate().map(move |(i, &coef)| (first as usize + i, f64::from(coef)))
     }
 
+    /// Each mode's first even mode and its shares of that and of the next ones, dimensionless.
+    pub fn rows(&self) -> Vec<(usize, Vec<f64>)> {
+        let kept = (0..self.kept).map(|mode| (mode, vec![1.0]));
+        let mixed = self.runs.iter().enumerate().map(|(mixed, run)| {
+            (run.first as usize, self.parts(mixed).map(|part| part.1).collect())
+        });
+        kept.chain(mixed).collect()
+    }
+
     /// Takes values of the even modes, in any unit, to the mixed ones.
     ///
     /// # Real-time

@@ -88,10 +88,9 @@ pub struct VonKarman {
     airys: Circle,
     /// Radii, lanes of one field.
     lanes: usize,
-    /// `A`, `B`, `D` of the shell modes; Airy functions times the rule's weights; `B^k_p`.
+    /// `B^k_p` and `A`, `B`, `D` of the shell modes; Airy functions times the rule's weights.
     curvatures: Radials,
     stresses: Radials,
-    overlaps: Radials,
     /// `c_k`, `[airy row][SLOTS]`.
     stiffness: Vec<f32>,
     /// Rows of each order that has Airy functions: theirs, and the displacement's.
@@ -103,10 +102,9 @@ pub struct VonKarman {
 struct Work {
     /// Amplitudes, `[row][cos, sin][SLOTS]`.
     amplitudes: Row,
-    linear: Row,
     quadratic: Row,
     forces: Row,
-    /// Spectra and fields, of the three curvatures and of one.
+    /// Spectrum of the three curvatures, `l_k` before them; fields, of the three curvatures and of one.
     bend_spectrum: Row,
     bend_field: Row,
     airy_spectrum: Row,
@@ -144,7 +142,6 @@ impl VonKarman {
         let rule = GaussLegendre::unit(lanes);
 
         let mut curvatures = vec![Vec::new(); bends.rows()];
-        let mut overlaps = vec![Vec::new(); bends.rows()];
         let mut places = Vec::new();
         for pair in pairs {
             let m = shell(pair).m;
@@ -153,11 +150,10 @@ impl VonKarman {
             let (sin, cos) = (f64::from(m) * pair.axis).sin_cos();
             let cos_at = row * 2 * SLOTS + curvatures[row].len();
             places.push(PairIndex { mode: pair.mode, m, cos_at, cos: cos as f32, sin: sin as f32 });
-            curvatures[row].push([radial, around, twist].concat());
             let mut overlap =
                 airy.get(m as usize).map_or(vec![], |order| order.curvature(plate, shell(pair)));
             overlap.resize(SLOTS, 0.0);
-            overlaps[row].push(overlap);
+            curvatures[row].push([overlap, radial, around, twist].concat());
         }
         let area = TAU / airys.angles() as f64 / plate.spec.radius().powi(2);
         let mut stresses = vec![Vec::new(); airys.rows()];
@@ -174,13 +170,11 @@ impl VonKarman {
                 *to = c as f32;
             }
         }
-        let bend_row = || zero_row(bends.rows() * 2 * SLOTS);
         let work = Work {
-            amplitudes: bend_row(),
-            linear: bend_row(),
+            amplitudes: zero_row(bends.rows() * 2 * SLOTS),
             quadratic: zero_row(airys.rows() * 2 * SLOTS),
             forces: zero_row(airys.rows() * 2 * SLOTS),
-            bend_spectrum: zero_row(bends.rows() * 2 * 3 * lanes),
+            bend_spectrum: zero_row(bends.rows() * 2 * (SLOTS + 3 * lanes)),
             bend_field: zero_row(bends.angles() * 3 * lanes),
             airy_spectrum: zero_row(airys.rows() * 2 * lanes),
             airy_field: zero_row(airys.angles() * lanes),
@@ -188,9 +182,8 @@ impl VonKarman {
         VonKarman {
             kernels: Kernels::detect(),
             places,
-            curvatures: Radials::new(&curvatures, 3 * lanes, 2 * lanes),
+            curvatures: Radials::new(&curvatures, SLOTS + 3 * lanes, SLOTS + 2 * lanes),
             stresses: Radials::new(&stresses, lanes, lanes),
-            overlaps: Radials::new(&overlaps, SLOTS, SLOTS),
             bends,
             airys,
             lanes,
@@ -210,14 +203,12 @@ impl VonKarman {
         }
     }
 
-    /// `P_k` into `quadratic`, `l_k` into `linear`; leaves the curvatures in `bend_field`.
+    /// `P_k` into `quadratic`, `l_k` into `bend_spectrum`; leaves the curvatures in `bend_field`.
     fn bend(&mut self) {
-        let Work {
-            amplitudes, linear, quadratic, bend_spectrum, bend_field, airy_spectrum, airy_field, ..
-        } = &mut self.work;
+        let Work { amplitudes, quadratic, bend_spectrum, bend_field, airy_spectrum, airy_field, .. } =
+            &mut self.work;
         let kernels = self.kernels;
         kernels.spread(&self.curvatures, amplitudes, bend_spectrum);
-        kernels.spread(&self.overlaps, amplitudes, linear);
         kernels.unfold(&self.bends, bend_spectrum, bend_field);
         kernels.bracket(self.lanes, bend_field, airy_field);
         kernels.fold(&self.airys, airy_field, airy_spectrum);
@@ -225,16 +216,19 @@ impl VonKarman {
         kernels.gather(&self.stresses, airy_spectrum, quadratic);
     }
 
-    /// Energies; turns `quadratic` into `f_k` and `linear` into `2 c_k P_k`.
+    /// Energies; `f_k` into `forces`, and turns `l_k` into `2 c_k P_k`.
+    #[inline(always)]
     fn stretch(&mut self) -> Evaluation {
-        let Work { linear, quadratic, forces, .. } = &mut self.work;
+        let Work { bend_spectrum, quadratic, forces, .. } = &mut self.work;
+        let length = SLOTS + 3 * self.lanes;
         // A sum for each lane, so that the compiler may use them all.
         let (mut energy, mut depth) = ([0.0_f32; SLOTS], [0.0_f32; SLOTS]);
         for &(row, bend_row) in &self.rows {
             let stiffness = &self.stiffness.as_chunks::<SLOTS>().0[row];
             for member in 0..2 {
                 let p = &quadratic.as_chunks::<SLOTS>().0[2 * row + member];
-                let l = &mut linear.as_chunks_mut::<SLOTS>().0[2 * bend_row + member];
+                let spectrum = &mut bend_spectrum[(2 * bend_row + member) * length..][..length];
+                let l = &mut spectrum.as_chunks_mut::<SLOTS>().0[0];
                 let f = &mut forces.as_chunks_mut::<SLOTS>().0[2 * row + member];
                 for i in 0..SLOTS {
                     let bent = stiffness[i] * l[i];
@@ -246,13 +240,17 @@ impl VonKarman {
                 }
             }
         }
-        let sum = |lanes: [f32; SLOTS]| lanes.into_iter().map(f64::from).sum();
-        Evaluation { energy: sum(energy), depth: sum(depth) }
+        let mut found = Evaluation { energy: 0.0, depth: 0.0 };
+        for (energy, depth) in energy.into_iter().zip(depth) {
+            found.energy += f64::from(energy);
+            found.depth += f64::from(depth);
+        }
+        found
     }
 
     /// What the stresses press each amplitude with, into `amplitudes`.
     fn press(&mut self) {
-        let Work { amplitudes, linear, forces, bend_spectrum, bend_field, airy_spectrum, airy_field, .. } =
+        let Work { amplitudes, forces, bend_spectrum, bend_field, airy_spectrum, airy_field, .. } =
             &mut self.work;
         let kernels = self.kernels;
         kernels.spread(&self.stresses, forces, airy_spectrum);
@@ -261,7 +259,6 @@ impl VonKarman {
         kernels.fold(&self.bends, bend_field, bend_spectrum);
         amplitudes.fill(0.0);
         kernels.gather(&self.curvatures, bend_spectrum, amplitudes);
-        kernels.gather(&self.overlaps, linear, amplitudes);
     }
 }
 
@@ -269,7 +266,11 @@ impl Potential for VonKarman {
     fn evaluate(&mut self, displacement: &[f32], gradient: &mut [f32]) -> Evaluation {
         self.align(displacement);
         self.bend();
-        let found = self.stretch();
+        let kernels = self.kernels;
+        let found = kernels.vectorized(
+            #[inline(always)]
+            || self.stretch(),
+        );
         self.press();
         gradient.fill(0.0);
         for place in &self.places {

@@ -6,6 +6,7 @@
 //! Limits: parts of the mixed modes above the highest plain mode of the potential are left out.
 
 use crate::modal::simd::Kernels;
+use crate::modal::simd::row_products::RowProducts;
 use crate::modal::{Row, zero_row};
 use crate::mode_mixture::ModeMixture;
 use crate::potential::{Evaluation, Potential};
@@ -13,9 +14,10 @@ use crate::potential::{Evaluation, Potential};
 /// A potential behind a mixture.
 pub struct MixedPotential<P> {
     plain: P,
-    mixture: ModeMixture,
+    modes: usize,
+    mixing: RowProducts,
     /// The same, transposed.
-    transposed: ModeMixture,
+    unmixing: RowProducts,
     kernels: Kernels,
     displacement: Row,
     gradient: Row,
@@ -27,8 +29,9 @@ impl<P: Potential> MixedPotential<P> {
         let mixture = mixture.first(modes);
         MixedPotential {
             plain,
-            transposed: mixture.transposed(),
-            mixture,
+            modes,
+            mixing: RowProducts::new(&mixture.rows(), modes),
+            unmixing: RowProducts::new(&mixture.transposed().rows(), modes),
             kernels: Kernels::detect(),
             displacement: zero_row(modes),
             gradient: zero_row(modes),
@@ -38,18 +41,10 @@ impl<P: Potential> MixedPotential<P> {
 
 impl<P: Potential> Potential for MixedPotential<P> {
     fn evaluate(&mut self, displacement: &[f32], gradient: &mut [f32]) -> Evaluation {
-        let MixedPotential { plain, mixture, transposed, kernels, displacement: unmixed, gradient: forces } =
-            self;
-        kernels.vectorized(
-            #[inline(always)]
-            || transposed.apply(displacement, unmixed),
-        );
-        let found = plain.evaluate(unmixed, forces);
-        gradient[mixture.modes()..].fill(0.0);
-        kernels.vectorized(
-            #[inline(always)]
-            || mixture.apply(forces, gradient),
-        );
+        self.kernels.row_products(&self.unmixing, displacement, &mut self.displacement);
+        let found = self.plain.evaluate(&self.displacement, &mut self.gradient);
+        gradient[self.modes..].fill(0.0);
+        self.kernels.row_products(&self.mixing, &self.gradient, gradient);
         found
     }
 

@@ -20,6 +20,7 @@ pub mod peak;
 pub mod polar;
 pub mod primitives;
 pub mod ring;
+pub mod row_products;
 
 pub use dispatch::{Kernels, LANES};
 pub use ring::{MAX_DRIVES, MAX_RUN, RECEIVERS, REST};

@@ -1,7 +1,8 @@
 //! Kernels for fields on a polar grid: radius along the lanes, Fourier orders and angles along the rows.
 //!
 //! Shapes: a *spectrum* is `[row][cos, sin][lane]`, one row per order, evens first, each parity
-//! padded to whole blocks of [`BLOCK`]; a *field* is `[angle][mirror][lane]` over a quarter turn
+//! padded to whole blocks of [`BLOCK`], and may have more lanes than its field, before those of the field, which no transform
+//! concerns; a *field* is `[angle][mirror][lane]` over a quarter turn
 //! and its mirror images `t, -t, pi - t, pi + t`, which share every cosine and sine; *amplitudes*
 //! are `[row][cos, sin][SLOTS]`, radial functions of one order side by side.
 //!
@@ -234,10 +235,11 @@ impl Kernel for Unfold<'_> {
         let rows = self.circle.rows();
         let spectrum = S::as_simd_f32s(self.spectrum).0;
         let field = S::as_mut_simd_f32s(self.field).0;
-        let w = spectrum.len() / (2 * rows);
-        let (even_rows, odd_rows) = spectrum.split_at(2 * w * evens);
+        let (w, row) = (field.len() / self.circle.angles(), spectrum.len() / (2 * rows));
+        let (even_rows, odd_rows) = spectrum.split_at(2 * row * evens);
         // What fills up the blocks is zero.
-        let (even_rows, odd_rows) = (&even_rows[..2 * w * orders[0]], &odd_rows[..2 * w * orders[1]]);
+        let (even_rows, odd_rows) = (&even_rows[..2 * row * orders[0]], &odd_rows[..2 * row * orders[1]]);
+        let (even_rows, odd_rows) = ((even_rows, row), (odd_rows, row));
         for (turns, out) in unfold.chunks_exact(rows).zip(field.chunks_exact_mut(4 * BLOCK * w)) {
             let (even_turns, odd_turns) = turns.split_at(*evens);
             let mut v = 0;
@@ -253,8 +255,8 @@ impl Kernel for Unfold<'_> {
     }
 }
 
-/// Rows of a spectrum, and the cosines and sines of a block of angles for each.
-type TurnedRows<'a, S> = (&'a [<S as Simd>::f32s], &'a [[f32; 2 * BLOCK]]);
+/// Rows of a spectrum, their vectors of cosines, and the cosines and sines of a block of angles for each.
+type TurnedRows<'a, S> = ((&'a [<S as Simd>::f32s], usize), &'a [[f32; 2 * BLOCK]]);
 
 /// A block of angles of a field, `V` vectors of its `w` from `v` on.
 #[inline(always)]
@@ -262,12 +264,13 @@ fn unfold_some<S: Simd, const V: usize>(
     simd: S,
     fma: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s + Copy,
     (v, w): (usize, usize),
-    even: TurnedRows<'_, S>,
-    odd: TurnedRows<'_, S>,
+    ((even_rows, row), even_turns): TurnedRows<'_, S>,
+    ((odd_rows, _), odd_turns): TurnedRows<'_, S>,
     out: &mut [S::f32s],
 ) {
-    let even = sum_rows::<S, V>(simd, fma, (even.0, 2 * w, [v, w + v]), even.1);
-    let odd = sum_rows::<S, V>(simd, fma, (odd.0, 2 * w, [v, w + v]), odd.1);
+    let places = [row - w + v, 2 * row - w + v];
+    let even = sum_rows::<S, V>(simd, fma, (even_rows, 2 * row, places), even_turns);
+    let odd = sum_rows::<S, V>(simd, fma, (odd_rows, 2 * row, places), odd_turns);
     for i in 0..BLOCK {
         let out = &mut out[4 * i * w..][..4 * w];
         for j in 0..V {
@@ -318,7 +321,7 @@ impl Kernel for Fold<'_> {
         let Circle { evens, quarter, fold, .. } = self.circle;
         let spectrum = S::as_mut_simd_f32s(self.spectrum).0;
         let field = S::as_mut_simd_f32s(self.field).0;
-        let w = field.len() / (4 * quarter);
+        let (w, row) = (field.len() / (4 * quarter), spectrum.len() / (2 * self.circle.rows()));
         // Each angle's mirrors become what even and odd orders see of them: cos, sin, cos, sin.
         for x in field.chunks_exact_mut(4 * w) {
             for v in 0..w {
@@ -331,34 +334,35 @@ impl Kernel for Fold<'_> {
                 x[3 * w + v] = simd.sub_f32s(up, down);
             }
         }
-        let blocks = fold.chunks_exact(*quarter).zip(spectrum.chunks_exact_mut(2 * BLOCK * w));
+        let blocks = fold.chunks_exact(*quarter).zip(spectrum.chunks_exact_mut(2 * BLOCK * row));
         for (block, (turns, out)) in blocks.enumerate() {
             let first = if block * BLOCK < *evens { 0 } else { 2 * w };
             let mut v = 0;
             while S::F32_LANES == LANES && v + CURVATURES <= w {
-                fold_some::<S, CURVATURES>(simd, fma, (v, w), (field, first, turns), out);
+                fold_some::<S, CURVATURES>(simd, fma, (v, w), (field, first, turns), (out, row));
                 v += CURVATURES;
             }
             for v in v..w {
-                fold_some::<S, 1>(simd, fma, (v, w), (field, first, turns), out);
+                fold_some::<S, 1>(simd, fma, (v, w), (field, first, turns), (out, row));
             }
         }
     }
 }
 
-/// A block of rows of a spectrum, `V` vectors of its `w` from `v` on; a field's mirrors for these rows are `first` vectors from the beginning of each angle's.
+/// A block of rows of a spectrum, `row` vectors of cosines and as many of sines each, `V` vectors of the `w` of a field from `v` on; a field's mirrors for these rows are `first` vectors from the beginning of each angle's.
 #[inline(always)]
 fn fold_some<S: Simd, const V: usize>(
     simd: S,
     fma: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s + Copy,
     (v, w): (usize, usize),
     (field, first, turns): (&[S::f32s], usize, &[[f32; 2 * BLOCK]]),
-    out: &mut [S::f32s],
+    (out, row): (&mut [S::f32s], usize),
 ) {
     let sums = sum_rows::<S, V>(simd, fma, (field, 4 * w, [first + v, first + w + v]), turns);
     for (i, sums) in sums.iter().enumerate() {
         for (j, sum) in sums.iter().enumerate() {
-            (out[2 * i * w + v + j], out[(2 * i + 1) * w + v + j]) = (sum[0], sum[1]);
+            let end = (2 * i + 1) * row - w + v + j;
+            (out[end], out[end + row]) = (sum[0], sum[1]);
         }
     }
 }
