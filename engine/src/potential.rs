@@ -293,14 +293,14 @@ impl NonlinearForce {
     fn prepare(&mut self, body: &mut ModalBody, weights: &ReceiverWeights) -> bool {
         let due = self.schedule.is_due();
         if due {
-            if self.schedule.set_out(self.stiffness, self.safety.is_astray()) {
+            if self.schedule.set_out(self.stiffness, self.safety.times_as_often()) {
                 body.update(&mut self.coupled, self.schedule.ahead());
             }
             body.save(&mut self.coupled);
             self.evaluate(body, weights);
             body.connect(&mut self.input);
             self.stiffening = 1.0 + 0.5 * body.compliance(&self.input, &self.input);
-            self.sound.follow(body, weights, &self.input);
+            self.sound.follow(body, weights, &self.input, self.schedule.stride());
             // The exchange scales velocities only, so the saved displacements stay valid.
         }
         self.schedule.tick();

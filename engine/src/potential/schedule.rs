@@ -90,6 +90,11 @@ impl Schedule {
         self.countdown = 0;
     }
 
+    /// Samples from the latest evaluation to the next one.
+    pub(super) fn stride(&self) -> u32 {
+        self.stride
+    }
+
     /// Samples from an evaluation to the middle of the interval it is used in.
     pub(super) fn ahead(&self) -> f64 {
         0.5 * f64::from(self.stride)
@@ -137,9 +142,9 @@ impl Schedule {
         self.countdown == 0 && !self.done
     }
 
-    /// Schedules the next evaluation. Returns whether the stride has changed.
-    pub(super) fn set_out(&mut self, stiffness: f64, astray: bool) -> bool {
-        let stride = self.judge(stiffness, astray);
+    /// Schedules the next evaluation, so many times as early as usual. Returns whether the stride has changed.
+    pub(super) fn set_out(&mut self, stiffness: f64, times_as_often: u32) -> bool {
+        let stride = self.judge(stiffness, times_as_often);
         let changed = stride != self.stride;
         self.stride = stride;
         self.countdown = stride;
@@ -184,15 +189,15 @@ impl Schedule {
 
     /// Samples until the next evaluation. They depend on the share of the energy over the last windows, which a stroke raises
     /// at once, and on how far `psi` strays between two evaluations.
-    fn judge(&mut self, stiffness: f64, astray: bool) -> u32 {
+    fn judge(&mut self, stiffness: f64, times_as_often: u32) -> u32 {
         let (p, t) = (self.peaks.potential[1], self.peaks.kinetic[1]);
         if p > self.weak * t {
             self.share = self.share.max(self.weak);
         }
         // A stiffer material moves faster by the square root.
         let strong = ((f64::from(self.strong_stride) / stiffness.max(1.0).sqrt()) as u32).max(1);
-        if astray {
-            (strong / 3).max(1)
+        if times_as_often > 1 {
+            (strong / times_as_often).max(1)
         } else if self.share < VERY_WEAK * self.weak {
             3 * strong
         } else if self.share < self.weak {
