@@ -100,7 +100,16 @@ impl ModalBody {
         let state = ModalState { re: zero_row(n), im: zero_row(n) };
         let dt = 1.0 / sample_rate;
         let coefs = ModalCoefs::new(&modes, dt);
-        ModalBody { modes, dt, kernels: Kernels::detect(), coefs, state, detuning: None, coarse: false, retunings: 0 }
+        ModalBody {
+            modes,
+            dt,
+            kernels: Kernels::detect(),
+            coefs,
+            state,
+            detuning: None,
+            coarse: false,
+            retunings: 0,
+        }
     }
 
     /// Chooses the kernels, for comparing them; [`new`](Self::new) takes the best the machine has.

@@ -65,9 +65,11 @@ impl ModeMixture {
     /// Each mode's first even mode and its shares of that and of the next ones, dimensionless.
     pub fn rows(&self) -> Vec<(usize, Vec<f64>)> {
         let kept = (0..self.kept).map(|mode| (mode, vec![1.0]));
-        let mixed = self.runs.iter().enumerate().map(|(mixed, run)| {
-            (run.first as usize, self.parts(mixed).map(|part| part.1).collect())
-        });
+        let mixed = self
+            .runs
+            .iter()
+            .enumerate()
+            .map(|(mixed, run)| (run.first as usize, self.parts(mixed).map(|part| part.1).collect()));
         kept.chain(mixed).collect()
     }
 

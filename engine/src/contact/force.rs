@@ -66,8 +66,9 @@ impl<const N: usize> ContactLanes<N> {
     #[inline(always)]
     pub fn roots(&self) -> [f64; N] {
         let mut roots = [0.0; N];
-        for i in 0..N {
-            roots[i] = self.before[i].max(0.0).sqrt();
+        // A loop: a closure would be compiled without the machine's instructions.
+        for (root, before) in roots.iter_mut().zip(&self.before) {
+            *root = before.max(0.0).sqrt();
         }
         roots
     }

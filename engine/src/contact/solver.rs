@@ -237,7 +237,7 @@ const APART: usize = 4;
 #[inline(always)]
 pub(crate) fn product<const N: usize>(matrix: &[[f64; N]; N], x: &[f64; N]) -> [f64; N] {
     let mut out = [0.0; N];
-    if N % WIDE != 0 {
+    if !N.is_multiple_of(WIDE) {
         for (row, x) in matrix.iter().zip(x) {
             for i in 0..N {
                 out[i] += row[i] * x;

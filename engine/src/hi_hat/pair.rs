@@ -293,8 +293,9 @@ impl Pair {
                 apart[1][0] += rigid[1];
                 apart[1][1] += rigid[2];
                 let mut overlaps = rim_points::at_points(&apart);
-                for j in 0..POINTS {
-                    overlaps[j] += pedal.rest.bend[j] - statics.depth[j];
+                let still = pedal.rest.bend.iter().zip(&statics.depth);
+                for (overlap, (bend, depth)) in overlaps.iter_mut().zip(still) {
+                    *overlap += bend - depth;
                 }
                 overlaps
             },

@@ -190,7 +190,8 @@ mod tests {
         let forces: [f64; POINTS] = std::array::from_fn(|place| (place as f64 * 1.7).cos());
         let (values, felt) = (at_points(&given), amplitudes(&forces));
         for place in 0..POINTS {
-            let waves = given.iter().zip(&WAVES).map(|(a, wave)| a[0] * wave[0][place] + a[1] * wave[1][place]);
+            let waves =
+                given.iter().zip(&WAVES).map(|(a, wave)| a[0] * wave[0][place] + a[1] * wave[1][place]);
             assert!((values[place] - waves.sum::<f64>()).abs() < 1e-12, "place {place}");
         }
         for (class, felt) in felt.iter().enumerate() {

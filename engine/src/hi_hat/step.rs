@@ -188,9 +188,8 @@ impl Pair {
                 (whole, down, heard, total(&pressed))
             },
         );
-        let felt: [Weights; 2] = self.statics.around.map(|[heave, x, z]| {
-            [heave * whole[0][0], x * whole[1][0], z * whole[1][1]]
-        });
+        let felt: [Weights; 2] =
+            self.statics.around.map(|[heave, x, z]| [heave * whole[0][0], x * whole[1][0], z * whole[1][1]]);
         let before = self.rigid.each_ref().map(Rigid::speeds);
         self.rigid[0].push_parts(&felt[0].map(|force| -force));
         self.rigid[1].push_parts(&felt[1]);

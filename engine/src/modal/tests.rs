@@ -237,7 +237,11 @@ fn a_coarse_body_rings_under_forces_as_a_fine_one_does() {
             [(&fine.state.re, &coarse.state.re), (&fine.state.im, &coarse.state.im)].into_iter().enumerate()
         {
             for (k, (x, y)) in a.iter().zip(b.iter()).enumerate() {
-                assert!((x - y).abs() <= 1e-4 * largest(a), "{} part {part}, mode {k}: {x} {y}", kernels.name());
+                assert!(
+                    (x - y).abs() <= 1e-4 * largest(a),
+                    "{} part {part}, mode {k}: {x} {y}",
+                    kernels.name()
+                );
             }
         }
         // The lossiest mode loses a fortieth in a radian.

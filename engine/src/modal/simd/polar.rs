@@ -245,7 +245,14 @@ impl Kernel for Unfold<'_> {
             let mut v = 0;
             // A curvature each, where a field of them is a vector wide: their cosines and sines are read once.
             while S::F32_LANES == LANES && v + CURVATURES <= w {
-                unfold_some::<S, CURVATURES>(simd, fma, (v, w), (even_rows, even_turns), (odd_rows, odd_turns), out);
+                unfold_some::<S, CURVATURES>(
+                    simd,
+                    fma,
+                    (v, w),
+                    (even_rows, even_turns),
+                    (odd_rows, odd_turns),
+                    out,
+                );
                 v += CURVATURES;
             }
             for v in v..w {
