@@ -25,6 +25,7 @@ mod attached;
 mod fading;
 pub mod foot;
 pub mod half;
+mod near_points;
 pub mod pair;
 pub mod rigid;
 pub mod rigid_sound;

@@ -44,7 +44,7 @@ const YIELD_STRAIN: f64 = 0.03;
 
 /// Rate of the evaluations, Hz: seven for each period of the highest mode. *Converged*: third octaves of kicks, toms and snares at 2 to 8 m/s are within
 /// 0.07 dB in the mean of those with every sample, all within 0.7, twice as often within 0.005 and 0.05; the glide of a 6 m/s stroke is within 0.2 cents of 90.
-const RATE: f64 = 11_000.0;
+const RATE: f64 = 22_000.0;
 
 /// Samples between evaluations at a sample rate (Hz).
 pub fn stride(sample_rate: f64) -> u32 {

@@ -44,7 +44,6 @@ use super::foot::Foot;
 use super::rigid::{Rigid, Weights};
 use super::rigid_sound::RigidSound;
 use super::rim_points::{self, POINTS};
-use super::solving::NearCompliances;
 
 use pedal::Pedal;
 use rest::Rest;
@@ -83,7 +82,6 @@ pub struct Pair {
     pub(super) rigid: [Rigid; 2],
     pub(super) statics: Statics,
     pub(super) dynamics: Dynamics,
-    pub(super) near: NearCompliances,
     pub(super) rims: RimState,
     pub(super) pedal: Pedal,
     pub(super) strikers: [StrikerPlace; STRIKER_PLACES],
@@ -113,7 +111,6 @@ impl Pair {
             rigid: parts.rigid,
             statics: Statics::new(parts.depth, parts.meeting),
             dynamics: Dynamics::new(parts.rigid_sounds),
-            near: NearCompliances::default(),
             rims: RimState::new(parts.law, parts.lasting_loss, parts.depth),
             pedal: Pedal::up(1.0 / parts.sample_rate),
             strikers: [StrikerPlace::default(); STRIKER_PLACES],
@@ -209,7 +206,6 @@ impl Pair {
             && self.statics.follow(bodies.map(|(body, _)| body), &self.folded, &self.rigid);
         self.followed = Some(retunings);
         self.dynamics.follow(bodies, &self.folded, &self.rigid, &self.statics.weights);
-        self.near.forget();
         self.dynamics.update_offset(&self.pedal.rest.preload);
         if !changed {
             return;

@@ -89,7 +89,7 @@ static ODD_WAVES: [[[f64; SIDE / 2]; 2]; SIDE] = {
     waves
 };
 
-/// Amplitude of the cosine and of the sine, `[class]`, in double precision.
+/// Amplitude of the cosine and of the sine, `[class]`, in double precision, in any unit.
 pub type FineAmplitudes = [[f64; 2]; CLASSES];
 
 /// In double precision.

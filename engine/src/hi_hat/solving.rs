@@ -2,9 +2,10 @@
 
 use crate::contact::ContactStep;
 use crate::contact::force::ContactLanes;
-use crate::contact::solver::{self, Compliances};
+use crate::contact::solver;
 use crate::surface::contacts::{Contacts, STRIKER_PLACES};
 
+use super::near_points::Near;
 use super::pair::Pair;
 use super::rim_points::POINTS;
 
@@ -17,73 +18,6 @@ const MARGIN: f64 = 2e-4;
 /// Points farther apart than this without forces are left out at first, m. *Judgement*: forces at the other points move a rim by
 /// less in nearly every sample, and in the others [all are solved for](Pair::solve_rims).
 const NEAR: f64 = 1e-5;
-
-/// Points of the rims to be solved for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Near {
-    all: [usize; POINTS],
-    count: usize,
-}
-
-impl Near {
-    fn listed(&self) -> &[usize] {
-        &self.all[..self.count]
-    }
-}
-
-/// Compliances between the points solved for last, which are the same for dozens of samples: collecting them takes as long as a third of
-/// a solution.
-pub(super) struct NearCompliances {
-    near: Near,
-    /// `[lane][lane]`, m/N.
-    rows: Compliances<POINTS>,
-}
-
-impl Default for NearCompliances {
-    /// Of no points.
-    fn default() -> NearCompliances {
-        NearCompliances { near: Near { all: [0; POINTS], count: 0 }, rows: [[0.0; POINTS]; POINTS] }
-    }
-}
-
-impl NearCompliances {
-    /// Forgets them, after a change of the compliances.
-    pub(super) fn forget(&mut self) {
-        self.near.count = 0;
-    }
-
-    /// Collects those between these points out of those between all, unless they are the same points as last.
-    fn collect(&mut self, near: &Near, whole: &Compliances<POINTS>) {
-        if self.near == *near {
-            return;
-        }
-        self.near = *near;
-        for (row, &i) in self.rows.iter_mut().zip(near.listed()) {
-            row.iter_mut().zip(near.listed()).for_each(|(out, &j)| *out = whole[i][j]);
-        }
-    }
-
-    /// Takes away what the nonlinear force takes: `coupling` and `divisor` as [`FreeStep`](crate::surface::body::FreeStep) has them.
-    #[inline(always)]
-    fn less<const N: usize>(&self, coupling: &[f64; POINTS], divisor: f64) -> Compliances<N> {
-        let mut coupled = [0.0; N];
-        for (coupled, &i) in coupled.iter_mut().zip(self.near.listed()) {
-            *coupled = coupling[i];
-        }
-        let mut out = [[0.0; N]; N];
-        for lane in 0..self.near.count.min(N) {
-            let (row, taken) = (&self.rows[lane], coupled[lane] / divisor);
-            for i in 0..N.min(POINTS) {
-                out[lane][i] = row[i] - taken * coupled[i];
-            }
-            // Lanes beyond are strikers' or none's.
-            for out in &mut out[lane][self.near.count.min(N)..] {
-                *out = 0.0;
-            }
-        }
-        out
-    }
-}
 
 impl Pair {
     /// Whether any point may touch by the end of the sample; both cymbals have stepped freely.
@@ -98,11 +32,10 @@ impl Pair {
 
     /// Points whose gaps are smaller than this, m.
     fn nearer_than(&self, gap: f64) -> Near {
-        let mut near = Near { all: [0; POINTS], count: 0 };
+        let mut near = Near::default();
         for j in 0..POINTS {
             if self.gap(j) < gap {
-                near.all[near.count] = j;
-                near.count += 1;
+                near.add(j);
             }
         }
         near
@@ -163,10 +96,10 @@ impl Pair {
 
     /// [`solve_rims`](Self::solve_rims) of at most `N` contacts: the rims' first.
     fn solve_in<const N: usize>(&mut self, near: &Near, strikers: Option<&mut Contacts>, divisor: f64) {
-        self.near.collect(near, &self.dynamics.whole);
+        self.dynamics.collect(near);
         let mut compliances = self.kernels.vectorized(
             #[inline(always)]
-            || self.near.less::<N>(&self.dynamics.coupling, divisor),
+            || self.dynamics.near.less::<N>(&self.dynamics.coupling, divisor),
         );
         let mut lanes = ContactLanes::<N>::APART;
         for (lane, &i) in near.listed().iter().enumerate() {

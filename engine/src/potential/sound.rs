@@ -7,9 +7,9 @@ use crate::modal::{InputVector, ModalBody, Pressure, ReceiverWeights};
 /// heard.
 const RATE_TIME: f64 = 1e-4;
 
-/// What is heard of a gradient at each receiver.
+/// What a gradient sounds like at each receiver.
 #[derive(Debug, Clone, Copy, Default)]
-struct Heard {
+struct PressurePerForce {
     /// Pressure proportional to `psibar`, per unit of it, Pa.
     direct: Pressure,
     /// Pressure per unit rate of change of `psibar`, Pa s.
@@ -18,13 +18,14 @@ struct Heard {
 
 /// Pressures at the receivers.
 ///
-/// The force is held between evaluations; its steps would be heard around the rate of evaluation, of a hard crash at 14.7 kHz 10 dB above all else
-/// there. The gradient that is heard therefore goes on as it did between the last two evaluations. *Measured*: a parabola through three is no better.
+/// The force is held between evaluations. Heard as it is, its steps sound about the rate of evaluation: of a hard crash evaluated at 14.7 kHz they
+/// are 10 dB above all else there. The gradient that is heard therefore goes on as it did between the last two evaluations. *Measured*: a parabola
+/// through three is no better.
 #[derive(Default)]
 pub(super) struct Sound {
     /// The latest evaluation and the one before, if there was one since the force woke.
-    latest: Heard,
-    before: Option<Heard>,
+    latest: PressurePerForce,
+    before: Option<PressurePerForce>,
     /// Samples from the latest to the next one, from the middle of the interval before to that of this one, and since the latest.
     stride: f32,
     apart: f32,
@@ -48,7 +49,8 @@ impl Sound {
     ) {
         let stride = stride as f32;
         self.before = (self.stride > 0.0).then_some(self.latest);
-        self.latest = Heard { direct: weights.direct_at(body, input), rate: weights.rate_at(body, input) };
+        self.latest =
+            PressurePerForce { direct: weights.direct_at(body, input), rate: weights.rate_at(body, input) };
         self.apart = 0.5 * (self.stride + stride);
         (self.stride, self.since) = (stride, 0.0);
     }
@@ -75,9 +77,13 @@ impl Sound {
     pub(super) fn heard(&mut self, force: f32, dt: f64) -> Pressure {
         self.force = force;
         // An evaluation is made for the middle of the interval it is held in.
-        let ahead = (self.since + 0.5 - 0.5 * self.stride) / self.apart;
+        let middle = 0.5 * self.stride;
+        let (before, ahead) = match &self.before {
+            Some(before) => (before, (self.since + 0.5 - middle) / self.apart),
+            None => (&self.latest, 0.0),
+        };
         self.since += 1.0;
-        let (latest, before) = (&self.latest, self.before.as_ref().unwrap_or(&self.latest));
+        let latest = &self.latest;
         let now = |latest: f32, before: f32| latest + ahead * (latest - before);
         std::array::from_fn(|receiver| {
             let direct = now(latest.direct[receiver], before.direct[receiver]);

@@ -2,6 +2,7 @@
 
 use crate::contact::ContactLaw;
 use crate::contact::solver::Compliances;
+use crate::hi_hat::near_points::{Near, NearCompliances};
 use crate::hi_hat::rigid::{Rigid, Weights};
 use crate::hi_hat::rigid_sound::{RigidHeard, RigidSound};
 use crate::hi_hat::rim_points::{self, FineAmplitudes, POINTS};
@@ -23,6 +24,8 @@ pub(crate) struct Dynamics {
     /// Compliance between the rim points, of the shells and of shells and mounts, m/N.
     shells: Compliances<POINTS>,
     pub(crate) whole: Compliances<POINTS>,
+    /// Those between the points solved for last.
+    pub(crate) near: NearCompliances,
     /// `shells` times the preloads, m.
     pub(crate) preload_offset: [f64; POINTS],
     /// The preloads as forces on the amplitudes, N.
@@ -62,7 +65,13 @@ impl Dynamics {
                 self.whole[i][j] = self.shells[i][j] + mounts;
             }
         }
+        self.near.forget();
         self.follow_receivers(bodies, folded);
+    }
+
+    /// Collects the compliances between points to be solved for.
+    pub(crate) fn collect(&mut self, near: &Near) {
+        self.near.collect(near, &self.whole);
     }
 
     /// Updates the pressure proportional to the forces after a change of the receiver weights alone.
