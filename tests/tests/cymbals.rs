@@ -6,6 +6,7 @@ use overhear_engine::strike::{Strike, Striker};
 use overhear_measure::analysis::OneShot;
 use overhear_measure::analysis::envelope;
 use overhear_measure::report::cymbal::{self, largest_mean};
+use overhear_measure::spectra::PowerSpectrum;
 use overhear_measure::spectra::third_octaves::{mean_difference, third_octaves, worst_difference};
 use overhear_tests::{build, reference, render_into, spec, stroke, total_energy};
 
@@ -225,17 +226,37 @@ fn below_20_hz_a_hard_stroke_has_no_6_db_more_than_on_a_linear_plate_of_a_cap_cr
 }
 
 #[test]
-fn every_second_sample_is_as_good_as_every_sample_and_so_is_every_third() {
+fn evaluating_every_second_third_or_fourth_sample_is_as_good_as_every_sample() {
     let bands = |stride, radius| {
         let strike = hit(5.0, radius, Striker::Shoulder);
         cymbal::bands(&spec("crash"), &strike, 1.0, |piece| piece.surface_mut().set_stride(stride))
     };
     let every = bands(1, 0.92);
-    let [second, third] = [2, 3].map(|stride| mean_difference(&every, &bands(stride, 0.92)));
-    assert!(second < 0.5 && third < 0.5, "{second} dB, {third} dB");
+    for stride in [2, 3, 4] {
+        let mean = mean_difference(&every, &bands(stride, 0.92));
+        println!("every {stride}: {mean} dB in the mean");
+        assert!(mean < 0.5, "{mean} dB");
+    }
     // What a stroke four millimetres beside changes, for comparison.
     let beside = mean_difference(&every, &bands(1, 0.94));
-    assert!(beside > third, "{beside} dB, {third} dB");
+    assert!(beside > 0.25, "{beside} dB");
+}
+
+#[test]
+fn the_rate_of_evaluation_is_not_heard() {
+    // The stretching acts in steps. Heard as it acts, a hard crash has images of its lows at the rate of the evaluations: near by 5.6 and 2.2 dB more than without.
+    let about = |stride: u32, every: u32| -> f64 {
+        let mut piece = crash();
+        piece.surface_mut().set_stride(every);
+        piece.strike(&hit(4.0, 0.97, Striker::Shoulder));
+        let middle = RATE / f64::from(stride);
+        PowerSpectrum::hann(&render(&mut piece, 1.0), RATE).band(middle - 700.0, middle + 700.0)
+    };
+    for stride in [3, 4] {
+        let over = 10.0 * (about(stride, stride) / about(stride, 1)).log10();
+        println!("every {stride}: {over} dB");
+        assert!(over.abs() < 1.5, "every {stride}: {over} dB");
+    }
 }
 
 #[test]
