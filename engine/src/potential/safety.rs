@@ -7,7 +7,7 @@ use super::schedule::Window;
 /// sample as if it were evaluated four times as often at once. A stick at 25 m/s on a splash goes from an error of 0.03 to divergence within
 /// half a millisecond.
 const ASTRAY: f64 = 0.01;
-const FAR_ASTRAY: f64 = 0.03;
+const FAR_ASTRAY: f64 = 0.015;
 const CALM_TIME: f64 = 0.005;
 
 /// Error from which `psi` is lost. The plate then keeps the share `COLLAPSING` of its velocity at each evaluation, until the
