@@ -42,7 +42,7 @@ use super::spec::CymbalSpec;
 
 /// Rate at which the stretching is evaluated, Hz, over the highest coupled mode, and at most, as long as it is
 /// five times that. *Converged*: with this, third octaves of hard strokes (crash, splash) are within 0.6 dB in the mean of
-/// those with every sample, as they are at seven times; a stroke a millimetre beside changes them by more.
+/// those with every sample, as they are at seven times.
 const COUPLING_RATE_PER_HZ: f64 = 5.5;
 const MOST_COUPLING_RATE: f64 = 20_000.0;
 

@@ -56,7 +56,7 @@ static WAVES: [[[f64; POINTS]; 2]; CLASSES] = {
 /// Points on one side: a wave of even order is the same half a turn on, one of odd order its opposite.
 const SIDE: usize = POINTS / 2;
 
-/// Even classes and one more, so that rows of them are whole registers.
+/// The nine even classes and three more, so that rows of them are whole registers.
 const EVEN: usize = 12;
 
 /// Values on one side of the waves of even and of odd order: `[place][cosines, sines]`.

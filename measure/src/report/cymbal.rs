@@ -277,7 +277,7 @@ fn shortcuts(sheet: &mut Sheet, Body(crash, on): &Body) {
     let strided =
         |stride, radius| bands(crash, &shoulder(radius), 1.0, |piece| piece.surface_mut().set_stride(stride));
     let every = strided(1, 0.92);
-    for (stride, name) in [(2, "second"), (3, "third")] {
+    for (stride, name) in [(2, "second"), (3, "third"), (4, "fourth")] {
         let mean = mean_difference(&every, &strided(stride, 0.92));
         sheet.claim(Claim {
             what: format!(
@@ -295,7 +295,7 @@ fn shortcuts(sheet: &mut Sheet, Body(crash, on): &Body) {
         "the same stroke moved by a millimetre",
         on,
         format!("{beside:.2} dB in the mean"),
-        "more than either",
+        "more than any",
         GOAL,
     ));
     let mut left_out = |what: &str, seconds: f64, speeds: [f64; 3], never: fn(&mut Piece)| {
