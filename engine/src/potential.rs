@@ -381,7 +381,11 @@ impl NonlinearForce {
             self.sound.rescale_velocity(body.rescale_velocity(&mut self.coupled, weights, kept));
         }
         let stretch = self.schedule.stretch(self.dt);
+        let held = self.scalar.psi;
         self.scalar.shift_to(depth, stretch);
+        if held != 0.0 && self.scalar.psi != 0.0 {
+            self.sound.rescale((self.scalar.psi / held) as f32);
+        }
         // Below the predicted depth by rounding only.
         let psi = (2.0 * (energy + self.scalar.shift)).max(LEAST_SHIFT).sqrt();
         let kernels = body.kernels();

@@ -55,6 +55,13 @@ impl Sound {
         (self.stride, self.since) = (stride, 0.0);
     }
 
+    /// `psi` has been scaled by this factor, while the force is the same: the gradient per `psi` is less by as much.
+    pub(super) fn rescale(&mut self, factor: f32) {
+        for part in [&mut self.latest.direct, &mut self.latest.rate] {
+            part.iter_mut().for_each(|pressure| *pressure /= factor);
+        }
+    }
+
     /// Follows receiver weights that have moved, so that the pressures per unit of `psibar` (Pa) and of its rate (Pa s) have changed
     /// at a receiver. What the force has done is not heard again: only its own changes are.
     pub(super) fn sway(&mut self, receiver: usize, direct: f32, rate: f32) {
