@@ -42,8 +42,8 @@ const LIMIT_HZ: f64 = 1500.0;
 /// Strain at which polyester film yields. *Literature*.
 const YIELD_STRAIN: f64 = 0.03;
 
-/// Rate of the evaluations, Hz: seven for each period of the highest mode. *Converged*: third octaves of kicks, toms and snares at 2 to 8 m/s are within
-/// 0.07 dB in the mean of those with every sample, all within 0.7, twice as often within 0.005 and 0.05; the glide of a 6 m/s stroke is within 0.2 cents of 90.
+/// Rate of the evaluations, Hz. A force renewed so often has its images where nobody hears them. *Converged*: with half of it third octaves are
+/// within 0.07 dB in the mean, but of what rings of a tom from 8 to 11 kHz 20 to 120 ms after a stroke images are only 7 dB under the high band.
 const RATE: f64 = 22_000.0;
 
 /// Samples between evaluations at a sample rate (Hz).
