@@ -31,7 +31,7 @@
 //!
 //! which follows from their Hankel transforms (see [`air_load`](crate::air_load)), the density of Bessel zeros and
 //! `J_0^2 + 2 sum J_m^2 = 1`. It is what the strip along the rim sends out; the point hears it from the rim's
-//! distances, by chance with either sign.
+//! distances, by chance in any phase.
 //!
 //! Contact: a tip presses evenly on the head, a soft one over a patch that grows with the force.
 //! An even pressure moves a wave by `2 J_1(k b) / (k b)`; averaged over the areas a stroke goes through, up to its
@@ -214,7 +214,6 @@ impl HighBand {
             rings: false,
             loaded: false,
         };
-        band.body.set_coarse();
         band.body.allow_detuning();
         band.retune(spec.tensions[1], &HighMuffling::NONE);
         band
@@ -256,9 +255,9 @@ impl HighBand {
             walk.set(k, walk_rate(spec, slice, mode.omega));
             let fade = 1.0 - ((mode.omega / (TAU * top) - 1.0) / (FADE - 1.0)).clamp(0.0, 1.0);
             let loud = fade * loudness;
-            for (receiver, (sign, gain)) in slice.heard.into_iter().zip(&*gains).enumerate() {
+            for (receiver, ([cos, sin], gain)) in slice.heard.into_iter().zip(&*gains).enumerate() {
                 let loud = f64::from(*gain) * loud;
-                pickup.transfer_mut(receiver)[k] = [loud * sign, 0.0];
+                pickup.transfer_mut(receiver)[k] = [loud * cos, loud * sin];
             }
         }
     }

@@ -83,8 +83,6 @@ pub struct ModalBody {
     coefs: ModalCoefs,
     state: ModalState,
     detuning: Option<DetunedTurns>,
-    /// Whether it is [coarse](Self::set_coarse).
-    coarse: bool,
     /// Times that a frequency or a mass has changed.
     retunings: u64,
 }
@@ -100,28 +98,12 @@ impl ModalBody {
         let state = ModalState { re: zero_row(n), im: zero_row(n) };
         let dt = 1.0 / sample_rate;
         let coefs = ModalCoefs::new(&modes, dt);
-        ModalBody {
-            modes,
-            dt,
-            kernels: Kernels::detect(),
-            coefs,
-            state,
-            detuning: None,
-            coarse: false,
-            retunings: 0,
-        }
+        ModalBody { modes, dt, kernels: Kernels::detect(), coefs, state, detuning: None, retunings: 0 }
     }
 
     /// Chooses the kernels, for comparing them; [`new`](Self::new) takes the best the machine has.
     pub fn set_kernels(&mut self, kernels: Kernels) {
         self.kernels = kernels;
-    }
-
-    /// Modes that each stand for many are advanced in half of the operations by [`ring`](Self::ring) and its kin. Their state is rounded twice a sample,
-    /// which changes decays by up to a rounding of `f32` times the sample rate, 0.003 1/s at 44.1 kHz; and receivers are taken to hear the acceleration in its own phase (transfers are real), without what
-    /// the loss in a period adds, some 1e-3 of it.
-    pub fn set_coarse(&mut self) {
-        self.coarse = true;
     }
 
     /// The kernels in use.
@@ -295,7 +277,6 @@ impl ModalBody {
             turn_re: &turn_re[first..],
             turn_im: &turn_im[first..],
             heard: std::array::from_fn(|i| weights.receivers[i].from(first, std::mem::take(&mut out[i]))),
-            coarse: self.coarse,
         };
         match drives {
             [] => self.kernels.ring(&mut ring),

@@ -94,8 +94,9 @@ pub(super) struct Slice {
     /// Where the wave runs, as cosine and sine, and its phase, rad.
     pub(super) direction: [f64; 2],
     pub(super) phase: f64,
-    /// Sign with which it is heard at each point, and how loud for what the drum's body does to it.
-    pub(super) heard: [f64; POINTS],
+    /// Phases in which it is heard at each point, as cosine and sine, and how loud for what the drum's body does
+    /// to it.
+    pub(super) heard: [[f64; 2]; POINTS],
     pub(super) gain: f64,
     /// How much more it moves on a dot than beside it.
     pub(super) on_dot: f64,
@@ -206,7 +207,7 @@ pub(super) fn slices(spec: &HighBandSpec) -> Vec<Slice> {
             count: (modes_below(high) - modes_below(low)).max(1.0),
             direction: cos_sin(TAU * draw(1)),
             phase: TAU * draw(2),
-            heard: std::array::from_fn(|i| if draw(3 + i as u32) < 0.5 { 1.0 } else { -1.0 }),
+            heard: std::array::from_fn(|i| cos_sin(TAU * draw(3 + i as u32))),
             gain: gain(spec, omega),
             on_dot: on_dot(&spec.head, omega, tension),
         });
@@ -442,7 +443,7 @@ fn slip(head: &MembraneSpec, air: f64, omega: f64) -> Slip {
 }
 
 /// How much louder the slices are far away, as at a metre, in each direction, than at the point, in the mean: they come by chance
-/// with either sign here and there.
+/// in any phase here and there.
 pub(super) fn away(spec: &HighBandSpec, slices: &[Slice]) -> [f32; DIRECTIONS] {
     spec.ear.away.map(|point| away_at(spec, slices, point))
 }

@@ -209,49 +209,6 @@ fn ringing_does_not_depend_on_how_time_is_cut() {
 }
 
 #[test]
-fn a_coarse_body_rings_under_forces_as_a_fine_one_does() {
-    for kernels in [Kernels::baseline(), Kernels::detect()] {
-        let bodies = [false, true].map(|coarse| {
-            let (mut body, mut weights) = choir(kernels);
-            for (k, transfer) in weights.transfer_mut(0).iter_mut().enumerate() {
-                *transfer = [if k % 3 == 0 { -1.0 } else { 1.0 }, 0.0];
-            }
-            body.tune(&mut weights);
-            if coarse {
-                body.set_coarse();
-            }
-            let mut input = InputVector::new(body.len());
-            input.shape_mut().iter_mut().take(333).enumerate().for_each(|(k, x)| *x = (0.3 * k as f32).sin());
-            body.connect(&mut input);
-            let forces: Vec<f32> = (0..32).map(|i| (i as f32 * 0.4).sin()).collect();
-            let mut out = [[0.0; 320]; RECEIVERS];
-            for block in 0..10 {
-                let out = out.each_mut().map(|row| &mut row[32 * block..][..32]);
-                body.ring_driven(0, [(&input, &forces[..])].into_iter(), &weights, out);
-            }
-            (body, out[0])
-        });
-        let [(fine, heard), (coarse, coarsely)] = &bodies;
-        let largest = |row: &[f32]| row.iter().fold(0.0_f32, |most, x| most.max(x.abs()));
-        for (part, (a, b)) in
-            [(&fine.state.re, &coarse.state.re), (&fine.state.im, &coarse.state.im)].into_iter().enumerate()
-        {
-            for (k, (x, y)) in a.iter().zip(b.iter()).enumerate() {
-                assert!(
-                    (x - y).abs() <= 1e-4 * largest(a),
-                    "{} part {part}, mode {k}: {x} {y}",
-                    kernels.name()
-                );
-            }
-        }
-        // The lossiest mode loses a fortieth in a radian.
-        for (x, y) in heard.iter().zip(coarsely) {
-            assert!((x - y).abs() <= 0.02 * largest(heard), "{}: {x} {y}", kernels.name());
-        }
-    }
-}
-
-#[test]
 fn quiet_modes_become_exactly_zero() {
     let (mut body, _) = single(500.0, 30.0, 0.1, 44_100.0);
     body.state.im[0] = 1e-18;

@@ -37,8 +37,6 @@ pub struct Ring<'a> {
     pub turn_im: &'a [f32],
     /// Receivers; all `out` of one length.
     pub heard: [PressureSum<'a>; RECEIVERS],
-    /// Whether the state may be rounded twice a sample, and receivers hear its imaginary part alone.
-    pub coarse: bool,
 }
 
 /// Receivers of a body: those at its [points](POINTS), which take all modes, and one that takes the first modes only, as many as it
@@ -128,7 +126,7 @@ fn ring_all<S: Simd>(
     let n = ring.samples();
     let mut sums = [[simd.splat_f32s(0.0); RECEIVERS]; MAX_RUN];
     let state = (S::as_mut_simd_f32s(ring.re).0, S::as_mut_simd_f32s(ring.im).0);
-    let rows = RingRows::new((ring.turn_re, ring.turn_im), &ring.heard, ring.coarse, drives);
+    let rows = RingRows::new(ring.turn_re, ring.turn_im, &ring.heard, drives);
     let groups = state.0.len();
     let (mut first, sums) = (0, &mut sums[..n]);
     while first + GROUPS <= groups {
@@ -157,8 +155,6 @@ fn ring_some<S: Simd, const G: usize>(
         rows.drives().any(|drive| any(simd, &drive.0[at.clone()]) || any(simd, &drive.1[at.clone()]));
     match (moves || driven, driven, rows.reach_all(first + G)) {
         (false, ..) => {}
-        (_, false, _) if rows.coarse => coarse_groups::<S, G, false>(simd, fma, first, (re, im), rows, sums),
-        (_, true, _) if rows.coarse => coarse_groups::<S, G, true>(simd, fma, first, (re, im), rows, sums),
         (_, false, true) => ring_groups::<S, G, RECEIVERS, false>(simd, fma, first, (re, im), rows, sums),
         (_, false, false) => ring_groups::<S, G, POINTS, false>(simd, fma, first, (re, im), rows, sums),
         (_, true, true) => ring_groups::<S, G, RECEIVERS, true>(simd, fma, first, (re, im), rows, sums),
@@ -182,7 +178,6 @@ fn any<S: Simd>(simd: S, row: &[S::f32s]) -> bool {
 struct RingRows<'a, S: Simd> {
     turn: [&'a [S::f32s]; 2],
     heard: [[&'a [S::f32s]; 2]; RECEIVERS],
-    coarse: bool,
     drives: [DriveRows<'a, S>; MAX_DRIVES],
     driven: usize,
 }
@@ -200,9 +195,9 @@ fn forces_of(forces: &[f32], turns: usize, lane: usize) -> &[f32] {
 impl<'a, S: Simd> RingRows<'a, S> {
     #[inline(always)]
     fn new(
-        (turn_re, turn_im): (&'a [f32], &'a [f32]),
+        turn_re: &'a [f32],
+        turn_im: &'a [f32],
         heard: &'a [PressureSum<'_>; RECEIVERS],
-        coarse: bool,
         drives: &'a [Drive<'_>],
     ) -> Self {
         let pair =
@@ -219,7 +214,6 @@ impl<'a, S: Simd> RingRows<'a, S> {
         RingRows {
             turn: [turn_re, turn_im].map(|row| S::as_simd_f32s(row).0),
             heard: heard.each_ref().map(pair),
-            coarse,
             drives: rows,
             driven: drives.len(),
         }
@@ -286,56 +280,6 @@ fn ring_groups<S: Simd, const G: usize, const E: usize, const DRIVEN: bool>(
         for i in 0..G {
             for (sum, [w_re, w_im]) in sum.iter_mut().zip(&weights) {
                 *sum = fma(w_im[i], z_im[i], fma(w_re[i], z_re[i], *sum));
-            }
-        }
-    }
-    re[first..first + G].copy_from_slice(&z_re);
-    im[first..first + G].copy_from_slice(&z_im);
-}
-
-/// [`ring_groups`] at the [points](POINTS) of a body that may be [coarse](Ring::coarse): half of the operations.
-#[inline(always)]
-fn coarse_groups<S: Simd, const G: usize, const DRIVEN: bool>(
-    simd: S,
-    fma: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s + Copy,
-    first: usize,
-    (re, im): (&mut [S::f32s], &mut [S::f32s]),
-    rows: &RingRows<'_, S>,
-    sums: &mut [[S::f32s; RECEIVERS]],
-) {
-    let load = |row: &[S::f32s]| -> [S::f32s; G] {
-        let row = &row[first..first + G];
-        std::array::from_fn(|i| row[i])
-    };
-    let (mut z_re, mut z_im) = (load(re), load(im));
-    let [mut t_re, t_im] = rows.turn.map(load);
-    for t_re in &mut t_re {
-        *t_re = simd.add_f32s(*t_re, simd.splat_f32s(1.0));
-    }
-    let weights: [_; POINTS] = std::array::from_fn(|receiver| load(rows.heard[receiver][1]));
-    let mut acting: [&[f32]; MAX_DRIVES] = [&[]; MAX_DRIVES];
-    for (acting, (_, _, forces, turns)) in acting.iter_mut().zip(rows.drives()) {
-        *acting = forces_of(forces, *turns, first * S::F32_LANES);
-    }
-    for (sample, sum) in sums.iter_mut().enumerate() {
-        for i in 0..G {
-            let re = fma(t_re[i], z_re[i], simd.neg_f32s(simd.mul_f32s(t_im[i], z_im[i])));
-            z_im[i] = fma(t_im[i], z_re[i], simd.mul_f32s(t_re[i], z_im[i]));
-            z_re[i] = re;
-        }
-        if DRIVEN {
-            for ((gain_re, gain_im, ..), forces) in rows.drives().zip(&acting) {
-                let force = simd.splat_f32s(forces[sample]);
-                let (gain_re, gain_im) = (&gain_re[first..first + G], &gain_im[first..first + G]);
-                for i in 0..G {
-                    z_re[i] = fma(gain_re[i], force, z_re[i]);
-                    z_im[i] = fma(gain_im[i], force, z_im[i]);
-                }
-            }
-        }
-        for i in 0..G {
-            for (sum, w_im) in sum.iter_mut().zip(&weights) {
-                *sum = fma(w_im[i], z_im[i], *sum);
             }
         }
     }
