@@ -21,7 +21,8 @@
 //!
 //! *Measured* for a 16 in crash's modes to 2 kHz, 132 amplitudes and 94 Airy functions: `16 x 60` grid
 //! points integrate a cap's gradient within 6e-4, in 1.9 us; to 4 kHz 6.5 us, to 8 kHz 12 us (AVX-512). The Fourier
-//! sums are half of that. The inner loops of dense tables alone take 19 us, 54 us and 165 us (the example `coupling`): their blocks are shorter than the lanes are wide.
+//! sums are half of that. The inner loops of dense tables alone take 19 us, 54 us and 165 us (the example `coupling`):
+//! their blocks are shorter than the lanes are wide.
 //!
 //! Airy functions are taken up to the largest wave number of the modes, at most 16 of one order, as many as there may be modes
 //! of it: twice as many change the gradient of a random state by under 1 %.

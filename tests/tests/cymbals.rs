@@ -232,14 +232,12 @@ fn evaluating_every_second_third_or_fourth_sample_is_as_good_as_every_sample() {
         cymbal::bands(&spec("crash"), &strike, 1.0, |piece| piece.surface_mut().set_stride(stride))
     };
     let every = bands(1, 0.92);
-    for stride in [2, 3, 4] {
-        let mean = mean_difference(&every, &bands(stride, 0.92));
-        println!("every {stride}: {mean} dB in the mean");
-        assert!(mean < 0.5, "{mean} dB");
-    }
+    let means = [2, 3, 4].map(|stride| mean_difference(&every, &bands(stride, 0.92)));
+    println!("every second, third, fourth sample: {means:?} dB in the mean");
+    assert!(means.iter().all(|mean| *mean < 0.5), "{means:?} dB");
     // What a stroke four millimetres beside changes, for comparison.
     let beside = mean_difference(&every, &bands(1, 0.94));
-    assert!(beside > 0.25, "{beside} dB");
+    assert!(means[..2].iter().all(|mean| *mean < beside), "{means:?} dB, {beside} dB");
 }
 
 #[test]

@@ -283,14 +283,24 @@ fn times<const N: usize>(a: &[f64; N], b: &[f64; N]) -> [f64; N] {
     out
 }
 
-/// Sum of all sizes, in an order that takes several at once.
+/// Sum of all, in an order that takes several at once.
 #[inline(always)]
-fn sizes<const N: usize>(x: &[f64; N]) -> f64 {
+pub(crate) fn total<const N: usize>(x: &[f64; N]) -> f64 {
     let mut parts = [0.0; 8];
     for (i, x) in x.iter().enumerate() {
-        parts[i % 8] += x.abs();
+        parts[i % 8] += x;
     }
     ((parts[0] + parts[1]) + (parts[2] + parts[3])) + ((parts[4] + parts[5]) + (parts[6] + parts[7]))
+}
+
+/// Sum of all sizes.
+#[inline(always)]
+fn sizes<const N: usize>(x: &[f64; N]) -> f64 {
+    let mut sizes = [0.0; N];
+    for i in 0..N {
+        sizes[i] = x[i].abs();
+    }
+    total(&sizes)
 }
 
 /// Solves a system of `n` equations. Without pivots: `1 + Y F'` is, but for a scaling, symmetric and positive.

@@ -59,12 +59,12 @@ const SIDE: usize = POINTS / 2;
 /// The nine even classes and three more, so that rows of them are whole registers.
 const EVEN: usize = 12;
 
-/// Values on one side of the waves of even and of odd order: `[place][cosines, sines]`.
-static EVEN_WAVES: [[[f64; EVEN]; 2]; SIDE] = {
-    let mut waves = [[[0.0; EVEN]; 2]; SIDE];
+/// Values on one side of the waves of every second class from one on: `[place][cosines, sines]`.
+const fn on_one_side<const N: usize>(first: usize) -> [[[f64; N]; 2]; SIDE] {
+    let mut waves = [[[0.0; N]; 2]; SIDE];
     let mut place = 0;
     while place < SIDE {
-        let mut class = 0;
+        let mut class = first;
         while class < CLASSES {
             waves[place][0][class / 2] = WAVES[class][0][place];
             waves[place][1][class / 2] = WAVES[class][1][place];
@@ -73,21 +73,11 @@ static EVEN_WAVES: [[[f64; EVEN]; 2]; SIDE] = {
         place += 1;
     }
     waves
-};
-static ODD_WAVES: [[[f64; SIDE / 2]; 2]; SIDE] = {
-    let mut waves = [[[0.0; SIDE / 2]; 2]; SIDE];
-    let mut place = 0;
-    while place < SIDE {
-        let mut class = 1;
-        while class < CLASSES {
-            waves[place][0][class / 2] = WAVES[class][0][place];
-            waves[place][1][class / 2] = WAVES[class][1][place];
-            class += 2;
-        }
-        place += 1;
-    }
-    waves
-};
+}
+
+/// Of even and of odd order.
+static EVEN_WAVES: [[[f64; EVEN]; 2]; SIDE] = on_one_side(0);
+static ODD_WAVES: [[[f64; SIDE / 2]; 2]; SIDE] = on_one_side(1);
 
 /// Amplitude of the cosine and of the sine, `[class]`, in double precision, in any unit.
 pub type FineAmplitudes = [[f64; 2]; CLASSES];

@@ -4,6 +4,7 @@
 //! Signs: a striker presses the upper cymbal down. A rim point presses it up and the lower one down. The coupling of a contact
 //! with the upper cymbal's nonlinear force is positive in the direction in which that contact presses.
 
+use crate::contact::solver::total;
 use crate::fitted;
 use crate::modal::simd::MAX_RUN;
 use crate::modal::simd::rim_harmonics::Amplitudes;
@@ -18,18 +19,6 @@ use super::rim_points::POINTS;
 
 /// Time constant in which the loss of a contact becomes that of a lasting one, s. *By ear*.
 const SETTLING: f64 = fitted::HAT_SETTLING;
-
-/// Sum over all points, several at once.
-#[inline(always)]
-fn total(x: &[f64; POINTS]) -> f64 {
-    let mut parts = [0.0; 8];
-    for x in x.as_chunks::<8>().0 {
-        for i in 0..8 {
-            parts[i] += x[i];
-        }
-    }
-    ((parts[0] + parts[1]) + (parts[2] + parts[3])) + ((parts[4] + parts[5]) + (parts[6] + parts[7]))
-}
 
 impl Pair {
     /// Sets the position of a striker: `radius` as a share of the radius, `angle` in rad.

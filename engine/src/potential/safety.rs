@@ -3,8 +3,8 @@
 use super::schedule::Window;
 
 /// Errors of the energy, over the kinetic energy (of a head, over all its energy), from which the potential is evaluated twice and four times as
-/// often, and the time constant in which an error is forgotten, s. *Converged*: strokes on a splash, which often goes astray, are as near to those with an evaluation at every
-/// sample as if it were evaluated four times as often at once. A stick at 25 m/s on a splash goes from an error of 0.03 to divergence within
+/// often, and the time constant in which an error is forgotten, s. *Converged*: strokes on a
+/// splash, which often goes astray, are as near to those with an evaluation at every sample as if it were evaluated four times as often at once. A stick at 25 m/s on a splash goes from an error of 0.03 to divergence within
 /// half a millisecond.
 const ASTRAY: f64 = 0.01;
 const FAR_ASTRAY: f64 = 0.015;

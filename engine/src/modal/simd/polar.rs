@@ -20,8 +20,8 @@ pub const SLOTS: usize = 16;
 /// Rows or angles taken together.
 pub const BLOCK: usize = 3;
 
-/// Curvatures of a surface, whose fields lie side by side.
-const CURVATURES: usize = 3;
+/// Vectors taken together where the widest registers are, of which there are 32: they share the cosines and sines.
+const TOGETHER: usize = 3;
 
 /// Transform between spectrum and field for one number of orders and angles.
 pub struct Circle {
@@ -243,9 +243,8 @@ impl Kernel for Unfold<'_> {
         for (turns, out) in unfold.chunks_exact(rows).zip(field.chunks_exact_mut(4 * BLOCK * w)) {
             let (even_turns, odd_turns) = turns.split_at(*evens);
             let mut v = 0;
-            // A curvature each, where a field of them is a vector wide: their cosines and sines are read once.
-            while S::F32_LANES == LANES && v + CURVATURES <= w {
-                unfold_some::<S, CURVATURES>(
+            while S::F32_LANES == LANES && v + TOGETHER <= w {
+                unfold_some::<S, TOGETHER>(
                     simd,
                     fma,
                     (v, w),
@@ -253,7 +252,7 @@ impl Kernel for Unfold<'_> {
                     (odd_rows, odd_turns),
                     out,
                 );
-                v += CURVATURES;
+                v += TOGETHER;
             }
             for v in v..w {
                 unfold_some::<S, 1>(simd, fma, (v, w), (even_rows, even_turns), (odd_rows, odd_turns), out);
@@ -345,9 +344,9 @@ impl Kernel for Fold<'_> {
         for (block, (turns, out)) in blocks.enumerate() {
             let first = if block * BLOCK < *evens { 0 } else { 2 * w };
             let mut v = 0;
-            while S::F32_LANES == LANES && v + CURVATURES <= w {
-                fold_some::<S, CURVATURES>(simd, fma, (v, w), (field, first, turns), (out, row));
-                v += CURVATURES;
+            while S::F32_LANES == LANES && v + TOGETHER <= w {
+                fold_some::<S, TOGETHER>(simd, fma, (v, w), (field, first, turns), (out, row));
+                v += TOGETHER;
             }
             for v in v..w {
                 fold_some::<S, 1>(simd, fma, (v, w), (field, first, turns), (out, row));
@@ -356,7 +355,8 @@ impl Kernel for Fold<'_> {
     }
 }
 
-/// A block of rows of a spectrum, `row` vectors of cosines and as many of sines each, `V` vectors of the `w` of a field from `v` on; a field's mirrors for these rows are `first` vectors from the beginning of each angle's.
+/// A block of rows of a spectrum, `row` vectors of cosines and as many of sines each, `V` vectors of the `w` of a field from `v` on;
+/// a field's mirrors for these rows are `first` vectors from the beginning of each angle's.
 #[inline(always)]
 fn fold_some<S: Simd, const V: usize>(
     simd: S,
