@@ -206,8 +206,6 @@ fitted! {
         to "by ear: where on the pedal's way the rims meet"; tried "not recorded"; moves "half-open hats";
     HAT_SETTLING = 0.003, "s", "hat_settling";
         to "by ear: when a touch of the rims becomes as lossy as one that lasts"; tried "not recorded"; moves "chicks";
-    HAT_LIFT = 3e-3, "m", "hat_lift";
-        to "by ear: how far a foot that is down lifts before it stamps"; tried "not recorded"; moves "repeated chicks";
     LEG_RATE = 200.0, "1/s", "leg_rate";
         to "by ear: half a movement of the foot takes 8 ms"; tried "not recorded"; moves "chicks";
     // Microphones, room, mix.

@@ -10,7 +10,7 @@ use crate::stick::Stick;
 /// One stroke on one piece.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Strike {
-    /// Speed of the tip at first touch, m/s, above 0 to [`Strike::MAX_SPEED`].
+    /// Speed at first touch of the place that touches, m/s, above 0 to [`Strike::MAX_SPEED`].
     pub speed: f64,
     /// Distance from the centre as a share of the radius, 0 to 1.
     pub radius: f64,
@@ -35,7 +35,7 @@ impl Strike {
 pub enum Striker {
     /// The bead of a hickory stick.
     Stick,
-    /// The shoulder of a hickory stick, laid across an edge.
+    /// The shoulder of a hickory stick, laid across an edge or on a bell.
     Shoulder,
     /// A nylon-tipped stick.
     Nylon,
@@ -87,6 +87,13 @@ pub enum Across {
 /// ([local compliance](crate::surface::local_compliance)); smaller ones move no wave that is heard more.
 const STICK_ON_FILM: f64 = 0.5e-3;
 
+/// Radius of the sphere that gives way as a stick's side, round by 6 mm, across an edge round by 0.4 mm, m. *Derived* (Hertz,
+/// touching in an ellipse).
+const SIDE_ACROSS_EDGE: f64 = 2.05e-3;
+
+/// The same of its side on a bell, round by 45 mm (from 30 on 14 mm, to 60 on 22 mm), m.
+const SIDE_ON_BELL: f64 = 18.5e-3;
+
 impl StrikerSpec {
     const fn solid(
         grams: f64,
@@ -134,9 +141,10 @@ impl Striker {
             Striker::Stick => {
                 StrikerSpec::solid(16.0, Material::HICKORY_ACROSS, 5.0, 0.7, 2.5).on(Stick::at(Stick::BEAD))
             }
-            // Its side, round by 6 mm, crosses an edge round by 0.4 mm: Hertz's mean radius, sqrt(6 * 0.4).
-            Striker::Shoulder => StrikerSpec::solid(20.0, Material::HICKORY_ACROSS, 1.5, 0.6, 5.0)
-                .on(Stick::at(Stick::SHOULDER)),
+            Striker::Shoulder => {
+                StrikerSpec::solid(20.0, Material::HICKORY_ACROSS, 1e3 * SIDE_ACROSS_EDGE, 0.6, 5.0)
+                    .on(Stick::at(Stick::SHOULDER))
+            }
             Striker::Nylon => {
                 StrikerSpec::solid(16.0, Material::NYLON, 4.0, 0.7, 2.3).on(Stick::at(Stick::BEAD))
             }
@@ -151,6 +159,18 @@ impl Striker {
             Striker::YarnMallet => StrikerSpec::felt(30.0, 5e7, 2.2, 0.5, 6.0),
             Striker::RimShot => Striker::Stick.spec().across(Across::RimShot),
             Striker::CrossStick => Striker::Stick.spec().across(Across::CrossStick),
+        }
+    }
+
+    /// The same where it meets a cymbal's bell: a side does not cross an edge there.
+    pub const fn spec_on_bell(self) -> StrikerSpec {
+        let spec = self.spec();
+        match self {
+            Striker::Shoulder => StrikerSpec {
+                tip: Tip::Solid { material: Material::HICKORY_ACROSS, radius: SIDE_ON_BELL },
+                ..spec
+            },
+            _ => spec,
         }
     }
 
@@ -194,5 +214,48 @@ impl Striker {
     /// The striker of that [`name`](Self::name), if there is one.
     pub fn from_name(name: &str) -> Option<Striker> {
         Striker::ALL.into_iter().find(|striker| striker.name() == name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    use super::*;
+
+    /// Complete elliptic integrals of the first and second kind of a parameter.
+    fn elliptic(parameter: f64) -> [f64; 2] {
+        const STEPS: usize = 1000;
+        let roots = (0..STEPS).map(|i| {
+            let angle = (i as f64 + 0.5) / STEPS as f64 * FRAC_PI_2;
+            (1.0 - parameter * angle.sin().powi(2)).sqrt()
+        });
+        roots
+            .fold([0.0; 2], |[first, second], root| [first + 1.0 / root, second + root])
+            .map(|sum| sum * FRAC_PI_2 / STEPS as f64)
+    }
+
+    /// Radius of the sphere that gives way on a flat as two solids do whose gap has these radii of curvature, the greater first, in any unit.
+    /// Johnson, Contact Mechanics, 1985, ch. 4.2.
+    fn sphere_of([greater, less]: [f64; 2]) -> f64 {
+        let (mut from, mut to) = (1.0 + 1e-9, 1e3_f64);
+        for _ in 0..60 {
+            let axes = (from * to).sqrt();
+            let [k, e] = elliptic(1.0 - axes.powi(-2));
+            if (axes * axes * e - k) / (k - e) < greater / less { from = axes } else { to = axes }
+        }
+        let [k, e] = elliptic(1.0 - from.powi(-2));
+        let size = 4.0 / (PI * (1.0 - from.powi(-2)) * from.powf(1.5));
+        let f1 = (size * ((from * from * e - k) * (k - e)).sqrt()).cbrt();
+        let f2 = 2.0 / PI / from.sqrt() / f1 * k;
+        (greater * less).sqrt() / f2.powi(3)
+    }
+
+    #[test]
+    fn sides_of_sticks_give_way_as_hertz_has_it_for_ellipses() {
+        assert!((sphere_of([1.0 + 1e-6, 1.0]) - 1.0).abs() < 1e-4);
+        let near = |found: f64, said: f64| assert!((found / said - 1.0).abs() < 0.01, "{found} m for {said}");
+        near(sphere_of([6e-3, 0.4e-3]), SIDE_ACROSS_EDGE);
+        near(sphere_of([45e-3, 1.0 / (1.0 / 6e-3 + 1.0 / 45e-3)]), SIDE_ON_BELL);
     }
 }

@@ -84,6 +84,8 @@ pub struct Surface {
     observers: ForceObservers,
     /// Material under tips.
     material: Material,
+    /// How far from the centre a bell reaches, share of the radius; 0 without one.
+    bell: f64,
     /// Local compliance, if the surface is a head.
     local_compliance: Option<LocalHeadCompliance>,
     log: StrikeLog,
@@ -104,6 +106,7 @@ impl Surface {
             attachments: Vec::new(),
             observers: ForceObservers::default(),
             material: parts.material,
+            bell: 0.0,
             local_compliance: None,
             log: StrikeLog::default(),
             smoothing: Smoothing::default(),
@@ -114,6 +117,11 @@ impl Surface {
     /// Lets the body swing. Allocates.
     pub fn set_swing(&mut self, swing: Swing) {
         self.swing = Some(swing);
+    }
+
+    /// Lets a bell reach that far from the centre, share of the radius.
+    pub fn set_bell(&mut self, reach: f64) {
+        self.bell = reach;
     }
 
     /// Attaches something. Allocates.

@@ -2,7 +2,7 @@
 
 use overhear_measure::report::hi_hat_notes::{
     Event::{Note, Pedal},
-    FOOT, Player, RATE, SOON_MS, STRUCK, VELOCITIES, after, case, energy, loudest, strokes,
+    FOOT, OPEN, Player, RATE, SOON_MS, STRUCK, VELOCITIES, after, case, chicks_db, energy, loudest, strokes,
 };
 
 /// The samples from one time to another, s.
@@ -23,7 +23,7 @@ fn loudest_ms(sound: &[f32]) -> f64 {
 
 #[test]
 fn a_struck_note_is_closed_or_open_in_5_ms() {
-    for (before, note) in STRUCK {
+    for (before, note) in STRUCK.into_iter().chain(OPEN) {
         let name = case((before, note));
         for velocity in VELOCITIES {
             let clamped = after(before, note, velocity).1.clamped;
@@ -60,34 +60,26 @@ fn a_closed_note_sounds_the_same_whatever_rang_before() {
 }
 
 #[test]
-fn struck_notes_are_loudest_within_8_ms_as_often_as_recorded_ones_are() {
+fn struck_notes_are_loudest_within_8_ms() {
     println!(
         "loudest ms of the mean of nine strokes, dB over the first {SOON_MS} ms, single ones within them"
     );
-    let (mut singles, mut means) = (Vec::new(), Vec::new());
-    // Others sound as 42 alone, or open from rest: rims that do not touch at first meet after 10 to 30 ms.
+    let (mut soon, mut of) = (0, 0);
+    // Others sound as 42 alone.
     for (before, note) in [(None, 42), (Some(Note(42)), 42), (Some(Pedal(127)), 42), (Some(Note(42)), 46)] {
+        let name = case((before, note));
         for velocity in VELOCITIES {
-            let (each, mean) = strokes(before, note, velocity);
-            let soon = each.iter().filter(|(ms, _)| *ms < SOON_MS).count();
-            println!(
-                "{} at {velocity}: {:.1} ms, {:.2} dB, {soon} of 9",
-                case((before, note)),
-                mean.0,
-                mean.1
-            );
-            singles.extend(each.iter().map(|(ms, _)| *ms));
-            means.push(mean);
+            let own = loudest_ms(&after(before, note, velocity).0);
+            let (each, (ms, over)) = strokes(before, note, velocity);
+            let within = each.iter().filter(|(ms, _)| *ms < SOON_MS).count();
+            println!("{name} at {velocity}: {own:.1} ms; {ms:.1} ms, {over:.2} dB, {within} of 9");
+            assert!(own < SOON_MS && ms < SOON_MS, "{name} at {velocity}: {own} ms, mean {ms} ms");
+            (soon, of) = (soon + within, of + each.len());
         }
     }
-    singles.sort_by(f64::total_cmp);
-    let soon = singles.iter().filter(|ms| **ms < SOON_MS).count();
-    let median = singles[singles.len() / 2];
-    println!("{soon} of {} within {SOON_MS} ms, half within {median:.1}", singles.len());
-    // The goal is all. Recorded closed hi-hats: 65 to 73 %.
-    assert!(100 * soon >= 73 * singles.len() && median < 4.0, "{soon} of {}, {median} ms", singles.len());
-    let late = means.iter().filter(|(ms, _)| *ms >= SOON_MS).count();
-    assert!(late <= 2 && means.iter().all(|(_, over)| *over < 0.5), "{means:?}");
+    println!("{soon} of {of} within {SOON_MS} ms");
+    // Which of two milliseconds is louder is chance. Recorded closed hi-hats: 65 to 73 %.
+    assert!(10 * soon >= 9 * of, "{soon} of {of}");
 }
 
 #[test]
@@ -96,9 +88,34 @@ fn a_foot_by_itself_takes_its_time() {
         let name = case((before, note));
         let figures = VELOCITIES.map(|velocity| loudest_ms(&after(before, note, velocity).0));
         println!("{name}: {figures:.2?} ms");
-        let possible = 5.0..130.0;
+        // Half of recorded ones within 11 to 20 ms from where they are 30 dB under their peak.
+        let possible = 5.0..45.0;
         assert!(figures.iter().all(|ms| possible.contains(ms)), "{name}: {figures:?} ms");
     }
+}
+
+#[test]
+fn a_foot_is_as_loud_wherever_it_was() {
+    for note in [44, 97] {
+        for velocity in VELOCITIES {
+            let heard = [None, Some(Note(42)), Some(Note(44))]
+                .map(|before| 10.0 * energy(&after(before, note, velocity).0).log10());
+            println!("{note} at {velocity}, alone, after 42 and 44: {heard:.1?} dB");
+            let [least, most] = [f64::min, f64::max].map(|of| heard.into_iter().reduce(of).unwrap());
+            assert!(most - least < 3.0, "{note} at {velocity}: {heard:?} dB");
+        }
+    }
+}
+
+/// Of GMRockKit and The Open Source Drumkit: the loudest chick 3 and 7 dB under the loudest closed stroke, medians 3 and 4 dB apart, the
+/// softest one 1 dB softer and 5 louder.
+#[test]
+fn a_chick_is_as_loud_beside_closed_strokes_as_recorded_ones() {
+    let [softest, soft, firm, loudest] = chicks_db();
+    println!("chicks over closed strokes: {softest:.1}, {soft:.1}, {firm:.1}, {loudest:.1} dB");
+    assert!(softest > -2.0 && softest < 6.5, "{softest} dB");
+    assert!(soft > -4.0 && soft < 3.0 && firm > -6.0 && firm < 0.0, "{soft} dB, {firm} dB");
+    assert!(loudest > -8.0 && loudest < -2.0, "{loudest} dB");
 }
 
 #[test]

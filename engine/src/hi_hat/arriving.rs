@@ -12,11 +12,15 @@
 //! the way on which the rims do not touch, the rod and the upper cymbal are displaced at once, which no force resists and which
 //! makes no sound. Cymbals at rest take the last equilibrium at once.
 //!
+//! A foot that steps on the pedal has lifted before: it is led to where it comes from, and from there it goes at full speed, the
+//! upper cymbal with it.
+//!
 //! Energy: the change by the displacements is part of the [pedal's work](Pair::pedal_work). What rang is only taken.
 //! Strikers are carried with the upper cymbal, so that its displacement changes no contact with them.
 
 use crate::surface::attachment::Site;
 
+use super::foot::Step;
 use super::pair::Pair;
 use super::pair::arrival::Arrival;
 use super::rigid::Weights;
@@ -31,11 +35,11 @@ const CLEARANCE: f64 = 2e-4;
 const LEANING: f64 = 1.0;
 
 impl Pair {
-    /// Brings the rod to `end` (m), within [`ARRIVAL`](super::ARRIVAL).
+    /// Brings the rod to `end` (m), within [`ARRIVAL`](super::ARRIVAL); there a step may follow.
     ///
     /// # Real-time
     /// Linear in the number of modes.
-    pub fn arrive(&mut self, end: f64, mut site: Site<'_>) {
+    pub fn arrive(&mut self, end: f64, step: Option<Step>, mut site: Site<'_>) {
         self.engage(site.body.modal());
         let before = self.held();
         let touching = self.statics.depth.iter().sum::<f64>() / POINTS as f64;
@@ -54,11 +58,23 @@ impl Pair {
             let to = self.rigid[0].place();
             self.carried = std::array::from_fn(|i| self.carried[i] + to[i] - from[i]);
             self.engage(top);
+            step.into_iter().for_each(|step| self.set_off(step));
         } else {
-            self.pedal.arrival = Some(Arrival::new(end, self.dt));
+            self.pedal.arrival = Some(Arrival::new((end, step), self.dt));
             self.set_out_for(end);
         }
         self.pedal.work += self.held() - before;
+    }
+
+    /// Steps on the pedal, on which foot and upper cymbal are on their way already.
+    fn set_off(&mut self, step: Step) {
+        self.pedal.foot.take(step);
+        self.rigid[0].set_speed([self.pedal.foot.speed(), 0.0, 0.0]);
+    }
+
+    /// Forgets a step that has not begun.
+    pub fn forget_step(&mut self) {
+        self.pedal.arrival.iter_mut().for_each(|arrival| arrival.step = None);
     }
 
     /// Displaces rod and cymbals to where the rims are about to touch, or to `end` (m) if they do not touch there. Rims that
@@ -117,6 +133,7 @@ impl Pair {
             self.pedal.goal_place = self.pedal.foot.place();
         }
         self.pedal.arrival = Some(arrival).filter(|_| !over);
+        arrival.step.filter(|_| over).into_iter().for_each(|step| self.set_off(step));
         true
     }
 

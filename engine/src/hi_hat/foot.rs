@@ -33,15 +33,22 @@ pub struct Foot {
     end: Option<f64>,
 }
 
-/// Turning point, and the goal after it, m.
+/// A turning point on the way down, and the goal after it, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Turn {
     at: f64,
     then: f64,
-    /// Whether the motion to the turning point is down.
-    down: bool,
-    /// Whether the motion after it is a stamp.
-    stamps: bool,
+}
+
+/// What a foot does on a pedal, beginning at full speed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Step {
+    /// Speed down, m/s.
+    pub speed: f64,
+    /// How far down, m.
+    pub to: f64,
+    /// Where it goes from there at once, m; none where it stays.
+    pub then: Option<f64>,
 }
 
 impl Foot {
@@ -82,25 +89,16 @@ impl Foot {
         self.v = 0.0;
     }
 
-    /// Moves down to a position (m) at up to a speed (m/s) without slowing down before it. A foot that is lower than `from` (m)
-    /// moves up there first.
-    pub fn stamp(&mut self, from: f64, target: f64, fastest: f64) {
-        if self.y > from {
-            self.turn(from, target, fastest);
-            self.turn.iter_mut().for_each(|turn| turn.stamps = true);
-        } else {
-            self.go(target + 2.0 * fastest / LEG, fastest);
-            self.end = Some(target);
+    /// Steps on the pedal: moves down without slowing down before the end.
+    pub fn take(&mut self, step: Step) {
+        let Step { speed, to, then } = step;
+        // The goal lies past the end.
+        self.go(to + 2.0 * speed / LEG, speed);
+        self.v = self.fastest;
+        match then {
+            Some(then) => self.turn = Some(Turn { at: to, then }),
+            None => self.end = Some(to),
         }
-    }
-
-    /// Moves past `at` (m) at up to a speed (m/s), and from there at once to `then` (m).
-    pub fn turn(&mut self, at: f64, then: f64, fastest: f64) {
-        let down = at > self.y;
-        // The goal lies past the turning point, so that the foot does not slow down before it.
-        let beyond = 2.0 * fastest / LEG;
-        self.go(if down { at + beyond } else { at - beyond }, fastest);
-        self.turn = Some(Turn { at, then, down, stamps: false });
     }
 
     /// Takes a position at once.
@@ -117,12 +115,9 @@ impl Foot {
         let pull = LEG * (LEG * (self.target - self.y) - 2.0 * self.v);
         self.v = (self.v + pull * dt).clamp(-self.fastest, self.fastest);
         self.y += self.v * dt;
-        if let Some(turn) = self.turn.filter(|turn| (self.y >= turn.at) == turn.down) {
-            // On the way down the cymbals stop it.
+        if let Some(turn) = self.turn.filter(|turn| self.y >= turn.at) {
+            // The cymbals stop it.
             (self.target, self.turn, self.v) = (turn.then, None, 0.0);
-            if turn.stamps {
-                self.stamp(self.y, turn.then, self.fastest);
-            }
         }
         if let Some(end) = self.end.filter(|&end| self.y >= end) {
             (self.y, self.v, self.target, self.end) = (end, 0.0, end, None);
@@ -158,40 +153,30 @@ mod tests {
     }
 
     #[test]
-    fn a_foot_that_turns_comes_back() {
-        let mut foot = Foot::new(0.0);
-        foot.turn(0.03, 0.005, 1.0);
+    fn a_splash_comes_back() {
+        let mut foot = Foot::new(0.027);
+        foot.take(Step { speed: 1.0, to: 0.03, then: Some(0.005) });
         let mut deepest = 0.0_f64;
         while foot.moves() {
             foot.step(DT);
             deepest = deepest.max(foot.place());
         }
-        assert!(deepest > 0.03 && deepest < 0.036, "{deepest}");
+        assert!(deepest >= 0.03 && deepest < 0.0301, "{deepest}");
         assert_eq!(foot.place(), 0.005);
-        foot.turn(0.001, 0.01, 1.0);
-        let mut highest = 1.0_f64;
-        while foot.moves() {
-            foot.step(DT);
-            highest = highest.min(foot.place());
-        }
-        assert!(highest < 0.001 && highest > -0.006, "{highest}");
-        assert_eq!(foot.place(), 0.01);
     }
 
     #[test]
-    fn a_stamp_arrives_at_speed_and_one_that_is_down_lifts_first() {
-        let mut foot = Foot::new(0.0);
-        for _ in 0..2 {
-            foot.stamp(0.027, 0.031, 1.5);
-            let (mut highest, mut arriving) = (foot.place(), 0.0);
+    fn a_stamp_keeps_its_speed_until_it_is_there() {
+        for speed in [0.1, 0.4, 2.0] {
+            let mut foot = Foot::new(0.0305);
+            foot.take(Step { speed, to: 0.031, then: None });
+            let mut slowest = f64::INFINITY;
             while foot.moves() {
-                arriving = foot.speed();
+                slowest = slowest.min(foot.speed());
                 foot.step(DT);
-                highest = highest.min(foot.place());
             }
-            assert!(arriving > 0.7, "{arriving} m/s");
-            assert!(highest <= 0.027, "{highest}");
-            assert_eq!(foot.place(), 0.031);
+            assert_eq!((foot.place(), foot.speed()), (0.031, 0.0));
+            assert!(slowest > 0.9 * speed, "{slowest} m/s");
         }
     }
 }

@@ -51,7 +51,8 @@ impl Surface {
             force: ForceTrace { dt: dt as f32, ..ForceTrace::default() },
             ..StrikeSnapshot::default()
         };
-        let mut spec = strike.striker.spec();
+        let on_bell = radius < self.bell;
+        let mut spec = if on_bell { strike.striker.spec_on_bell() } else { strike.striker.spec() };
         if self.local_compliance.is_some_and(|head| !head.dents) {
             spec.stick = spec.stick.map(Stick::even);
         }

@@ -1,5 +1,6 @@
 //! State of a foot on its way to where a note wants it. The model is that of `hi_hat/arriving.rs`.
 
+use crate::hi_hat::foot::Step;
 use crate::hi_hat::rigid::Weights;
 
 /// Longest time from the note to the end of the foot's way, s: that of a foot that opens. *Converged*: in a third of it the
@@ -26,11 +27,13 @@ pub(crate) struct Arrival {
     pub(crate) places: [Weights; 2],
     /// Distance from equilibrium at the start, which every step reduces by the same amount, m.
     pub(crate) deviation: [Weights; 2],
+    /// What the foot does then.
+    pub(crate) step: Option<Step>,
 }
 
 impl Arrival {
-    /// To `end` (m); a sample lasts `dt` s.
-    pub(crate) fn new(end: f64, dt: f64) -> Arrival {
+    /// To `end` (m), and the step from there; a sample lasts `dt` s.
+    pub(crate) fn new((end, step): (f64, Option<Step>), dt: f64) -> Arrival {
         let samples = (ARRIVAL / dt).round().max(1.0);
         let steps = (samples as u32).min(STEPS);
         Arrival {
@@ -43,6 +46,7 @@ impl Arrival {
             shift: [[0.0; 3]; 2],
             places: [[0.0; 3]; 2],
             deviation: [[0.0; 3]; 2],
+            step,
         }
     }
 }
