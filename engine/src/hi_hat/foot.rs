@@ -161,7 +161,7 @@ mod tests {
             foot.step(DT);
             deepest = deepest.max(foot.place());
         }
-        assert!(deepest >= 0.03 && deepest < 0.0301, "{deepest}");
+        assert!((0.03..0.0301).contains(&deepest), "{deepest}");
         assert_eq!(foot.place(), 0.005);
     }
 

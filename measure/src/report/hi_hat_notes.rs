@@ -233,10 +233,11 @@ pub fn page() -> Result<Page> {
         cases.iter().map(|case| VELOCITIES.map(|velocity| strokes(case.0, case.1, velocity))).collect();
     let (struck, others) = played.split_at(STRUCK.len());
     let open = &others[..OPEN.len()];
-    let own = |of: &[[Strokes; 4]]| of.iter().flatten().map(|(each, _)| each[EITHER_SIDE]).collect();
+    let own =
+        |of: &[[Strokes; 4]]| of.iter().flatten().map(|(each, _)| each[EITHER_SIDE]).collect::<Vec<_>>();
     let mean = |of: &[[Strokes; 4]]| of.iter().flatten().map(|(_, mean)| *mean).collect();
     let every = |of: &[[Strokes; 4]]| of.iter().flatten().flat_map(|(each, _)| each).copied().collect();
-    let groups: [(&str, Vec<(f64, f64)>, bool); 4] = [
+    let groups = [
         ("notes that close the cymbals, or open closed ones, at the four velocities", own(struck), true),
         ("means of nine of these", mean(struck), true),
         ("single ones of these", every(struck), false),
