@@ -39,7 +39,7 @@ use crate::contact::Material;
 use crate::high_band::HighBand;
 use crate::modal::smoothing::Smoothing;
 use crate::modal::{ModalBody, Mode, RECEIVERS};
-use crate::plate::PlateSpec;
+use crate::plate::{Bell, PlateSpec};
 use crate::potential::{HEADS, NonlinearForce, Potential};
 use crate::receiver::{POINTS, Receivers};
 use crate::rim::Rim;
@@ -84,8 +84,8 @@ pub struct Surface {
     observers: ForceObservers,
     /// Material under tips.
     material: Material,
-    /// How far from the centre a bell reaches, share of the radius; 0 without one.
-    bell: f64,
+    /// Its bell, if it has one, and its radius, m.
+    bell: Option<(Bell, f64)>,
     /// Local compliance, if the surface is a head.
     local_compliance: Option<LocalHeadCompliance>,
     log: StrikeLog,
@@ -106,7 +106,7 @@ impl Surface {
             attachments: Vec::new(),
             observers: ForceObservers::default(),
             material: parts.material,
-            bell: 0.0,
+            bell: None,
             local_compliance: None,
             log: StrikeLog::default(),
             smoothing: Smoothing::default(),
@@ -119,9 +119,9 @@ impl Surface {
         self.swing = Some(swing);
     }
 
-    /// Lets a bell reach that far from the centre, share of the radius.
-    pub fn set_bell(&mut self, reach: f64) {
-        self.bell = reach;
+    /// Puts a bell on the body, whose radius (m) is given too.
+    pub fn set_bell(&mut self, bell: Bell, radius: f64) {
+        self.bell = Some((bell, radius));
     }
 
     /// Attaches something. Allocates.

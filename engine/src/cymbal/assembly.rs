@@ -420,7 +420,7 @@ impl PlateShapes {
         surface.hear_directly(&spec.plate(), receivers, options.sample_rate);
         surface.hear_sticks(spec.plate().radius(), receivers, options.sample_rate);
         if let Some(bell) = spec.bell {
-            surface.set_bell(bell.radius / spec.plate().radius());
+            surface.set_bell(bell, spec.plate().radius());
         }
         if let Some(swing) = self.swing {
             surface.set_swing(swing);

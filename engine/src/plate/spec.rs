@@ -46,6 +46,12 @@ impl Bell {
     /// Rise over radius at most. *Derived*: its steepest slope, `1.72 rise / radius`, is 1 there; shells are taken as shallow. Real bells
     /// have a third.
     pub const HIGHEST: f64 = 0.58;
+
+    /// Its slope over the bow at a distance from the middle, m; dimensionless.
+    pub fn slope(&self, at: f64) -> f64 {
+        let s = at / self.radius;
+        6.0 * self.rise / self.radius * s * (1.0 - s * s).max(0.0).powi(2)
+    }
 }
 
 /// A china's upturned rim: outside of `radius` it rises over the bow by `rise s^3`, `s` from 0 there to 1 at the rim.

@@ -33,8 +33,14 @@ impl Surface {
     /// # Real-time
     /// No allocation; linear in the number of modes.
     pub fn strike(&mut self, strike: &Strike) {
-        let speed = strike.speed.clamp(0.0, Strike::MAX_SPEED);
         let radius = strike.radius.clamp(0.0, 1.0);
+        let slope = self.bell.and_then(|(bell, own)| {
+            let at = radius * own;
+            (at < bell.radius).then(|| bell.slope(at))
+        });
+        let told = strike.speed.clamp(0.0, Strike::MAX_SPEED);
+        // A flank that leans by `t` is met by `cos t` of the speed, and passes `cos t` of the force on across the plate.
+        let speed = told * slope.map_or(1.0, |slope| 1.0 / (1.0 + slope * slope));
         self.wake();
         self.attachments.iter_mut().for_each(|attachment| attachment.begin_count());
         let (dt, lossless) = (self.contacts.dt(), self.contacts.is_lossless());
@@ -45,14 +51,13 @@ impl Surface {
         }
         self.log.last = StrikeSnapshot {
             count: self.log.last.count.wrapping_add(1),
-            speed: speed as f32,
+            speed: told as f32,
             radius: radius as f32,
             angle: strike.angle as f32,
             force: ForceTrace { dt: dt as f32, ..ForceTrace::default() },
             ..StrikeSnapshot::default()
         };
-        let on_bell = radius < self.bell;
-        let mut spec = if on_bell { strike.striker.spec_on_bell() } else { strike.striker.spec() };
+        let mut spec = if slope.is_some() { strike.striker.spec_on_bell() } else { strike.striker.spec() };
         if self.local_compliance.is_some_and(|head| !head.dents) {
             spec.stick = spec.stick.map(Stick::even);
         }
