@@ -1,6 +1,8 @@
 //! The program `overhear`, built for release where its figures are those of what is installed.
 
+use std::env::consts::EXE_SUFFIX;
 use std::ffi::OsString;
+use std::path::PathBuf;
 use std::process::Command;
 
 use anyhow::{Context, Result};
@@ -10,10 +12,15 @@ use crate::workspace;
 /// Package of the command-line program, as cargo knows it.
 const PACKAGE: &str = "overhear-cli";
 
-/// The program in release, built first if need be, with nothing after its name.
+/// The program in release, built first if need be, with nothing after its name. The first time that takes minutes, which cargo shows.
 pub fn released() -> Command {
     let mut cargo = Command::new(workspace::cargo().get_program());
-    cargo.args(["run", "--release", "--quiet", "--package", PACKAGE, "--manifest-path"]);
+    cargo.args(["run", "--release"]);
+    let built = |folder: PathBuf| folder.join("release").join(format!("overhear{EXE_SUFFIX}")).exists();
+    if workspace::target_dir().is_ok_and(built) {
+        cargo.arg("--quiet");
+    }
+    cargo.args(["--package", PACKAGE, "--manifest-path"]);
     cargo.arg(workspace::root().join("Cargo.toml")).arg("--");
     cargo
 }
