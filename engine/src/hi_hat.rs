@@ -340,8 +340,8 @@ pub const SPLASHING: f64 = 0.2;
 /// moves.
 const RUBBING_STEP: f64 = 0.01;
 
-/// Time from a note of the foot until rims meet, s. A note names a sound: nobody who wants a chick on the beat lifts the foot by 3 cm first.
-/// *Judgement*: the rims are loudest 5 to 15 ms after they first meet.
+/// Time of a step from its beginning until rims meet, s; what leads the foot there takes up to [`ARRIVAL`] more. *Judgement*: a note names a
+/// sound, so that it is over soon, and rims are loudest 5 to 25 ms after they first meet.
 const FALL: f64 = 3e-3;
 
 /// The upper cymbal as the struck surface, with the pair attached.

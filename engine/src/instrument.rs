@@ -100,13 +100,13 @@ pub trait Pedal {
     /// Linear in the number of modes.
     fn arrive(&mut self, pedal: f64);
 
-    /// Brings it down at up to a speed (m/s); one that is down already is lifted first.
+    /// Brings it down at a speed (m/s), from a little above where rims meet, wherever it was.
     ///
     /// # Real-time
     /// Linear in the number of modes.
     fn stamp(&mut self, speed: f64);
 
-    /// Brings the rims together at up to a speed (m/s) and lets them go at once.
+    /// Brings the rims together in the same way and lets them go at once.
     ///
     /// # Real-time
     /// Linear in the number of modes.

@@ -142,7 +142,7 @@ impl Kit {
         }
     }
 
-    /// Stamps on a hi-hat's pedal, at up to a speed (m/s); see [`Piece::stamp_pedal`].
+    /// Stamps on a hi-hat's pedal, at a speed (m/s); see [`Piece::stamp_pedal`].
     ///
     /// # Real-time
     /// No allocation, no lock.

@@ -63,7 +63,8 @@ impl Piece {
         }
     }
 
-    /// Stamps on a hi-hat's pedal: brings it down at up to a speed (m/s); one that is down already is lifted first.
+    /// Stamps on a hi-hat's pedal: brings it down at a speed (m/s, see [`SPEED`](crate::hi_hat::foot::SPEED)), from a little above where rims meet,
+    /// wherever it was.
     ///
     /// # Real-time
     /// No allocation, no lock; linear in the number of modes.
@@ -76,7 +77,7 @@ impl Piece {
         }
     }
 
-    /// Splashes with a hi-hat's pedal: brings the rims together at up to a speed (m/s) and lets them go at once.
+    /// Splashes with a hi-hat's pedal: brings the rims together in the same way and lets them go at once.
     ///
     /// # Real-time
     /// No allocation, no lock; linear in the number of modes.

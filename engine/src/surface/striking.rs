@@ -38,9 +38,9 @@ impl Surface {
             let at = radius * own;
             (at < bell.radius).then(|| bell.slope(at))
         });
-        let told = strike.speed.clamp(0.0, Strike::MAX_SPEED);
+        let given = strike.speed.clamp(0.0, Strike::MAX_SPEED);
         // A flank that leans by `t` is met by `cos t` of the speed, and passes `cos t` of the force on across the plate.
-        let speed = told * slope.map_or(1.0, |slope| 1.0 / (1.0 + slope * slope));
+        let speed = given * slope.map_or(1.0, |slope| 1.0 / (1.0 + slope * slope));
         self.wake();
         self.attachments.iter_mut().for_each(|attachment| attachment.begin_count());
         let (dt, lossless) = (self.contacts.dt(), self.contacts.is_lossless());
@@ -51,7 +51,7 @@ impl Surface {
         }
         self.log.last = StrikeSnapshot {
             count: self.log.last.count.wrapping_add(1),
-            speed: told as f32,
+            speed: given as f32,
             radius: radius as f32,
             angle: strike.angle as f32,
             force: ForceTrace { dt: dt as f32, ..ForceTrace::default() },
