@@ -106,7 +106,7 @@ pub trait Pedal {
     /// Linear in the number of modes.
     fn stamp(&mut self, speed: f64);
 
-    /// Brings the rims together in the same way and lets them go at once.
+    /// Brings the rims together at a speed (m/s) in the same way and lets them go at once.
     ///
     /// # Real-time
     /// Linear in the number of modes.

@@ -77,7 +77,7 @@ impl Piece {
         }
     }
 
-    /// Splashes with a hi-hat's pedal: brings the rims together in the same way and lets them go at once.
+    /// Splashes with a hi-hat's pedal: brings the rims together at a speed (m/s) in the same way and lets them go at once.
     ///
     /// # Real-time
     /// No allocation, no lock; linear in the number of modes.
