@@ -196,7 +196,7 @@ fitted! {
     HAT_WARP = 1e-3, "m", "pieces.hi-hat.warp.rms_m";
         to "fine spectra of recorded closed, half-open and open hats"; tried "0 (flat) to 2e-3: flat rims ring in lines";
         moves "every sound of the hats in which rims touch";
-    HAT_RUBBING = 19.0, "1/s", "pieces.hi-hat.rubbing.constant_1_s";
+    HAT_RUBBING = 16.0, "1/s", "pieces.hi-hat.rubbing.constant_1_s";
         to "recorded decays of closed hats, 0.43 to 0.27 s"; tried "21 with rims that meet at 16 points, and with 32: 0.41 to 0.23 s";
         moves "closed and half-open hats";
     HAT_RUBBING_PER_KHZ = 0.4, "1/s", "pieces.hi-hat.rubbing.per_khz_1_s";

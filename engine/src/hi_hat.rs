@@ -24,8 +24,11 @@ mod arriving;
 mod attached;
 mod fading;
 pub mod foot;
+pub mod gap_air;
 pub mod half;
+mod lobed_sound;
 mod near_points;
+mod outlet;
 pub mod pair;
 pub mod rigid;
 pub mod rigid_sound;
@@ -57,10 +60,11 @@ pub use rim_points::POINTS;
 pub use spec::HiHatSpec;
 
 use foot::{Foot, SPEED, Step};
+use gap_air::GapAir;
 use half::{Damping, Half};
 use pair::{Pair, PairParts};
 use rigid::Rigid;
-use rigid_sound::RigidSound;
+use rigid_sound::rigid_sound;
 
 /// Mean distance of the rims while the pedal is up, m. *Literature*: players set 2 to 4 cm.
 pub const GAP: f64 = 0.030;
@@ -368,7 +372,18 @@ fn assemble(
         transfers: below.transfers,
         folded: [std::mem::take(&mut top.folded), std::mem::take(&mut bottom.folded)],
         rigid,
-        rigid_sounds: radii.map(|radius| RigidSound::new(radius, &context.receivers, dt)),
+        rigid_sounds: radii.map(|radius| rigid_sound(radius, &context.receivers, dt)),
+        air: spec.pressed.is_none().then(|| {
+            let plates = [spec.top.plate(), spec.bottom.plate()];
+            GapAir::new(
+                plates.each_ref(),
+                &[std::mem::take(&mut top.volumes), std::mem::take(&mut bottom.volumes)],
+                spec.edge,
+                lossless,
+                &context.receivers,
+                dt,
+            )
+        }),
         law,
         lasting_loss: law.lambda(spec.lasting),
         depth: std::array::from_fn(|j| {

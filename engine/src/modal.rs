@@ -26,6 +26,7 @@ mod detuning;
 mod direct;
 mod energy;
 pub mod inaudible_modes;
+pub mod field;
 pub mod rim_harmonics;
 pub mod coupled_modes;
 mod receiver_weights;

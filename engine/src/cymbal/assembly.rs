@@ -172,6 +172,11 @@ impl<'a> CymbalPlate<'a> {
         &self.known
     }
 
+    /// Radius, m.
+    pub fn radius(&self) -> f64 {
+        self.spec.plate().radius()
+    }
+
     /// The shell modes, by frequency.
     pub fn shells(&self) -> &[ShellMode] {
         &self.known.plate.shells

@@ -41,6 +41,7 @@ impl Pair {
     /// Linear in the number of modes.
     pub fn arrive(&mut self, end: f64, step: Option<Step>, mut site: Site<'_>) {
         self.engage(site.body.modal());
+        self.follow_gaps(true);
         let before = self.held();
         let touching = self.statics.depth.iter().sum::<f64>() / POINTS as f64;
         let mut quiet = self.held_energy() + site.body.modal().energy() < STILL;
@@ -51,13 +52,14 @@ impl Pair {
         let top = site.body.modal();
         self.pedal.arrival = None;
         self.pedal.foot.stop_for(end);
-        self.rigid.iter_mut().for_each(|rigid| rigid.set_speed([0.0; 3]));
+        self.set_speeds([[0.0; 3]; 2]);
         if quiet {
             let from = self.rigid[0].place();
             self.come_to_rest();
             let to = self.rigid[0].place();
             self.carried = std::array::from_fn(|i| self.carried[i] + to[i] - from[i]);
             self.engage(top);
+            self.follow_gaps(true);
             step.into_iter().for_each(|step| self.set_off(step));
         } else {
             self.pedal.arrival = Some(Arrival::new((end, step), self.dt));
@@ -69,7 +71,20 @@ impl Pair {
     /// Steps on the pedal, on which foot and upper cymbal are on their way already.
     fn set_off(&mut self, step: Step) {
         self.pedal.foot.take(step);
-        self.rigid[0].set_speed([self.pedal.foot.speed(), 0.0, 0.0]);
+        self.set_speeds([[self.pedal.foot.speed(), 0.0, 0.0], self.rigid[1].speeds()]);
+    }
+
+    /// Gives both cymbals other speeds of heave and tilts (m/s), and the air between them its own; nothing of it is heard.
+    fn set_speeds(&mut self, speeds: [Weights; 2]) {
+        let mut gained = speeds;
+        for (gained, rigid) in gained.iter_mut().zip(&mut self.rigid) {
+            let (before, after) = (rigid.speeds(), *gained);
+            (0..after.len()).for_each(|part| gained[part] -= before[part]);
+            rigid.set_speed(after);
+        }
+        if let Some(air) = &mut self.dynamics.air {
+            air.carry(&gained);
+        }
     }
 
     /// Forgets a step that has not begun.
@@ -113,6 +128,7 @@ impl Pair {
             let present = self.rigid[which].place();
             std::array::from_fn(|i| present[i] - places[which][i])
         });
+        self.follow_gaps(true);
         if let Some(arrival) = &mut self.pedal.arrival {
             (arrival.places, arrival.deviation) = (places, deviation);
         }

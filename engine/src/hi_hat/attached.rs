@@ -104,6 +104,14 @@ impl Attachment for Pair {
         heard
     }
 
+    fn impart(&mut self, body: &mut StruckBody) -> Pressure {
+        if self.still {
+            return Pressure::default();
+        }
+        let shells = self.engaged.then(|| body.modal_mut());
+        self.press_air(shells)
+    }
+
     fn ring(&mut self, mut out: [&mut [f32]; RECEIVERS], from: usize) {
         self.pedal.fading.add_to(&mut out.each_mut().map(|out| &mut out[from..]));
         if !self.engaged {

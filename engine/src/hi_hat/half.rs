@@ -5,6 +5,8 @@
 //! Order of the modes: the lowest, which the editor draws; then those that hard strokes couple; then all others. Each part is
 //! sorted by the class at the rim (see [`RimHarmonics`]).
 
+use std::f64::consts::{PI, TAU};
+
 use crate::build_context::BuildContext;
 use crate::cymbal::assembly::{CymbalPlate, Ordered, PlateShapes};
 use crate::cymbal::modes::CymbalModes;
@@ -17,6 +19,8 @@ use crate::mode::Member;
 use crate::plate::ShellMode;
 use crate::snapshot::FIELD_MODES;
 
+use super::gap_air::{COUPLED_HZ, Volume};
+use super::outlet::ORDERS;
 use super::rigid::Mount;
 use super::rim_points::POINTS;
 
@@ -39,6 +43,8 @@ pub struct Half {
     pub cymbal: CymbalModes,
     /// Shapes of the modes where the two cymbals meet.
     pub folded: RimHarmonics,
+    /// What its modes without nodal diameters displace of the air between.
+    pub volumes: Vec<Volume>,
     rubbing: LossLaw,
 }
 
@@ -71,11 +77,23 @@ impl Half {
         let mounted = |row: usize, shell: &ShellMode| {
             mount.damping * at_mount[row].powi(2) * if shell.m == 0 { 1.0 } else { 0.5 }
         };
+        // Both members of a pair or none.
+        let felt: Vec<bool> = plate.shells().iter().map(|shell| shell.omega < TAU * COUPLED_HZ).collect();
+        let areas: [Vec<f64>; ORDERS] = std::array::from_fn(|m| displaced(&plate, m as u32));
         let (cymbal, shapes) = plate.assemble(&[], &order, mounted);
         let index = shapes.shapes().index().iter();
         let shares: Vec<_> =
             index.map(|shape| share(shape.m, shape.member, shape.axis, at_rim[shape.radial])).collect();
-        Ok((Half { cymbal, folded: RimHarmonics::new(&shares), rubbing }, shapes))
+        let index = shapes.shapes().index().iter().enumerate();
+        let volumes = index
+            .filter(|(_, shape)| (shape.m as usize) < ORDERS && felt[shape.radial])
+            .map(|(mode, shape)| {
+                let m = shape.m as usize;
+                let [cosine, sine] = shape.member.around(shape.m, shape.axis);
+                Volume { mode, m, areas: [cosine, sine].map(|share| share * areas[m][shape.radial]) }
+            })
+            .collect();
+        Ok((Half { cymbal, folded: RimHarmonics::new(&shares), volumes, rubbing }, shapes))
     }
 
     /// Mode `k` at a ratio of its frequency, damped.
@@ -87,6 +105,20 @@ impl Half {
             + damping.rubbing * self.rubbing.sigma(bare.omega);
         Mode { sigma: if damping.lossless { 0.0 } else { own + laid }, ..bare }
     }
+}
+
+/// Integral of each shell mode's shape times `(r / a)^m cos(m theta)` if it has `m` nodal diameters, m2, `[shell]`.
+fn displaced(plate: &CymbalPlate<'_>, m: u32) -> Vec<f64> {
+    const RINGS: usize = 64;
+    let area = PI * plate.radius().powi(2) / if m == 0 { 1.0 } else { 2.0 };
+    let mut areas = vec![0.0; plate.shells().len()];
+    for ring in 0..RINGS {
+        // Rings of equal area.
+        let r = ((ring as f64 + 0.5) / RINGS as f64).sqrt();
+        let weight = area * r.powi(m as i32) / RINGS as f64;
+        areas.iter_mut().zip(plate.shapes_at(r)).for_each(|(sum, shape)| *sum += weight * shape);
+    }
+    areas
 }
 
 /// The shell modes in the order they are kept in.

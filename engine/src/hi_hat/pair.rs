@@ -41,6 +41,7 @@ use crate::surface::body::SoundingBody;
 use crate::surface::contacts::STRIKER_PLACES;
 
 use super::foot::Foot;
+use super::gap_air::GapAir;
 use super::rigid::{Rigid, Weights};
 use super::rigid_sound::RigidSound;
 use super::rim_points::{self, POINTS};
@@ -62,6 +63,8 @@ pub struct PairParts {
     pub rigid: [Rigid; 2],
     /// How both are heard as such.
     pub rigid_sounds: [RigidSound; 2],
+    /// The air between them, if the rims shut it in.
+    pub air: Option<GapAir>,
     /// The law of every point.
     pub law: ContactLaw,
     /// Loss of a lasting contact, s/m.
@@ -110,7 +113,7 @@ impl Pair {
             folded: parts.folded,
             rigid: parts.rigid,
             statics: Statics::new(parts.depth, parts.meeting),
-            dynamics: Dynamics::new(parts.rigid_sounds),
+            dynamics: Dynamics::new(parts.rigid_sounds, parts.air),
             rims: RimState::new(parts.law, parts.lasting_loss, parts.depth),
             pedal: Pedal::up(1.0 / parts.sample_rate),
             strikers: [StrikerPlace::default(); STRIKER_PLACES],
@@ -168,6 +171,11 @@ impl Pair {
         self.pedal.rest.preload.iter().sum()
     }
 
+    /// Energy of the air between them, J.
+    pub fn air_energy(&self) -> f64 {
+        self.dynamics.air.as_ref().map_or(0.0, GapAir::energy)
+    }
+
     /// Work of the pedal since the last reset, less the change of the static energy, J.
     pub fn pedal_work(&self) -> f64 {
         self.pedal.work
@@ -207,6 +215,9 @@ impl Pair {
         self.followed = Some(retunings);
         self.dynamics.follow(bodies, &self.folded, &self.rigid, &self.statics.weights);
         self.dynamics.update_offset(&self.pedal.rest.preload);
+        if let Some(air) = &mut self.dynamics.air {
+            air.follow([(top, receiver), (&self.lower.modal, &self.lower.receiver)]);
+        }
         if !changed {
             return;
         }
@@ -225,6 +236,7 @@ impl Pair {
     pub(super) fn follow_swing(&mut self, top: &ModalBody, receiver: &ReceiverWeights) {
         let bodies = [(top, receiver), (&self.lower.modal, &self.lower.receiver)];
         self.dynamics.follow_receivers(bodies, &self.folded);
+        self.dynamics.air.iter_mut().for_each(|air| air.follow(bodies));
     }
 
     /// Measures the shells' displacements from another equilibrium. Nothing moves by that: what the static deflection gains is taken
@@ -265,6 +277,7 @@ impl Pair {
         self.rims.lambda = [self.rims.lasting_loss; POINTS];
         (self.engaged, self.still) = (false, true);
         self.dynamics.rigid_heard.sounds.iter_mut().for_each(RigidSound::reset);
+        self.dynamics.air.iter_mut().for_each(GapAir::reset);
         self.dynamics.update_offset(&rest.preload);
     }
 
@@ -299,7 +312,7 @@ impl Pair {
     }
 
     /// Overlap without the shells' motion, m.
-    fn apart(&self, j: usize) -> f64 {
+    pub(super) fn apart(&self, j: usize) -> f64 {
         let [above, below] = &self.statics.weights;
         self.rigid[0].at(&above[j]) - self.rigid[1].at(&below[j]) + self.pedal.rest.bend[j]
             - self.statics.depth[j]
@@ -311,6 +324,22 @@ impl Pair {
         if !self.engaged {
             self.engaged = true;
             self.rims.compression = self.overlaps(top);
+            self.follow_gaps(true);
+            self.take_air_along(1.0);
+        }
+    }
+
+    /// Lets the air move along with both cymbals as rigid bodies (a share of 1), or no more (-1). They bring the energy and take it back; nothing of it is heard.
+    pub(super) fn take_air_along(&mut self, share: f64) {
+        let Some(air) = &mut self.dynamics.air else { return };
+        let speeds = self.rigid.each_ref().map(|rigid| rigid.speeds().map(|speed| share * speed));
+        let moving: f64 = self.rigid.iter().map(Rigid::motion).sum();
+        let left = moving - air.carry(&speeds);
+        if moving > 0.0 {
+            let scale = (left.max(0.0) / moving).sqrt();
+            for rigid in &mut self.rigid {
+                rigid.set_speed(rigid.speeds().map(|speed| scale * speed));
+            }
         }
     }
 
@@ -333,7 +362,10 @@ impl Pair {
                 self.rims.law.potential(self.rims.compression[j]) - self.pedal.rest.preload[j] * shells
             })
             .sum();
-        self.rigid[0].energy(self.pedal.foot.place()) + self.rigid[1].energy(0.0) + contacts
+        self.rigid[0].energy(self.pedal.foot.place())
+            + self.rigid[1].energy(0.0)
+            + contacts
+            + self.air_energy()
             - self.pedal.rest.energy
     }
 }

@@ -160,6 +160,11 @@ impl Rigid {
         absolute + self.stiffness[0] * y * (0.5 * y - self.parts[0].q)
     }
 
+    /// Energy of its motion alone, J.
+    pub fn motion(&self) -> f64 {
+        self.parts.iter().map(Oscillator::motion).sum()
+    }
+
     /// Energy of the tilts, J.
     pub fn rock_energy(&self) -> f64 {
         self.parts[1..].iter().map(Oscillator::energy).sum()

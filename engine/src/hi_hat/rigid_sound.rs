@@ -1,129 +1,68 @@
 //! The sound of a cymbal's motion as a whole: its heave and its tilts.
 //!
 //! Model: a thin rigid disc in free air ([`FreeDisc`]) is a dipole at low frequency, and a quadrupole if it tilts. Its pressure over its
-//! acceleration, `H`, is a real number close by where it is slow, grows with the frequency, and falls where the disc is wider than the
-//! waves, in lobes. What drives it (strokes, rims that land, felts) has every frequency, so that one number does not do as it does for a mode.
-//! Each `H` is the filter
+//! acceleration is a filter (`lobed_sound`).
 //!
-//! ```text
-//! H(s) = (slow + middle y + fast y^2) / (1 + y)^3,   y = s a / (2 c)
-//! ```
-//!
-//! with `slow` the limit at zero frequency; `middle` and `fast` such that the squares of the relative errors are least from
-//! `k a = 0.2` to 1.6. *Derived*.
-//!
-//! Limits: what it takes from the motion is neglected beside the loss of the felts. Of the lobes it has
-//! a mean fall only; heave is within 2.5 dB from 40 to 300 Hz, the softer tilts within 10: the shells' modes are louder there.
-
-use nalgebra::Complex;
+//! Limits: what it takes from the motion is neglected beside the loss of the felts. Heave is within 2.5 dB from 40 to 300 Hz, the softer
+//! tilts within 10: the shells' modes are louder there.
 
 use crate::air_load::SPEED_OF_SOUND;
-use crate::modal::Pressure;
 use crate::mode::Member;
 use crate::plate::free_disc::FreeDisc;
 use crate::radiation::Radiator;
-use crate::receiver::{POINTS, Receivers};
+use crate::receiver::Receivers;
 
+use super::lobed_sound::{LobedSound, TO_SLOW};
 use super::rigid::Weights;
 
 /// Nodes along the radius: shapes are a constant and a line. *Converged*.
 const NODES: usize = 48;
 
-/// Pole of the filters, in units of the speed of sound over the radius: where a disc is as wide as a third of a wave. *Judgement*.
-const POLE: f64 = 2.0;
-
-/// Where the filters are matched, `k a`: 60 to 500 Hz for a hi-hat.
-const MATCHED: [f64; 5] = [0.2, 0.4, 0.7, 1.0, 1.6];
-
-/// How a cymbal is heard as a rigid body.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct RigidSound {
-    /// Of heave and tilts at each receiver, Pa s2/m.
-    slow: [Weights; POINTS],
-    middle: [Weights; POINTS],
-    fast: [Weights; POINTS],
-    /// Share of the distance to the present acceleration that the filters go in a sample.
-    share: f64,
-    /// Accelerations behind one, two and three poles, m/s2.
-    smoothed: [Weights; 3],
-}
+/// How a cymbal is heard as a rigid body: its heave and its tilts, m/s2.
+pub type RigidSound = LobedSound<3>;
 
 /// How both cymbals of a pair are heard as rigid bodies.
-#[derive(Default)]
 pub struct RigidHeard {
     /// Of the upper and the lower one.
     pub sounds: [RigidSound; 2],
     /// Speeds of their heaves and tilts from which the accelerations of the present sample are heard, m/s.
     pub from: [Weights; 2],
+    /// The part of the present sample's change of these speeds that is not heard, m/s.
+    pub quiet: [Weights; 2],
 }
 
 /// The parts of a rigid motion: nodal diameters and member.
 const PARTS: [(u32, Member); 3] = [(0, Member::Cosine), (1, Member::Cosine), (1, Member::Sine)];
 
-impl RigidSound {
-    /// A cymbal of a radius (m), heard by these receivers, at a sample time of `dt` (s). Allocates.
-    pub fn new(radius: f64, receivers: &Receivers, dt: f64) -> RigidSound {
-        let unit = SPEED_OF_SOUND / radius;
-        let disc = FreeDisc::new(radius, receivers.points(), NODES);
-        let none = [[0.0; 3]; POINTS];
-        let share = -(-POLE * unit * dt).exp_m1();
-        let mut sound = RigidSound { slow: none, middle: none, fast: none, share, smoothed: [[0.0; 3]; 3] };
-        for (part, (m, member)) in PARTS.into_iter().enumerate() {
-            let shape = |&r: &f64| if m == 0 { 1.0 } else { 2.0 * r };
-            let radial: Vec<f64> = disc.radii().iter().map(shape).collect();
-            let heard =
-                |u: f64| disc.radiate(&Radiator { m, radial: &radial, omega: u * unit }, 0.0).transfers;
-            let points = receivers.points().into_iter().zip(receivers.scales());
-            let (still, moving) = (heard(1e-3), MATCHED.map(heard));
-            for (at, (point, scale)) in points.enumerate() {
-                let share = scale * point.toward(m, member, 0.0);
-                let slow = still[at][0];
-                // H (1 + i x)^3 = slow + i x middle - x^2 fast: the real and the imaginary part are each linear in one of them.
-                let (mut middle, mut fast) = ([0.0; 2], [0.0; 2]);
-                for (u, moving) in MATCHED.iter().zip(&moving) {
-                    let (x, [re, im]) = (u / POLE, moving[at]);
-                    let whole = Complex::new(re, im) * Complex::new(1.0, x).powi(3);
-                    let weight = whole.norm_sqr().recip();
-                    middle = [middle[0] + weight * x * whole.im, middle[1] + weight * x * x];
-                    fast = [fast[0] + weight * x * x * (slow - whole.re), fast[1] + weight * x.powi(4)];
-                }
-                sound.slow[at][part] = share * slow;
-                sound.middle[at][part] = share * middle[0] / middle[1];
-                sound.fast[at][part] = share * fast[0] / fast[1];
-            }
+/// A cymbal of a radius (m), heard as a rigid body by these receivers, at a sample time of `dt` (s). Allocates.
+pub fn rigid_sound(radius: f64, receivers: &Receivers, dt: f64) -> RigidSound {
+    let unit = SPEED_OF_SOUND / radius;
+    let disc = FreeDisc::new(radius, receivers.points(), NODES);
+    LobedSound::new(radius, dt, &TO_SLOW, |part, u| {
+        let (m, member) = PARTS[part];
+        let shape = |&r: &f64| if m == 0 { 1.0 } else { 2.0 * r };
+        let radial: Vec<f64> = disc.radii().iter().map(shape).collect();
+        let heard = disc.radiate(&Radiator { m, radial: &radial, omega: u * unit }, 0.0).transfers;
+        let points = receivers.points().into_iter().zip(receivers.scales()).zip(heard);
+        let mut out = heard;
+        for (out, ((point, scale), heard)) in out.iter_mut().zip(points) {
+            *out = heard.map(|x| scale * point.toward(m, member, 0.0) * x);
         }
-        sound
-    }
+        out
+    })
+}
 
-    /// Pressure at each receiver under the accelerations (m/s2) of a sample, Pa.
-    pub fn hear(&mut self, accelerations: &Weights) -> Pressure {
-        let mut heard = Pressure::default();
-        for (part, &now) in accelerations.iter().enumerate() {
-            let mut behind = now;
-            for smoothed in &mut self.smoothed {
-                smoothed[part] += self.share * (behind - smoothed[part]);
-                behind = smoothed[part];
-            }
-            let [once, twice, thrice] = self.smoothed.map(|smoothed| smoothed[part]);
-            let (middle, high) = (twice - thrice, once - 2.0 * twice + thrice);
-            for (at, heard) in heard.iter_mut().take(POINTS).enumerate() {
-                let low = self.slow[at][part] * thrice;
-                *heard += (low + self.middle[at][part] * middle + self.fast[at][part] * high) as f32;
-            }
-        }
-        heard
-    }
-
-    /// As if it had never moved.
-    pub fn reset(&mut self) {
-        self.smoothed = [[0.0; 3]; 3];
+impl RigidHeard {
+    /// Of cymbals at rest, heard so.
+    pub fn new(sounds: [RigidSound; 2]) -> RigidHeard {
+        RigidHeard { sounds, from: [[0.0; 3]; 2], quiet: [[0.0; 3]; 2] }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::receiver::ReceiverPosition;
+    use crate::receiver::{POINTS, ReceiverPosition};
     use std::f64::consts::TAU;
 
     #[test]
@@ -138,7 +77,7 @@ mod tests {
             for hz in [40.0, 80.0, 150.0, 300.0] {
                 let omega = TAU * hz;
                 let exact = disc.radiate(&Radiator { m, radial: &radial, omega }, 0.0).transfers;
-                let mut sound = RigidSound::new(radius, &receivers, 1.0 / rate);
+                let mut sound = rigid_sound(radius, &receivers, 1.0 / rate);
                 let mut sums = [[0.0; 2]; POINTS];
                 for sample in 0..48_000 {
                     let phase = omega * f64::from(sample) / rate;

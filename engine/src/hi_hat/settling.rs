@@ -60,6 +60,9 @@ impl Pair {
         if touching || self.may_meet(top, pushed) {
             self.engage(top);
         } else {
+            if self.engaged {
+                self.take_air_along(-1.0);
+            }
             self.engaged = false;
             if !strikers && !self.still && self.held() < STILL * 1e-3 {
                 self.come_to_rest();

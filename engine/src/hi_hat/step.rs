@@ -12,6 +12,7 @@ use crate::modal::{InputVector, ModalBody, Pressure, RECEIVERS};
 use crate::potential::NonlinearForce;
 use crate::surface::body::add;
 
+use super::gap_air::EVERY;
 use super::pair::Pair;
 use super::rigid::{Rigid, Weights};
 use super::rim_points;
@@ -97,8 +98,14 @@ impl Pair {
         self.rigid[0].push(&[1.0, 0.0, 0.0], drawn);
         // Notes send the foot off at once, where a drummer's sets out earlier and gently: its way is not heard.
         let flies = self.pedal.foot.moves() && !self.is_touching() || self.pedal.arrival.is_some();
-        self.dynamics.rigid_heard.from =
-            if flies { self.rigid.each_ref().map(Rigid::speeds) } else { before };
+        let heard_from = if flies { self.rigid.each_ref().map(Rigid::speeds) } else { before };
+        let pushed = self.dynamics.air.as_ref().map_or([[0.0; 3]; 2], |air| *air.pushed());
+        let heard = &mut self.dynamics.rigid_heard;
+        for (which, (from, before)) in heard_from.iter().zip(&before).enumerate() {
+            heard.quiet[which] = std::array::from_fn(|part| from[part] - before[part]);
+            // What the air has added since is heard.
+            heard.from[which] = std::array::from_fn(|part| from[part] - pushed[which][part]);
+        }
         damper
     }
 
@@ -184,11 +191,14 @@ impl Pair {
         self.rigid[1].push_parts(&felt[1]);
         if self.pedal.arrival.is_some() {
             // Rims that are led to another equilibrium are not heard as they let go.
-            for ((heard_from, rigid), before) in
-                self.dynamics.rigid_heard.from.iter_mut().zip(&self.rigid).zip(&before)
-            {
-                let now = rigid.speeds();
-                (0..now.len()).for_each(|part| heard_from[part] += now[part] - before[part]);
+            let heard = &mut self.dynamics.rigid_heard;
+            for which in [0, 1] {
+                let now = self.rigid[which].speeds();
+                for part in 0..now.len() {
+                    let gained = now[part] - before[which][part];
+                    heard.from[which][part] += gained;
+                    heard.quiet[which][part] += gained;
+                }
             }
         }
         let up: Amplitudes = down.map(|pair| pair.map(|x| -x));
@@ -215,6 +225,27 @@ impl Pair {
         heard
     }
 
+    /// Lets the air follow the gap, but not the shells' own motion, which is faster and smaller.
+    pub(super) fn follow_gaps(&mut self, at_once: bool) {
+        let gaps = std::array::from_fn(|j| -self.apart(j));
+        self.dynamics.air.iter_mut().for_each(|air| air.follow_gaps(&gaps, at_once));
+    }
+
+    /// Lets the air in the gap act, on the cymbals too if the upper one is given. Returns the pressure by it, Pa.
+    pub(super) fn press_air(&mut self, top: Option<&mut ModalBody>) -> Pressure {
+        if top.is_some() && self.rims.age.is_multiple_of(u64::from(EVERY)) {
+            self.follow_gaps(false);
+        }
+        let Some(air) = &mut self.dynamics.air else { return Pressure::default() };
+        match top {
+            Some(top) => {
+                self.pedal.work += air.carry(&self.dynamics.rigid_heard.quiet);
+                air.step([top, &mut self.lower.modal], &mut self.rigid)
+            }
+            None => air.ring_out(),
+        }
+    }
+
     /// Renders samples in which the rims do not touch, and adds the pressure of the lower shell, Pa. As rigid bodies both
     /// cymbals have stepped for the first `stiff` samples already.
     pub(super) fn ring_apart(&mut self, mut out: [&mut [f32]; RECEIVERS], stiff: usize) {
@@ -223,7 +254,8 @@ impl Pair {
         let moving = if self.still { samples } else { stiff };
         for sample in moving..samples {
             self.step_rigid(0.0);
-            let heard = self.hear_rigid();
+            let mut heard = self.hear_rigid();
+            add(&mut heard, self.press_air(None));
             out.iter_mut().zip(heard).for_each(|(out, heard)| out[sample] += heard);
             self.rims.age += 1;
         }

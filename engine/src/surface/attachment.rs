@@ -110,6 +110,11 @@ pub trait Attachment: Any + Send {
         Pressure::default()
     }
 
+    /// Exchanges momentum with the body between this sample and the next. Returns the pressure by it, Pa.
+    fn impart(&mut self, _body: &mut StruckBody) -> Pressure {
+        Pressure::default()
+    }
+
     /// Pressure of its [ground](Self::ground), Pa.
     fn listen(&self) -> Pressure {
         Pressure::default()

@@ -154,7 +154,7 @@ impl Surface {
 
     /// Ends the sample. Returns the pressure at each receiver, Pa.
     fn finish(&mut self, free: &FreeStep, direct: Pressure) -> Pressure {
-        let Surface { contacts, attachments, .. } = self;
+        let Surface { body, contacts, attachments, .. } = self;
         for n in 0..contacts.present().len() {
             let i = contacts.present()[n];
             let mut others = contacts.moved_by_others(i);
@@ -168,6 +168,7 @@ impl Surface {
         let mut after = Pressure::default();
         for attachment in attachments {
             add(&mut after, attachment.finish(contacts, free));
+            add(&mut after, attachment.impart(body));
         }
         self.watch_strikers();
         let mut heard = self.body.sound().listen();

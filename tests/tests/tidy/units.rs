@@ -6,7 +6,7 @@
 use super::{none, sources};
 
 /// Units, and what a number is that has none.
-const WORDS: &str = "Hz kHz m mm cm m2 m3 m4 kg g s s2 ms J W N N/m m/N Pa MPa GPa Pa/m3 dB dBFS m/s m2/s2 rad rad/s \
+const WORDS: &str = "Hz kHz m mm cm m2 m3 m4 kg g s s2 ms J W N N/m m/N Pa MPa GPa Pa/m3 m3/Pa kg/m4 m3/s dB dBFS m/s m2/s2 rad rad/s \
     rad2/s2 s2/m s/m kg/s 1/s 1/m MB K kg/m2 kg/m3 N/m2 cents octaves octave semitones samples sample points point pixels \
     seconds metres degrees calibrations unit units scale share shares ratio ratios relative factor factors exponent % 1 \
     dimensionless";

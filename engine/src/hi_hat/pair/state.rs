@@ -2,6 +2,7 @@
 
 use crate::contact::ContactLaw;
 use crate::contact::solver::Compliances;
+use crate::hi_hat::gap_air::GapAir;
 use crate::hi_hat::near_points::{Near, NearCompliances};
 use crate::hi_hat::rigid::{Rigid, Weights};
 use crate::hi_hat::rigid_sound::{RigidHeard, RigidSound};
@@ -19,7 +20,6 @@ pub(crate) struct StrikerPlace {
 }
 
 /// Response to forces held over a sample.
-#[derive(Default)]
 pub(crate) struct Dynamics {
     /// Compliance between the rim points, of the shells and of shells and mounts, m/N.
     shells: Compliances<POINTS>,
@@ -37,13 +37,24 @@ pub(crate) struct Dynamics {
     pub(crate) coupling: [f64; POINTS],
     /// How both cymbals are heard as rigid bodies.
     pub(crate) rigid_heard: RigidHeard,
+    /// The air between them, if the rims shut it in.
+    pub(crate) air: Option<GapAir>,
 }
 
 impl Dynamics {
     /// Of cymbals that are so heard as rigid bodies, and are yet to be [followed](Self::follow).
-    pub(crate) fn new(sounds: [RigidSound; 2]) -> Dynamics {
-        let rigid_heard = RigidHeard { sounds, ..RigidHeard::default() };
-        Dynamics { rigid_heard, ..Dynamics::default() }
+    pub(crate) fn new(sounds: [RigidSound; 2], air: Option<GapAir>) -> Dynamics {
+        Dynamics {
+            shells: Compliances::<POINTS>::default(),
+            whole: Compliances::<POINTS>::default(),
+            near: NearCompliances::default(),
+            preload_offset: [0.0; POINTS],
+            preload_waves: FineAmplitudes::default(),
+            direct: [[Pressure::default(); 2]; MAX_CLASSES],
+            coupling: [0.0; POINTS],
+            rigid_heard: RigidHeard::new(sounds),
+            air,
+        }
     }
 
     /// Updates the response after a change of the modes or receiver weights of both cymbals.
