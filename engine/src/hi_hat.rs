@@ -2,13 +2,14 @@
 //!
 //! ```text
 //! foot --> rod --> clutch --> upper cymbal (shell, heave, tilt) <-- strikers
-//!                                   | 32 contacts around the rim
+//!                                   | 32 contacts around the rim, the air in the gap
 //!                 floor --> seat --> lower cymbal (shell, heave, tilt)
 //! ```
 //!
 //! Model: two shallow [cymbals](crate::cymbal). The lower one is upside down and a little tilted, as stands hold it, so that
-//! closed cymbals do not trap the air. The upper one hangs in a clutch on the rod, the lower one lies on a seat. Felts hold both:
-//! springs and dampers for their rigid motion ([`rigid`]). The rims are not flat ([`warp`]) and touch by the law of every contact ([`pair`]). The upper
+//! closed cymbals do not trap all of the air. The upper one hangs in a clutch on the rod, the lower one lies on a seat. Felts hold both:
+//! springs and dampers for their rigid motion ([`rigid`]). The rims are not flat ([`warp`]) and touch by the law of every contact ([`pair`]). What air is between
+//! the two presses them apart and leaves through what gap there is ([`gap_air`]). The upper
 //! cymbal's modes are coupled by its stretching, as those of any other cymbal. The lower one's are not.
 //!
 //! The pedal is one control: from 0, with the rims [`GAP`] apart, over [`TOUCHING`], where rims without tilt would meet, to 1,

@@ -261,6 +261,28 @@ fn the_farther_down_the_pedal_the_shorter_the_sound() {
     }
 }
 
+/// What two public sets of recorded closed hi-hats have from 300 Hz to 1 kHz, 5 to 80 ms after a stroke, is -10 to -1 dB of all.
+#[test]
+fn the_air_between_closed_cymbals_gives_them_a_body() {
+    let mut hat = piece("hi-hat", RATE);
+    let (mut body, mut all) = (0.0, 0.0);
+    for (speed, angle) in
+        [2.0, 4.0, 7.0].into_iter().flat_map(|speed| [0.0, 1.0, 2.0].map(|angle| (speed, angle)))
+    {
+        hat.reset();
+        hold(&mut hat, 0.75);
+        hat.strike(&stroke(Striker::Shoulder, speed, 0.97, angle));
+        render(&mut hat, 0.005, RATE);
+        let heard = PowerSpectrum::new(&render(&mut hat, 0.075, RATE), RATE);
+        // Each stroke counts as much as any.
+        let whole = heard.band(100.0, 16_000.0);
+        (body, all) = (body + heard.band(300.0, 1000.0) / whole, all + 1.0);
+    }
+    let body = 10.0 * f64::log10(body / all);
+    println!("{body:.1} dB from 300 Hz to 1 kHz");
+    assert!((-12.0..0.0).contains(&body), "{body} dB");
+}
+
 #[test]
 fn half_open_it_sizzles() {
     let ([over_open, over_closed], [silent, landings, few]) = sizzle_db(&mut piece("hi-hat", RATE));

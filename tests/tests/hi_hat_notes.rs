@@ -107,6 +107,22 @@ fn a_foot_is_as_loud_wherever_it_was() {
     }
 }
 
+/// The foot brings the rims near at once, and the air between them with it.
+#[test]
+fn a_soft_note_on_cymbals_that_a_foot_splash_left_ringing_makes_no_click() {
+    let peak = |sound: &[f32]| sound.iter().fold(0.0_f32, |most, x| most.max(x.abs()));
+    for note in [46, 100] {
+        let mut player = Player::new();
+        player.play(Note(97), 80);
+        player.render(0.5);
+        player.play(Note(note), 20);
+        let sound = player.render(0.06);
+        let (first, rest) = (peak(between(&sound, 0.0, 0.002)), peak(between(&sound, 0.002, 0.05)));
+        println!("{note}: {first:.4} in the first 2 ms, then {rest:.4}");
+        assert!(first < 1.5 * rest, "{note}: {first}, {rest}");
+    }
+}
+
 /// Of GMRockKit and The Open Source Drumkit: the loudest chick 3 and 7 dB under the loudest closed stroke, medians 3 and 4 dB apart, the
 /// softest one 1 dB softer and 5 louder.
 #[test]

@@ -19,12 +19,14 @@
 //! The loss of a lasting contact approaches that of rims at rest, which have dirt and air between them and rub. One number stands
 //! for all of these losses.
 //!
+//! The [air between](super::gap_air) acts between samples.
+//!
 //! Contacts cost nothing while the largest possible motion of both rims is smaller than the gap.
 //!
 //! The upper cymbal's lobes [turn](crate::surface::swing) as it tilts, and with them what is heard of the rims' forces at once, once a block.
 //!
 //! Neglected: the stiffness of clutch and seat against deflection of the shells (they hold the mean displacement); motion along
-//! the rims; the air between; that the lower cymbal's lobes turn, which leans on a stiffer seat.
+//! the rims; that the lower cymbal's lobes turn, which leans on a stiffer seat.
 
 pub(super) mod arrival;
 mod pedal;

@@ -8,7 +8,8 @@
 //! 3. [`solve`](Attachment::solve): may solve all contacts together with its own;
 //! 4. [`push`](Attachment::push) for each striker's force, then [`press`](Attachment::press) for its own forces;
 //! 5. [`displaced`](Attachment::displaced): displacement of a striker's contact by its own forces;
-//! 6. [`finish`](Attachment::finish) and [`listen`](Attachment::listen): ends the sample and returns its pressure.
+//! 6. [`finish`](Attachment::finish) and [`listen`](Attachment::listen): ends the sample and returns its pressure;
+//! 7. [`impart`](Attachment::impart): momentum that it gives and takes before the next one.
 //!
 //! Displacement and force are positive along the stroke. A point is the index of a contact point in [`Contacts`].
 

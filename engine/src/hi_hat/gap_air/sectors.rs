@@ -161,6 +161,12 @@ impl Sectors {
         }
     }
 
+    /// Flow through the rims in the shape of each source, m3/s.
+    pub fn leaving(&self) -> [f64; SOURCES] {
+        let flow: [f64; SECTORS] = std::array::from_fn(|s| self.flow[s] / self.now.mass[s]);
+        std::array::from_fn(|index| (0..SECTORS).map(|s| self.around[s][index] * flow[s]).sum())
+    }
+
     /// Adds to the flow of a pressure's shape through all sectors, m3/s.
     pub fn gain(&mut self, index: usize, gained: f64) {
         let (m, _) = wave(index);
