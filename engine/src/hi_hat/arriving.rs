@@ -21,6 +21,7 @@
 use crate::surface::attachment::Site;
 
 use super::foot::Step;
+use super::gap_air::GapAir;
 use super::pair::Pair;
 use super::pair::arrival::Arrival;
 use super::rigid::Weights;
@@ -41,7 +42,6 @@ impl Pair {
     /// Linear in the number of modes.
     pub fn arrive(&mut self, end: f64, step: Option<Step>, mut site: Site<'_>) {
         self.engage(site.body.modal());
-        self.follow_gaps(true);
         let before = self.held();
         let touching = self.statics.depth.iter().sum::<f64>() / POINTS as f64;
         let mut quiet = self.held_energy() + site.body.modal().energy() < STILL;
@@ -52,7 +52,8 @@ impl Pair {
         let top = site.body.modal();
         self.pedal.arrival = None;
         self.pedal.foot.stop_for(end);
-        self.set_speeds([[0.0; 3]; 2]);
+        self.rigid.iter_mut().for_each(|rigid| rigid.set_speed([0.0; 3]));
+        self.dynamics.air.iter_mut().for_each(GapAir::stop);
         if quiet {
             let from = self.rigid[0].place();
             self.come_to_rest();
@@ -71,19 +72,11 @@ impl Pair {
     /// Steps on the pedal, on which foot and upper cymbal are on their way already.
     fn set_off(&mut self, step: Step) {
         self.pedal.foot.take(step);
-        self.set_speeds([[self.pedal.foot.speed(), 0.0, 0.0], self.rigid[1].speeds()]);
-    }
-
-    /// Gives both cymbals other speeds of heave and tilts (m/s), and the air between them its own; nothing of it is heard.
-    fn set_speeds(&mut self, speeds: [Weights; 2]) {
-        let mut gained = speeds;
-        for (gained, rigid) in gained.iter_mut().zip(&mut self.rigid) {
-            let (before, after) = (rigid.speeds(), *gained);
-            (0..after.len()).for_each(|part| gained[part] -= before[part]);
-            rigid.set_speed(after);
-        }
+        let (from, to) = (self.rigid[0].speeds(), [self.pedal.foot.speed(), 0.0, 0.0]);
+        self.rigid[0].set_speed(to);
+        let gained = std::array::from_fn(|part| to[part] - from[part]);
         if let Some(air) = &mut self.dynamics.air {
-            air.carry(&gained);
+            air.carry(&[gained, [0.0; 3]]);
         }
     }
 
@@ -149,6 +142,10 @@ impl Pair {
             self.pedal.goal_place = self.pedal.foot.place();
         }
         self.pedal.arrival = Some(arrival).filter(|_| !over);
+        if over {
+            self.follow_gaps(true);
+            self.take_air_along(1.0);
+        }
         arrival.step.filter(|_| over).into_iter().for_each(|step| self.set_off(step));
         true
     }

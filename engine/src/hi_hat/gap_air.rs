@@ -183,11 +183,11 @@ impl GapAir {
     pub fn ring_out(&mut self) -> Pressure {
         self.pushed = [[0.0; 3]; 2];
         if self.is_over() {
-            return Pressure::default();
+            return self.sound.ring_out();
         }
         let heard = self.flow_on(&{ self.pressed });
         if self.energy() < FAINT {
-            self.reset();
+            self.stop();
         }
         heard
     }
@@ -249,12 +249,17 @@ impl GapAir {
         0.5 * inside + self.sectors.energy()
     }
 
-    /// As if nothing had moved.
-    pub fn reset(&mut self) {
+    /// Stops at once. What is under way to the receivers is still heard.
+    pub fn stop(&mut self) {
         (self.pressed, self.inner) = ([0.0; WAVES], [0.0; WAVES]);
         self.sectors.reset();
         self.sources = [0.0; SOURCES];
         self.pushed = [[0.0; 3]; 2];
+    }
+
+    /// As if nothing had moved.
+    pub fn reset(&mut self) {
+        self.stop();
         self.sound.reset();
     }
 }

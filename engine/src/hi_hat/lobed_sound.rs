@@ -95,6 +95,20 @@ impl<const N: usize> LobedSound<N> {
         heard
     }
 
+    /// Pressure at each receiver while nothing moves any more, Pa.
+    pub fn ring_out(&mut self) -> Pressure {
+        if self.smoothed == [[0.0; N]; 3] {
+            return Pressure::default();
+        }
+        let heard = self.hear(&[0.0; N]);
+        // Before its numbers are too small to be quick.
+        let loudest = self.smoothed.as_flattened().iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        if loudest < 1e-12 {
+            self.reset();
+        }
+        heard
+    }
+
     /// As if nothing had ever moved.
     pub fn reset(&mut self) {
         self.smoothed = [[0.0; N]; 3];

@@ -233,6 +233,8 @@ impl Pair {
 
     /// Lets the air in the gap act, on the cymbals too if the upper one is given. Returns the pressure by it, Pa.
     pub(super) fn press_air(&mut self, top: Option<&mut ModalBody>) -> Pressure {
+        // Cymbals that are led do not press on it.
+        let top = top.filter(|_| self.pedal.arrival.is_none());
         if top.is_some() && self.rims.age.is_multiple_of(u64::from(EVERY)) {
             self.follow_gaps(false);
         }
