@@ -79,7 +79,7 @@ impl Half {
         };
         // Both members of a pair or none.
         let felt: Vec<bool> = plate.shells().iter().map(|shell| shell.omega < TAU * COUPLED_HZ).collect();
-        let areas: [Vec<f64>; ORDERS] = std::array::from_fn(|m| displaced(&plate, m as u32));
+        let areas = displaced(&plate);
         let (cymbal, shapes) = plate.assemble(&[], &order, mounted);
         let index = shapes.shapes().index().iter();
         let shares: Vec<_> =
@@ -107,16 +107,20 @@ impl Half {
     }
 }
 
-/// Integral of each shell mode's shape times `(r / a)^m cos(m theta)` if it has `m` nodal diameters, m2, `[shell]`.
-fn displaced(plate: &CymbalPlate<'_>, m: u32) -> Vec<f64> {
+/// Integrals of each shell mode's shape times `(r / a)^m cos(m theta)`, were it of that many nodal diameters, m2, `[m][shell]`.
+fn displaced(plate: &CymbalPlate<'_>) -> [Vec<f64>; ORDERS] {
     const RINGS: usize = 64;
-    let area = PI * plate.radius().powi(2) / if m == 0 { 1.0 } else { 2.0 };
-    let mut areas = vec![0.0; plate.shells().len()];
+    let disc = PI * plate.radius().powi(2);
+    let mut areas: [Vec<f64>; ORDERS] = std::array::from_fn(|_| vec![0.0; plate.shells().len()]);
     for ring in 0..RINGS {
         // Rings of equal area.
         let r = ((ring as f64 + 0.5) / RINGS as f64).sqrt();
-        let weight = area * r.powi(m as i32) / RINGS as f64;
-        areas.iter_mut().zip(plate.shapes_at(r)).for_each(|(sum, shape)| *sum += weight * shape);
+        let shapes = plate.shapes_at(r);
+        for (m, areas) in areas.iter_mut().enumerate() {
+            let area = disc / if m == 0 { 1.0 } else { 2.0 };
+            let weight = area * r.powi(m as i32) / RINGS as f64;
+            areas.iter_mut().zip(&shapes).for_each(|(sum, shape)| *sum += weight * shape);
+        }
     }
     areas
 }
