@@ -57,7 +57,7 @@ pub use sectors::EVERY;
 /// Modes up to this are coupled with it, Hz.
 pub const COUPLED_HZ: f64 = 1200.0;
 
-/// Energy below which nobody hears it beside the cymbals, J. *Derived*: 50 dB below what a soft stroke of 0.5 m/s leaves in it.
+/// Energy below which nobody hears it beside the cymbals, J. *Judgement*: some 40 dB below what a stroke of 0.5 m/s leaves in it.
 const FAINT: f64 = 1e-10;
 
 /// A mode with as many nodal diameters as a pressure.

@@ -334,14 +334,23 @@ impl Pair {
     /// Lets the air move along with both cymbals as rigid bodies (a share of 1), or no more (-1). They bring the energy and take it back; nothing of it is heard.
     pub(super) fn take_air_along(&mut self, share: f64) {
         let Some(air) = &mut self.dynamics.air else { return };
-        let speeds = self.rigid.each_ref().map(|rigid| rigid.speeds().map(|speed| share * speed));
+        let of = |by: f64| self.rigid.each_ref().map(|rigid| rigid.speeds().map(|speed| by * speed));
         let moving: f64 = self.rigid.iter().map(Rigid::motion).sum();
-        let left = moving - air.carry(&speeds);
-        if moving > 0.0 {
-            let scale = (left.max(0.0) / moving).sqrt();
-            for rigid in &mut self.rigid {
-                rigid.set_speed(rigid.speeds().map(|speed| scale * speed));
-            }
+        if moving == 0.0 {
+            return;
+        }
+        let gained = air.carry(&of(share));
+        // Both slow down by what the air takes, and the air moves as they do then.
+        let kept = (moving / (moving + gained.max(0.0))).sqrt();
+        let gained = gained + air.carry(&of(share * (kept - 1.0)));
+        let left = moving - gained;
+        if left < 0.0 {
+            air.carry(&of(-share * kept));
+            return;
+        }
+        let scale = (left / moving).sqrt();
+        for rigid in &mut self.rigid {
+            rigid.set_speed(rigid.speeds().map(|speed| scale * speed));
         }
     }
 

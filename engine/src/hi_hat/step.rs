@@ -191,14 +191,11 @@ impl Pair {
         self.rigid[1].push_parts(&felt[1]);
         if self.pedal.arrival.is_some() {
             // Rims that are led to another equilibrium are not heard as they let go.
-            let heard = &mut self.dynamics.rigid_heard;
-            for which in [0, 1] {
-                let now = self.rigid[which].speeds();
-                for part in 0..now.len() {
-                    let gained = now[part] - before[which][part];
-                    heard.from[which][part] += gained;
-                    heard.quiet[which][part] += gained;
-                }
+            for ((heard_from, rigid), before) in
+                self.dynamics.rigid_heard.from.iter_mut().zip(&self.rigid).zip(&before)
+            {
+                let now = rigid.speeds();
+                (0..now.len()).for_each(|part| heard_from[part] += now[part] - before[part]);
             }
         }
         let up: Amplitudes = down.map(|pair| pair.map(|x| -x));

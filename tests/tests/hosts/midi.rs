@@ -5,6 +5,7 @@ use std::sync::Arc;
 use overhear::building::Pace;
 use overhear::kit_document::KitDocument;
 use overhear::midi::maps::NoteMap;
+use overhear::midi_map::Meaning;
 use overhear::parameters::{COUNT, default_value, find, parameters};
 use overhear::performer::Performer;
 use overhear::presets::{FACTORY, Preset};
@@ -64,11 +65,12 @@ fn every_note_of_every_map_sounds_or_is_silent_as_the_tables_say() {
                     // A felt beater gets going late; any motion of the surface is heard.
                     processor.process(&[], &mut left, &mut right)?;
                     let sounds = left.iter().any(|sample| *sample != 0.0);
-                    let strikes = map.stroke(key, &table).is_some();
-                    // What a foot presses out between the cymbals is heard sooner or later; hands and wires have names, too.
-                    if strikes || map.name(key, &table).is_none() {
-                        assert_eq!(sounds, strikes, "{map:?}, note {key}");
+                    let row = map.plays(key).and_then(|note| table.row(note));
+                    // What a foot presses out between the cymbals may be heard before their rims meet.
+                    if row.is_some_and(|row| matches!(row.meaning, Meaning::Steps(..))) {
+                        continue;
                     }
+                    assert_eq!(sounds, map.stroke(key, &table).is_some(), "{map:?}, note {key}");
                 }
                 Ok(())
             })
