@@ -171,9 +171,8 @@ impl Drum {
         let at_pitch = at_pitch(&built, mixed.as_deref(), &place).collect::<Vec<_>>();
         let heard = (modes_key(spec), receivers, spec.evenness);
         let hearing = TRANSFERS.get(&heard, || {
-            let near = ModeTransfer::new(&built, spec, receivers.near);
-            let far = receivers.far.map(|point| near.from(&built, spec, point));
-            Ok::<_, SpecError>((near, far))
+            let from = |point| ModeTransfer::new(&built, spec, point);
+            Ok::<_, SpecError>((from(receivers.near), receivers.far.map(from)))
         })?;
         let bare = |mode: &BodyMode| Mode {
             omega: at_pitch[mode.row].omega,

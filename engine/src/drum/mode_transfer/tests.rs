@@ -1,4 +1,5 @@
 use super::*;
+use crate::drum::tuned::ModeAtPitch;
 use crate::reference;
 
 /// How loud the lowest modes of the batter with so many nodal diameters are at a point, over the loudest without.
@@ -37,4 +38,47 @@ fn over_its_rim_a_drum_shows_modes_that_it_hardly_sends_out() {
             );
         }
     }
+}
+
+/// What all modes of an octave together show of themselves at a point and a pitch, dB: of the table, and as worked out there.
+fn octaves(drum: &DrumModes, spec: &DrumSpec, point: ReceiverPosition, pitch_hz: f64) -> Vec<[f64; 2]> {
+    let table = ModeTransfer::new(drum, spec, point);
+    let exact = HeadTransfers::new(drum, spec, point, TAU * spec.batter.modes_to_hz);
+    let place = drum.heads.scale.place(pitch_hz);
+    let mut octaves = vec![[0.0; 2]; 7];
+    for ((pair, shown), told) in table.members.iter().zip(table.transfers(&drum.modes, &place, pitch_hz)) {
+        let mode = &drum.modes[*pair as usize];
+        let ModeAtPitch { omega, mass, .. } = mode.at(&place);
+        let exact = exact.transfer(mode, &place).map(|part| f64::from(shown * part));
+        let octave = (omega / TAU / 44.0).log2().clamp(0.0, 6.0) as usize;
+        for (sum, [re, im]) in octaves[octave].iter_mut().zip([told, exact]) {
+            *sum += (re * re + im * im) / mass;
+        }
+    }
+    octaves.into_iter().map(|pair| pair.map(|sum| 10.0 * sum.log10())).collect()
+}
+
+#[test]
+fn a_drum_tuned_anywhere_is_heard_from_everywhere_as_it_is_worked_out_there() {
+    let mut worst = 0.0_f64;
+    for name in ["kick", "snare", "rack-tom", "floor-tom"] {
+        let build = reference::standard(name);
+        let spec = build.spec.drum().unwrap();
+        let drum = DrumModes::new(spec).unwrap();
+        let [lowest, default, highest] = spec.pitches();
+        for pitch in [lowest, (lowest * default).sqrt(), (default * highest).sqrt(), highest] {
+            for (point, at) in [("near", build.receivers.near), ("far", build.receivers.far[0])] {
+                for (octave, [told, exact]) in octaves(&drum, spec, at, pitch).into_iter().enumerate() {
+                    // An octave may have no modes.
+                    let off = if exact.is_finite() { (told - exact).abs() } else { 0.0 };
+                    assert!(
+                        off < 1.0,
+                        "{name} at {pitch:.1} Hz, {point}, octave {octave}: {told:.1} dB for {exact:.1}"
+                    );
+                    worst = worst.max(off);
+                }
+            }
+        }
+    }
+    println!("worst {worst:.2} dB");
 }
