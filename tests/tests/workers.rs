@@ -212,6 +212,53 @@ fn a_worker_that_panics_gives_its_piece_back() {
     assert!(snapshot.missed_runs == 1 && loudest > 0.01, "{} runs", snapshot.missed_runs);
 }
 
+/// Renders all jobs but keeps one that it is told to keep, for so many runs.
+struct Keeping {
+    kept: Option<(usize, Box<RenderJob>)>,
+    runs: u32,
+}
+
+impl RenderWorkers for Keeping {
+    fn render(&mut self, jobs: &mut [Option<Box<RenderJob>>]) {
+        jobs.iter_mut().flatten().for_each(|job| job.render());
+        if self.runs > 0 {
+            self.runs -= 1;
+            let slot = jobs.iter().position(|job| job.as_ref().is_some_and(|job| job.is_busy()));
+            self.kept = self.kept.take().or_else(|| slot.map(|slot| (slot, jobs[slot].take().unwrap())));
+        } else if let Some((slot, job)) = self.kept.take() {
+            jobs[slot] = Some(job);
+        }
+    }
+}
+
+#[test]
+fn a_piece_that_was_away_during_a_reset_plays_on_with_its_kit() {
+    let tom = standard().slots().find(|(_, piece)| piece.name == "rack-tom").unwrap().0;
+    let render = |kit: &mut Kit, samples: usize| {
+        let (mut left, mut right) = (vec![0.0; samples], vec![0.0; samples]);
+        kit.render(&mut left, &mut right);
+        left
+    };
+    // The clock comes to where the run that is away ended, before or after that or there, not at the start of a block.
+    for after in [8, 16, 24] {
+        let mut kits = [2, 0].map(|runs| {
+            let mut kit = kit(48_000.0);
+            assert!(kit.attach(Some(Box::new(Keeping { kept: None, runs }))).is_none());
+            kit.strike(tom, &stroke(Striker::Stick, 3.0, 0.3, 0.2));
+            render(&mut kit, 16);
+            assert_eq!(kit.is_whole(), runs == 0);
+            kit.reset();
+            render(&mut kit, after - 1);
+            render(&mut kit, 1);
+            assert!(kit.is_whole());
+            kit.strike(tom, &stroke(Striker::Stick, 3.0, 0.3, 0.2));
+            kit
+        });
+        let [away, there] = kits.each_mut().map(|kit| render(kit, 4_800));
+        assert!(away == there, "{after} samples after the reset");
+    }
+}
+
 /// A kit with workers under many strokes.
 struct Stage {
     kit: Kit,

@@ -121,7 +121,7 @@ impl Kit {
         let amount = self.coupling.run(samples);
         for (slot, job) in self.jobs.iter_mut().enumerate() {
             let Some(job) = job else { continue };
-            job.prepare(self.resets, self.clock, samples);
+            job.prepare(self.clock, samples);
             let receives = job.piece.as_ref().is_some_and(|piece| piece.kind() == Kind::Drum);
             if receives && !uncoupled {
                 self.air.arrive(slot, self.clock, &amount, job);
@@ -131,5 +131,7 @@ impl Kit {
             Some(workers) => workers.render(&mut self.jobs),
             None => self.jobs.iter_mut().flatten().for_each(|job| job.render()),
         }
+        // Before anything strikes it: a job that was away during a reset follows it now.
+        self.jobs.iter_mut().flatten().for_each(|job| job.reset(self.resets));
     }
 }

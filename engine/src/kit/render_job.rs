@@ -40,9 +40,8 @@ impl RenderJob {
         }
     }
 
-    /// Prepares a run at `clock` of a kit that has been reset `resets` times.
-    pub(super) fn prepare(&mut self, resets: u32, clock: u64, samples: usize) {
-        self.reset(resets);
+    /// Prepares a run at `clock`.
+    pub(super) fn prepare(&mut self, clock: u64, samples: usize) {
         // The run before is missing if the job came back late, or after a reset.
         if self.due.wrapping_add(self.run as u64) != clock {
             let phase = (clock % BLOCK as u64) as usize;
@@ -52,13 +51,15 @@ impl RenderJob {
         (self.due, self.run, self.receives) = (clock, samples, false);
     }
 
-    /// Puts everything to rest if the kit has been reset since the last call.
+    /// Puts everything to rest if the kit, by now reset `resets` times, has been since the last call.
     pub(super) fn reset(&mut self, resets: u32) {
         if std::mem::replace(&mut self.resets, resets) == resets {
             return;
         }
         self.piece.iter_mut().for_each(|piece| piece.reset());
         self.fade_out.cut();
+        // The kit's new clock may come to where this run ends: it is none of its runs.
+        self.give_up();
     }
 
     /// Renders the run.
