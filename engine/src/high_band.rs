@@ -56,6 +56,7 @@
 //! Petersson, Structure-Borne Sound, ch. 6 (radiation of bending waves at an edge). The mean square is derived here.
 
 mod force_sums;
+mod muffling;
 mod point_band;
 mod slices;
 mod walk;
@@ -71,11 +72,13 @@ use crate::modal::{MAX_DRIVES, ModalBody, Mode, RECEIVERS, ReceiverWeights, Row,
 use crate::receiver::POINTS;
 
 use force_sums::{ForceSums, interleaved};
+pub use muffling::HighMuffling;
+use muffling::UnderPad;
 use point_band::PointBand;
-pub use slices::{HighBandSpec, HighMuffling, Receiver, SLICES, SLICES_UNDER_WIRES};
+pub use slices::{HighBandSpec, Receiver, SLICES, SLICES_UNDER_WIRES};
 use slices::{
-    Slice, SliceTable, TunedSlice, UnderPad, Waves, away, endless_sheet, lies_on_dot, rim_strip, slices,
-    taken, tension_share, top_hz, walk_rate,
+    Slice, SliceTable, TunedSlice, Waves, away, endless_sheet, lies_on_dot, rim_strip, slices, taken,
+    tension_share, top_hz, walk_rate,
 };
 use walk::Walk;
 

@@ -13,17 +13,23 @@
 //!
 //! Source: Love, The Mathematical Theory of Elasticity, sec. 293 (ring, motion at right angles to its plane).
 
+use std::convert::Infallible;
 use std::f64::consts::{PI, SQRT_2, TAU};
 
 use serde::{Deserialize, Serialize};
 
 use crate::air_load::{DENSITY, SPEED_OF_SOUND};
+use crate::cache::Cache;
 use crate::contact::Material;
 use crate::modal::Mode;
 use crate::mode::{Member, ModeKind};
 use crate::numbers::{Numbers, Visitor};
 use crate::receiver::{POINTS, ReceiverPosition, Receivers};
-use crate::shell::Cylinder;
+use crate::schema::SCHEMA;
+use crate::shell::{Cylinder, WallMode};
+
+/// How a wall's modes are heard, `[mode][point]`.
+static WALLS: Cache<Vec<[[f64; 2]; POINTS]>> = Cache::new("wall", SCHEMA, 24);
 
 /// A hoop's description, and of the stand its drum is on.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -235,16 +241,20 @@ fn shown(heard: [[f64; 2]; POINTS], receivers: &Receivers, n: u32, member: Membe
 }
 
 /// The modes of a shell's wall, members one by one.
-fn wall_modes(wall: &Cylinder, receivers: &Receivers, lossless: bool) -> impl Iterator<Item = RimMode> {
-    wall.modes(lossless).into_iter().flat_map(move |own| {
-        let heard = heard(receivers, |point| wall.transfer(&own, point));
-        let members = [Member::Cosine, Member::Sine].into_iter().take(if own.n == 0 { 1 } else { 2 });
-        members.map(move |member| {
+fn wall_modes(wall: &Cylinder, receivers: &Receivers, lossless: bool) -> Vec<RimMode> {
+    let modes = wall.modes(lossless);
+    let at_points = |own: &WallMode| heard(receivers, |point| wall.transfer(own, point));
+    let Ok(transfers) = WALLS
+        .get(&(wall, receivers), || Ok::<_, Infallible>(modes.iter().map(at_points).collect::<Vec<_>>()));
+    let mut members = Vec::with_capacity(2 * modes.len());
+    for (own, &heard) in modes.iter().zip(&*transfers) {
+        for member in [Member::Cosine, Member::Sine].into_iter().take(if own.n == 0 { 1 } else { 2 }) {
             let transfers = shown(heard, receivers, own.n, member);
             let (part, largest) = (RimPart::Wall, own.hoop);
-            RimMode { part, n: own.n, k: own.k, member, mode: own.mode, largest, transfers }
-        })
-    })
+            members.push(RimMode { part, n: own.n, k: own.k, member, mode: own.mode, largest, transfers });
+        }
+    }
+    members
 }
 
 /// Rayleigh integral over a narrow ring; largest toward the point. The delay from the centre is taken out.

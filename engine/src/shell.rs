@@ -64,7 +64,7 @@ const MOST: usize = 256;
 const POINTS: f64 = 6.0;
 
 /// A cylinder's wall.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Serialize)]
 pub struct Cylinder {
     /// Radius, m.
     pub radius: f64,

@@ -193,6 +193,7 @@ pub(super) fn slices(spec: &HighBandSpec) -> Vec<Slice> {
     let [slackest, tension, _] = spec.tensions;
     let step = (1.0 / spec.density).exp2();
     let mut slices: Vec<Slice> = Vec::new();
+    let gain = gain(spec);
     // Where the complete set ends: N(k) solved for k.
     let mut low = 1.0 + (1.0 + 4.0 * spec.complete as f64).sqrt();
     let mut omega = wave(&spec.head, low, tension).0;
@@ -208,7 +209,7 @@ pub(super) fn slices(spec: &HighBandSpec) -> Vec<Slice> {
             direction: cos_sin(TAU * draw(1)),
             phase: TAU * draw(2),
             heard: std::array::from_fn(|i| cos_sin(TAU * draw(3 + i as u32))),
-            gain: gain(spec, omega),
+            gain: gain(omega),
             on_dot: on_dot(&spec.head, omega, tension),
         });
         low = high;
@@ -234,7 +235,9 @@ pub(super) fn wave(head: &MembraneSpec, zero: f64, tension: f64) -> (f64, f64, f
     let k2 = (zero / head.radius).powi(2);
     let stiffness = (tension + head.flexural_rigidity() * k2) * k2;
     let film = head.area_density();
-    let (mut omega, mut sigma, mut mass) = ((stiffness / film).sqrt(), 0.0, film);
+    // Far slower than sound, to begin with.
+    let (mut sigma, mut mass) = (0.0, film + 2.0 * DENSITY / k2.sqrt());
+    let mut omega = (stiffness / mass).sqrt();
     // The air weighs less, the higher: each round gains a digit or two.
     for _ in 0..12 {
         let sound = omega / SPEED_OF_SOUND;
@@ -270,58 +273,6 @@ fn wavenumber(head: &MembraneSpec, omega: f64, tension: f64) -> f64 {
         }
     }
     zero
-}
-
-/// What muffles a high band.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct HighMuffling {
-    /// Decay rate added to every slice, 1/s.
-    pub even: f64,
-    /// Decay rate that a pad adds to a mode of unit square under it, 1/s, and its distance from the centre,
-    /// share of the radius.
-    pub pad: (f64, f64),
-}
-
-impl HighMuffling {
-    /// Nothing.
-    pub const NONE: HighMuffling = HighMuffling { even: 0.0, pad: (0.0, 0.0) };
-
-    /// With a decay rate added to every slice, 1/s.
-    pub fn and_even(self, sigma: f64) -> HighMuffling {
-        HighMuffling { even: self.even + sigma, ..self }
-    }
-
-    /// Decay rate that it adds to a slice of some square under its pad, 1/s.
-    pub(super) fn sigma(&self, under: f64) -> f64 {
-        self.even + self.pad.0 * under
-    }
-}
-
-/// Squares of the slices under a pad.
-pub(super) struct UnderPad {
-    /// Distance of the pad from the centre, share of the radius.
-    at: f64,
-    /// `[slice]`.
-    squares: Vec<f64>,
-}
-
-impl UnderPad {
-    /// Of so many slices, under no pad. Allocates.
-    pub(super) fn new(slices: usize) -> UnderPad {
-        UnderPad { at: f64::NAN, squares: vec![0.0; slices] }
-    }
-
-    /// The squares under the pad of a muffling, if it has one; it stays where it is while its amount changes.
-    pub(super) fn of(&mut self, muffling: &HighMuffling, slices: &[Slice]) -> &[f64] {
-        let (pad, at) = muffling.pad;
-        if pad != 0.0 && self.at != at {
-            self.at = at;
-            for (square, slice) in self.squares.iter_mut().zip(slices) {
-                *square = 1.0 - libm::j0(2.0 * slice.zero * (1.0 - at));
-            }
-        }
-        &self.squares
-    }
 }
 
 /// Tensions at which modes are worked out. *Converged*: between, frequencies over two octaves of pitch are met within 1e-5.
@@ -451,22 +402,26 @@ pub(super) fn away(spec: &HighBandSpec, slices: &[Slice]) -> [f32; DIRECTIONS] {
 /// The same at one point.
 fn away_at(spec: &HighBandSpec, slices: &[Slice], point: ReceiverPosition) -> f32 {
     let from_away = HighBandSpec { ear: Receiver { point, ..spec.ear }, ..*spec };
+    let gain = gain(&from_away);
     let ratio = |slice: &Slice| {
         let (omega, _, _) = wave(&spec.head, slice.zero, spec.tensions[1]);
-        let there = loudness(&from_away, &Slice { gain: gain(&from_away, omega), ..*slice }, omega);
+        let there = loudness(&from_away, &Slice { gain: gain(omega), ..*slice }, omega);
         (there * point.distance / loudness(spec, slice, omega)).ln()
     };
     (slices.iter().map(ratio).sum::<f64>() / slices.len().max(1) as f64).exp() as f32
 }
 
-/// Amplitude at the point over that of the same head in a baffle.
-fn gain(spec: &HighBandSpec, omega: f64) -> f64 {
+/// Amplitude at the point over that of the same head in a baffle, by angular frequency (rad/s).
+fn gain(spec: &HighBandSpec) -> impl Fn(f64) -> f64 {
     let Receiver { point, outside, far, .. } = spec.ear;
-    let ka = omega * spec.head.radius / SPEED_OF_SOUND;
-    match outside {
+    let radius = spec.head.radius;
+    let fills = point.fills(radius);
+    move |omega| match outside {
         Outside::Baffle => 1.0,
-        Outside::Free { .. } if far => 0.5 * diffraction::toward(ka, -point.inclination.cos()),
-        Outside::Free { .. } => diffraction::near_gain(ka, point.fills(spec.head.radius)),
+        Outside::Free { .. } if far => {
+            0.5 * diffraction::toward(omega * radius / SPEED_OF_SOUND, -point.inclination.cos())
+        }
+        Outside::Free { .. } => diffraction::near_gain(omega * radius / SPEED_OF_SOUND, fills),
     }
 }
 
