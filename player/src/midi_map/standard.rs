@@ -166,10 +166,9 @@ const fn pedal(number: u8, name: &'static str, foot: Foot) -> Note {
     action(number, name, Plays::Pedal("hi-hat", foot))
 }
 
-/// Place of the pedal in an open note: the rims just reach each other at one side. *Fitted* to how much louder recorded closed
-/// strokes are than what open ones still have after a quarter of a second, 4 to 9 dB; tried 0.40 to 0.48: EXPERIMENTS.md, "Open
-/// hi-hats are struck twice".
-const OPEN: f64 = 0.44;
+/// Place of the pedal in an open note: the rims reach each other at one side. *Fitted* to decays of recorded open hats, 3.3, 2.9, 3.0, 2.9
+/// and 2.5 s in the octaves from 500 Hz to 8 kHz; tried 0.40 to 0.48: EXPERIMENTS.md, "Open hi-hats ring like rides".
+const OPEN: f64 = 0.455;
 
 /// Place of the pedal in a half-open note: the rims lean on each other at one side, by 2 N. *Fitted* to how much recorded half-open
 /// hats have lost after a quarter of a second, 9 to 13 dB; tried 0.47 to 0.52.

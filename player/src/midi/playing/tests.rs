@@ -252,7 +252,7 @@ fn two_hi_hats_have_pedals_of_their_own_and_share_the_controller() {
         (0.55, 46, 0.55),
         (0.55, 42, 0.8),
         (0.9, 42, 0.9),
-        (0.9, 46, 0.44),
+        (0.9, 46, 0.455),
         (0.9, 100, 0.48),
     ] {
         playing.pedal(4, controlled as f32, 9);

@@ -205,7 +205,7 @@ fn yamaha_notes_of_a_snare_thrown_off_and_cups_of_hats() {
             stroke("snare", 0.4, RimShot),
             stroke("ride", 0.97, Shoulder),
             stroke("ride", 0.12, Shoulder),
-            foot(0.44),
+            foot(0.455),
             stroke("hi-hat", 0.12, Stick),
             foot(0.8),
             stroke("hi-hat", 0.12, Stick),
@@ -230,7 +230,7 @@ fn alesis_half_open_notes_and_note_offs_that_choke() {
     assert_found(
         &Module::new(NoteMap::Alesis).replay(stream),
         &[
-            foot(0.44),
+            foot(0.455),
             stroke("hi-hat", 0.97, Shoulder),
             foot(0.48),
             stroke("hi-hat", 0.97, Shoulder),
@@ -370,6 +370,6 @@ fn a_stuck_pedal_is_not_listened_to_so_that_notes_open_and_close_the_hats() {
         &[(0, [0xB9, 4, 64]), (0, [0x99, 26, 90]), (100, [0xB9, 4, 65]), (100, [0x99, 22, 90])];
     assert_found(
         &module.replay(stream),
-        &[foot(0.44), stroke("hi-hat", 0.97, Shoulder), foot(0.8), stroke("hi-hat", 0.97, Shoulder)],
+        &[foot(0.455), stroke("hi-hat", 0.97, Shoulder), foot(0.8), stroke("hi-hat", 0.97, Shoulder)],
     );
 }
