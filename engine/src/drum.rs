@@ -49,7 +49,7 @@ use body::{BodyMode, all_around, describe, sampled};
 use complete::{at_pitch, continued};
 use losses::{LYING, Losses, palm};
 use mixing::MixedModes;
-use mode_transfer::{ModeTransfer, ModeTransfers};
+use mode_transfer::{ModeTransfers, heard_by};
 use modes::{DrumModes, most_volume};
 use muffler::MufflerCoefs;
 pub use spec::{DrumSpec, HeadContact, HeadSpec, PitchOf, ResonantSpec, ShellSpec};
@@ -170,10 +170,7 @@ impl Drum {
         let muffler = MufflerCoefs::new(spec, &built, mixed.as_deref());
         let at_pitch = at_pitch(&built, mixed.as_deref(), &place).collect::<Vec<_>>();
         let heard = (modes_key(spec), receivers, spec.evenness);
-        let hearing = TRANSFERS.get(&heard, || {
-            let from = |point| ModeTransfer::new(&built, spec, point);
-            Ok::<_, SpecError>((from(receivers.near), receivers.far.map(from)))
-        })?;
+        let hearing = TRANSFERS.get(&heard, || Ok::<_, SpecError>(heard_by(&built, spec, receivers)))?;
         let bare = |mode: &BodyMode| Mode {
             omega: at_pitch[mode.row].omega,
             sigma: 0.0,

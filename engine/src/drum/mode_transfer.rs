@@ -24,7 +24,7 @@ use crate::drum::modes::DrumModes;
 use crate::drum::spec::DrumSpec;
 use crate::drum::tuned::{PitchPosition, TunedMode};
 use crate::radiation::{Radiator, Rayleigh};
-use crate::receiver::{DIRECTIONS, ReceiverPosition};
+use crate::receiver::{DIRECTIONS, ReceiverPosition, Receivers};
 use crate::split::Splitting;
 
 /// Modes up to so many times the default pitch are heard one by one: of a kick at 45 Hz all of the octave of 1 kHz, which
@@ -51,6 +51,12 @@ enum PairTransfer {
 
 /// How a drum's modes are heard from near and from each direction far away.
 pub type ModeTransfers = (ModeTransfer, [ModeTransfer; DIRECTIONS]);
+
+/// Works it out for all receivers, each by itself: a mode that shows next to nothing here may show much there. Allocates.
+pub fn heard_by(drum: &DrumModes, spec: &DrumSpec, receivers: &Receivers) -> ModeTransfers {
+    let from = |point| ModeTransfer::new(drum, spec, point);
+    (from(receivers.near), receivers.far.map(from))
+}
 
 /// Everything needed to hear a drum at any of its pitches.
 #[derive(Serialize, Deserialize)]

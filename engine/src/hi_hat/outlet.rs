@@ -29,7 +29,7 @@ const GAPS: (f64, f64) = (2e-5, 0.05);
 /// How many gaps, evenly spaced by their logarithm.
 const STEPS: usize = 64;
 
-/// LensRings of the lens, closest together at the rim. *Converged*: twice as many change inertances and friction by 1e-4 at most.
+/// Rings of the lens, closest together at the rim. *Converged*: twice as many change inertances and friction by 1e-4 at most.
 const RINGS: usize = 400;
 
 /// The lens between two cymbals.

@@ -41,9 +41,7 @@ fn over_its_rim_a_drum_shows_modes_that_it_hardly_sends_out() {
 }
 
 /// What all modes of an octave together show of themselves at a point and a pitch, dB: of the table, and as worked out there.
-fn octaves(drum: &DrumModes, spec: &DrumSpec, point: ReceiverPosition, pitch_hz: f64) -> Vec<[f64; 2]> {
-    let table = ModeTransfer::new(drum, spec, point);
-    let exact = HeadTransfers::new(drum, spec, point, TAU * spec.batter.modes_to_hz);
+fn octaves(drum: &DrumModes, table: &ModeTransfer, exact: &HeadTransfers, pitch_hz: f64) -> Vec<[f64; 2]> {
     let place = drum.heads.scale.place(pitch_hz);
     let mut octaves = vec![[0.0; 2]; 7];
     for ((pair, shown), told) in table.members.iter().zip(table.transfers(&drum.modes, &place, pitch_hz)) {
@@ -66,9 +64,18 @@ fn a_drum_tuned_anywhere_is_heard_from_everywhere_as_it_is_worked_out_there() {
         let spec = build.spec.drum().unwrap();
         let drum = DrumModes::new(spec).unwrap();
         let [lowest, default, highest] = spec.pitches();
-        for pitch in [lowest, (lowest * default).sqrt(), (default * highest).sqrt(), highest] {
-            for (point, at) in [("near", build.receivers.near), ("far", build.receivers.far[0])] {
-                for (octave, [told, exact]) in octaves(&drum, spec, at, pitch).into_iter().enumerate() {
+        // As the drum itself has them.
+        let (near, far) = heard_by(&drum, spec, &build.receivers);
+        let [left, right] = &far;
+        let receivers = &build.receivers;
+        for (point, table, at) in [
+            ("near", &near, receivers.near),
+            ("left", left, receivers.far[0]),
+            ("right", right, receivers.far[1]),
+        ] {
+            let exact = HeadTransfers::new(&drum, spec, at, TAU * spec.batter.modes_to_hz);
+            for pitch in [lowest, (lowest * default).sqrt(), (default * highest).sqrt(), highest] {
+                for (octave, [told, exact]) in octaves(&drum, table, &exact, pitch).into_iter().enumerate() {
                     // An octave may have no modes.
                     let off = if exact.is_finite() { (told - exact).abs() } else { 0.0 };
                     assert!(
