@@ -67,7 +67,8 @@ pub fn run_as<Invocation: Parser>(
 /// Prints help where it was asked for, and anything else as one line.
 fn refused<Invocation: Parser>(refusal: &clap::Error) -> ExitCode {
     if matches!(refusal.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) {
-        print!("{refusal}");
+        // A reader may have seen enough and gone: `overhear --help | head`.
+        drop(write!(std::io::stdout(), "{refusal}"));
         return ExitCode::SUCCESS;
     }
     if refusal.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {

@@ -6,6 +6,7 @@
 
 use std::f64::consts::TAU;
 
+mod bending;
 pub mod body;
 mod complete;
 pub mod coupled;
@@ -240,7 +241,7 @@ impl Drum {
         drum.follow_shapes();
         if !ideal.linear {
             let StretchModel { potential, modes, above } =
-                StretchModel::new(&drum.built, drum.mixed(), pitch);
+                StretchModel::new(&drum.built, drum.mixing.as_ref().map(|mixing| &mixing.modes), pitch);
             let potential = if drum.dents { potential } else { potential.evenly() };
             drum.surface.set_potential(Box::new(potential), modes, stretch::stride(options.sample_rate));
             drum.surface.set_glide(modes, above);
@@ -360,6 +361,7 @@ impl Instrument for Drum {
             || self.follow_shares(&place),
         );
         self.follow_pressures(&place);
+        self.surface.tune_potential(self.controls.pitch.value());
         let far = self.built.heads.resonant.as_ref().map(|head| head.film(&place));
         let near = self.built.heads.batter.film(&place);
         self.surface.set_local_compliance(if self.dents { near } else { near.under_fixed_discs() });

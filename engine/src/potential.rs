@@ -90,6 +90,14 @@ pub trait Potential: Send {
         0.0
     }
 
+    /// The body is tuned to a pitch, Hz. Returns by how much that raises the energy at `displacement` (m, `[mode]`), J.
+    ///
+    /// # Real-time
+    /// Must not allocate, lock or fail.
+    fn retune(&mut self, _pitch_hz: f64, _displacement: &[f32]) -> f64 {
+        0.0
+    }
+
     /// Whether the energy is never negative and rises from rest in every direction. The error of the energy then counts
     /// against all the energy there is: a head that sticks hold down hardly moves, however much it is stretched.
     fn is_convex(&self) -> bool {
@@ -250,10 +258,24 @@ impl NonlinearForce {
     /// Linear in the modes it acts on.
     pub fn press(&mut self, radius: f64, shapes: &[f32], body: &ModalBody) {
         let more = self.potential.press(radius, shapes, &body.displacements()[..self.coupled.length()]);
+        self.owe(more);
+        self.wake();
+    }
+
+    /// See [`Potential::retune`], Hz. What it then holds more, at the displacements of `body`, it owes to the modes.
+    ///
+    /// # Real-time
+    /// As [`Potential::retune`].
+    pub fn retune(&mut self, pitch_hz: f64, body: &ModalBody) {
+        let more = self.potential.retune(pitch_hz, &body.displacements()[..self.coupled.length()]);
+        self.owe(more);
+    }
+
+    /// Takes up that the potential holds more (J), without the factor on it, and owes it to the modes.
+    fn owe(&mut self, more: f64) {
         if self.schedule.is_evaluated() && more != 0.0 {
             self.scalar.rise_by(self.stiffness * more);
         }
-        self.wake();
     }
 
     /// Whether the body rests inside out, where it would hold energy for ever.

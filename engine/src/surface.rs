@@ -164,6 +164,11 @@ impl Surface {
         self.body.set_potential(potential, modes, stride);
     }
 
+    /// Tunes the potential to a pitch, Hz. As [`Potential::retune`].
+    pub fn tune_potential(&mut self, pitch_hz: f64) {
+        self.body.tune_potential(pitch_hz);
+    }
+
     /// Lets modes from `first` on follow the tension of the heads that the potential stretches; their stiffness per tension is
     /// dimensionless, `[mode - first][head]`. Allocates.
     pub fn set_glide(&mut self, first: usize, stiffness: Vec<[f64; HEADS]>) {

@@ -26,7 +26,7 @@ use overhear_engine::piece::Piece;
 use overhear_engine::strike::{Strike, Striker};
 
 pub use chance::Chance;
-pub use rendering::{render, render_into, render_surface};
+pub use rendering::{render, render_everywhere, render_into, render_surface};
 pub use standard::{
     alone, altered, build, context, drum, kit, kit_of, lossless_piece, member, names, piece, plate,
     round_piece, slot, spec, standard,

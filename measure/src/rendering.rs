@@ -12,6 +12,19 @@ pub fn render(piece: &mut Piece, seconds: f64, sample_rate: f64) -> Vec<f32> {
     out
 }
 
+/// Renders a stretch of a piece, s long, at a sample rate in Hz: sound pressure at each receiver, Pa.
+pub fn render_everywhere(piece: &mut Piece, seconds: f64, sample_rate: f64) -> [Vec<f32>; RECEIVERS] {
+    let samples = (seconds * sample_rate).round() as usize;
+    let mut out: [Vec<f32>; RECEIVERS] = std::array::from_fn(|_| vec![0.0; samples]);
+    let mut done = 0;
+    while done < samples {
+        let run = done..(done + piece.run_left()).min(samples);
+        done = run.end;
+        piece.render_in_air(out.each_mut().map(|row| &mut row[run.clone()]), None);
+    }
+    out
+}
+
 /// Renders sound pressure at a piece's close microphone, Pa, overwriting `out`; of any length.
 pub fn render_into(piece: &mut Piece, out: &mut [f32]) {
     let mut rest = out;

@@ -7,7 +7,7 @@ mod readme;
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 
 use overhear_tests::names;
 use serde_json::Value;
@@ -357,4 +357,21 @@ fn every_option_of_the_manual_exists() {
             assert!(section.contains(&format!("`--{option}")), "--{option} of {command} is undocumented");
         }
     }
+}
+
+#[test]
+fn a_reader_that_has_gone_takes_nothing_with_it() {
+    let folder = Folder::new("gone");
+    folder.file("song.mid", SONG);
+    let render = ["render", "song.mid", "-o", "out.wav"];
+    for arguments in [&["render", "--help"][..], &render] {
+        let mut command = folder.command(arguments);
+        command.stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut running = command.spawn().expect("the command runs");
+        drop(running.stdout.take());
+        let ended = running.wait_with_output().expect("the command ends");
+        let said = String::from_utf8_lossy(&ended.stderr);
+        assert!(ended.status.success() && !said.contains("panicked"), "{arguments:?}: {said}");
+    }
+    assert!(folder.names().contains(&"out.wav".to_owned()), "{:?}", folder.names());
 }

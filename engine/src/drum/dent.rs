@@ -27,6 +27,7 @@
 
 use std::f64::consts::PI;
 
+use crate::math::bessel::JTable;
 use crate::membrane::MembraneSpec;
 use crate::modal::simd::Kernels;
 use crate::modal::{Row, zero_row};
@@ -40,6 +41,10 @@ const CIRCLES: [f64; RINGS + 1] = [1.0 / 48.0, 1.0 / 24.0, 1.0 / 12.0, 1.0 / 6.0
 /// The dent of the tip that came last.
 pub(super) struct Dent {
     kernels: Kernels,
+    /// Of the head, m.
+    radius: f64,
+    /// Mean over a circle of a wave that is one at its centre, by wavenumber times radius.
+    means: JTable,
     /// `pi E h / 8` times the kernel's integral over two rings, N/m3.
     stiffness: [[f64; RINGS]; RINGS],
     /// `A` of each ring, m, by a displacement of a mode that is 1 m at the tip: `[ring]`, `[mode]`.
@@ -51,23 +56,28 @@ pub(super) struct Dent {
 }
 
 impl Dent {
-    /// Of a head without tips, whose modes have these wavenumbers times the radius. Allocates.
-    pub(super) fn new(spec: &MembraneSpec, waves: &[f64]) -> Dent {
+    /// Of a head without tips and so many modes, whose wavenumbers are still to be set; none is above `finest`, 1/m. Allocates.
+    pub(super) fn new(spec: &MembraneSpec, modes: usize, finest: f64) -> Dent {
         let factor = PI * spec.material.youngs_modulus * spec.thickness / 8.0;
-        let mut slopes = std::array::from_fn(|_| zero_row(waves.len()));
-        for (ring, slopes) in slopes.iter_mut().enumerate() {
-            let [mean, next] =
-                [ring, ring + 1].map(|circle| move |wave: f64| libm::j0(wave * CIRCLES[circle]));
-            for (slope, &wave) in slopes.iter_mut().zip(waves) {
-                *slope = ((mean(wave) - next(wave)) / width(ring)) as f32;
-            }
-        }
         Dent {
             kernels: Kernels::detect(),
+            radius: spec.radius,
+            means: JTable::new(0, finest * spec.radius * CIRCLES[RINGS]),
             stiffness: kernel(spec.radius).map(|row| row.map(|it| factor * it)),
-            slopes,
-            rings: std::array::from_fn(|_| zero_row(waves.len())),
+            slopes: std::array::from_fn(|_| zero_row(modes)),
+            rings: std::array::from_fn(|_| zero_row(modes)),
             present: 0,
+        }
+    }
+
+    /// Sets the wavenumber of a mode, 1/m, of which the next tip knows.
+    ///
+    /// # Real-time
+    /// Some look-ups.
+    pub(super) fn set_wave(&mut self, mode: usize, wave: f64) {
+        let means = CIRCLES.map(|circle| self.means.value(wave * self.radius * circle));
+        for (ring, slopes) in self.slopes.iter_mut().enumerate() {
+            slopes[mode] = ((means[ring] - means[ring + 1]) / width(ring)) as f32;
         }
     }
 
@@ -152,6 +162,13 @@ mod tests {
         mesh: None,
     };
 
+    /// The head with modes of these wavenumbers times the radius.
+    fn dented(waves: &[f64]) -> Dent {
+        let mut dent = Dent::new(&HEAD, waves.len(), waves[waves.len() - 1] / HEAD.radius);
+        waves.iter().enumerate().for_each(|(mode, wave)| dent.set_wave(mode, wave / HEAD.radius));
+        dent
+    }
+
     /// Foeppl's energy less Berger's, J, of what lies within the rings of waves about the centre, each of so much displacement (m) there,
     /// by quadrature.
     fn energy_by_quadrature(waves: &[f64], displacements: &[f32]) -> f64 {
@@ -176,7 +193,7 @@ mod tests {
     #[test]
     fn the_energy_is_that_of_foeppls_equations_beyond_bergers() {
         let waves: Vec<f64> = bessel::zeros(0, 18);
-        let mut dent = Dent::new(&HEAD, &waves);
+        let mut dent = dented(&waves);
         dent.press(0.0, &vec![1.0; waves.len()]);
         // Under a point: every wave in proportion to the square of its shape there over its stiffness.
         let point = |&wave: &f64| (4e-3 / (wave * libm::j1(wave)).powi(2)) as f32;
@@ -195,7 +212,7 @@ mod tests {
         let waves: Vec<f64> = bessel::zeros(0, 18);
         let shapes = vec![1.0; waves.len()];
         let displacements = vec![1e-4; waves.len()];
-        let mut dent = Dent::new(&HEAD, &waves);
+        let mut dent = dented(&waves);
         assert_eq!(dent.energy(&displacements), 0.0);
         let mut before = f64::INFINITY;
         for (radius, rings) in [(0.0, 6), (0.3, 6), (0.4, 5), (0.85, 2), (0.97, 0)] {

@@ -14,29 +14,33 @@
 //!
 //! The struck head and the resonant head stretch alike, each by its own displacement. The drum's modes mix those of the heads,
 //! within each order. Modes that are [mixed](super::mixing) of many orders stretch a head each by itself: what they are made of has
-//! nearly one wavenumber, and the sum over all of them is the same. Shares are those of the default pitch.
+//! nearly one wavenumber, and the sum over all of them is the same. Shares follow the pitch; what that adds to the energy of heads that are
+//! displaced is taken from the modes.
 //!
-//! Modes above 1.5 kHz hold next to none of a stroke's energy: they do not stretch the heads, but their frequencies follow the
+//! Modes above 1.5 kHz (in the middle of the range) hold next to none of a stroke's energy: they do not stretch the heads, but their frequencies follow the
 //! tension; [`StretchModel::above`] tells by how much.
 //!
 //! Source: Berger, J. Appl. Mech. 22, 1955; Avanzini & Marogna, IEEE TASLP 18, 2010.
 
 use std::collections::BTreeMap;
 
+use crate::cache::Shared;
+use crate::drum::bending::{self, Bending};
 use crate::drum::dent::Dent;
-use crate::drum::heads::TunedHead;
-use crate::drum::mixing::{self, MixedModes};
+use crate::drum::heads::{MIDDLE, TunedHead};
+use crate::drum::mixing::MixedModes;
 use crate::drum::modes::DrumModes;
 use crate::drum::tuned::PitchPosition;
 use crate::membrane::MembraneSpec;
+use crate::modal::simd::Kernels;
 use crate::modal::simd::blocks::{Block, BlockProduct};
-use crate::modal::simd::{Kernels, LANES};
 use crate::modal::{Row, zero_row};
 use crate::potential::{Evaluation, HEADS, Potential};
 use crate::split::Splitting;
 
-/// Modes of the drum up to this stretch the heads, Hz. *Converged*: lower, and the dent around a hard
-/// stroke holds too little of its tension; a kick at 6 m/s then glides by half of what it should.
+/// Modes of the drum up to this in the middle of its range of pitches stretch the heads, Hz. Lower, and the dent around a hard
+/// stroke holds too little of its tension; a kick at 6 m/s then glides by half of what it should. *Converged* for toms, which have no more, and
+/// the snare; not for hard strokes on the kick (EXPERIMENTS.md).
 const LIMIT_HZ: f64 = 1500.0;
 
 /// Strain at which polyester film yields. *Literature*.
@@ -51,8 +55,11 @@ pub fn stride(sample_rate: f64) -> u32 {
     ((sample_rate / RATE) as u32).max(1)
 }
 
-/// The members of a mode among the body's, and by head its shares times the wavenumbers.
-type BentMode = (Vec<u32>, [Vec<f64>; HEADS]);
+/// The modes of one order that are not mixed, among the drum's and among the body's; of a pair the first member.
+struct Order {
+    m: u32,
+    modes: Vec<[usize; 2]>,
+}
 
 /// The stretching energy of one head. `S` is a quadratic form in the drum's modes; only modes of one order
 /// and member meet in it, so its matrix is made of blocks, alike for both members.
@@ -66,41 +73,37 @@ struct HeadStretch {
     /// Displacements in the order of the blocks times the matrix.
     product: Row,
     /// `S` of each mixed mode by itself, 1/m2; they follow the modes of the blocks.
-    mixed: Row,
+    squares: Row,
     mixed_product: Row,
     /// Sum of the tensions of the evaluations since they were asked for, N/m.
     tension: f64,
 }
 
 impl HeadStretch {
-    /// Of a head; `rows` in the order of the blocks.
-    fn new(spec: &MembraneSpec, columns: &[f32], rows: usize, mixed: &[f64]) -> HeadStretch {
-        let mut head = HeadStretch {
+    /// Of a head, for blocks of so many entries in so many rows and so many mixed modes, all still to be written.
+    fn new(spec: &MembraneSpec, [entries, rows, mixed]: [usize; 3]) -> HeadStretch {
+        HeadStretch {
             area: spec.area(),
             stiffness: energy_factor(spec),
-            matrix: zero_row(columns.len()),
+            matrix: zero_row(entries),
             product: zero_row(rows),
-            mixed: zero_row(mixed.len()),
-            mixed_product: zero_row(mixed.len()),
+            squares: zero_row(mixed),
+            mixed_product: zero_row(mixed),
             tension: 0.0,
-        };
-        head.matrix.copy_from_slice(columns);
-        head.mixed.iter_mut().zip(mixed).for_each(|(row, square)| *row = *square as f32);
-        head
+        }
     }
 
     /// Energy, J, and its derivative by `S`, J, at displacements in the order of the blocks and of the mixed modes; leaves half the
     /// gradient of `S` in the products.
-    fn evaluate(&mut self, kernels: Kernels, blocks: &[Block], sorted: &[f32], mixed: &[f32]) -> (f64, f64) {
+    fn energy(&mut self, kernels: Kernels, blocks: &[Block], sorted: &[f32], mixed: &[f32]) -> (f64, f64) {
         let HeadStretch { matrix, product, .. } = self;
         kernels.blocks(BlockProduct { blocks, matrix, x: sorted, y: product });
         let kept = f64::from(kernels.dot(sorted, product));
-        let rows = self.mixed_product.iter_mut().zip(&*self.mixed).zip(mixed);
+        let rows = self.mixed_product.iter_mut().zip(&*self.squares).zip(mixed);
         rows.for_each(|((out, square), q)| *out = square * q);
         let s = kept + f64::from(kernels.dot(&self.mixed_product, mixed));
         let most = 4.0 * YIELD_STRAIN;
         let slope = 2.0 * self.stiffness * s.min(most);
-        self.tension += 2.0 * slope / self.area;
         let energy = if s <= most { 0.5 * slope * s } else { slope * (s - 0.5 * most) };
         (energy, slope)
     }
@@ -109,6 +112,11 @@ impl HeadStretch {
 /// The stretching energy of a drum's heads.
 pub struct Stretch {
     kernels: Kernels,
+    drum: Shared<DrumModes>,
+    /// The mixed modes, and how many of the first of them stretch the heads.
+    mixed: Option<(Shared<MixedModes>, usize)>,
+    /// What each block holds.
+    orders: Vec<Order>,
     blocks: Vec<Block>,
     /// The rows of the body's first modes, `[mode]`.
     rows: Vec<u32>,
@@ -120,9 +128,67 @@ pub struct Stretch {
     dent: Option<Dent>,
     /// Evaluations since the tensions were asked for.
     evaluations: u32,
+    /// Where shares times wavenumbers of one order are worked out, 1/m.
+    bent: Vec<f64>,
 }
 
 impl Stretch {
+    /// Sorts displacements, `[mode]`, into the blocks; returns those of the mixed modes.
+    fn sort<'a>(&mut self, displacement: &'a [f32]) -> &'a [f32] {
+        for (&row, &q) in self.rows.iter().zip(displacement) {
+            self.sorted[row as usize] = q;
+        }
+        &displacement[self.rows.len()..]
+    }
+
+    /// Energy of the heads at displacements, `[mode]`, without that of a dent, J.
+    fn energy(&mut self, displacement: &[f32]) -> f64 {
+        let rest = self.sort(displacement);
+        let Stretch { kernels, blocks, sorted, heads, .. } = self;
+        heads.iter_mut().map(|head| head.energy(*kernels, blocks, sorted, rest).0).sum()
+    }
+
+    /// Takes over the shares of the modes at a pitch.
+    ///
+    /// # Real-time
+    /// Some interpolations of each share of a mode that is not mixed, some of each mode that is.
+    fn follow(&mut self, place: &PitchPosition) {
+        let Stretch { drum, mixed, orders, blocks, rows, heads, dent, bent, .. } = self;
+        for (far, (head, stretch)) in bending::heads(drum).zip(&mut *heads).enumerate() {
+            let mut columns = &mut stretch.matrix[..];
+            for (order, block) in orders.iter().zip(&*blocks) {
+                let count = head.order(order.m).1;
+                bent.clear();
+                for &[mode, _] in &order.modes {
+                    let shares = bending::shares(drum, (head, far > 0), &drum.modes[mode], place);
+                    bent.extend(shares.map(|(share, wave)| share * wave));
+                }
+                for i in 0..block.size {
+                    let (column, rest) = columns.split_at_mut(block.padded());
+                    columns = rest;
+                    for (k, out) in column[..block.size].iter_mut().enumerate() {
+                        let [a, b] = [i, k].map(|mode| &bent[mode * count..][..count]);
+                        *out = a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>() as f32;
+                    }
+                }
+            }
+        }
+        let first = rows.len();
+        if let Some((mixed, count)) = mixed {
+            for k in 0..*count {
+                let bending = mixed.bending(k, place);
+                heads.iter_mut().zip(bending.squares).for_each(|(head, s)| head.squares[k] = s as f32);
+                dent.iter_mut().for_each(|dent| dent.set_wave(first + k, bending.wave()));
+            }
+        }
+        for (m, &[mode, body]) in orders.iter().flat_map(|order| order.modes.iter().map(|it| (order.m, it))) {
+            let Some(dent) = dent else { break };
+            let wave = Bending::of(drum, &drum.modes[mode], place).wave();
+            let members = Splitting::ROUND.members(m, 0).count();
+            (body..body + members).for_each(|member| dent.set_wave(member, wave));
+        }
+    }
+
     /// Lets the struck head stretch everywhere alike, however it is dented.
     pub fn evenly(self) -> Stretch {
         Stretch { dent: None, ..self }
@@ -140,139 +206,71 @@ pub struct StretchModel {
 }
 
 impl StretchModel {
-    /// The stretch of a drum's heads; the modes of the body are the drum's below the limit at that
-    /// pitch (Hz), pairs as two. Allocates.
-    pub fn new(drum: &DrumModes, mixed: Option<&MixedModes>, pitch_hz: f64) -> StretchModel {
-        let place = drum.heads.scale.place(pitch_hz);
+    /// The stretch of a drum's heads at a pitch, Hz; the modes of the body are the drum's below the limit, pairs as two. Allocates.
+    pub fn new(drum: &Shared<DrumModes>, mixed: Option<&Shared<MixedModes>>, pitch_hz: f64) -> StretchModel {
+        let scale = drum.heads.scale;
+        let [middle, place] = [scale.pitches()[MIDDLE], pitch_hz].map(|hz| scale.place(hz));
         let limit = std::f64::consts::TAU * LIMIT_HZ;
-        let heads = heads(drum);
-        // Modes with their shares times the wavenumbers, by order.
-        let mut sorted: BTreeMap<u32, Vec<BentMode>> = BTreeMap::new();
+        let members = |m: u32| Splitting::ROUND.members(m, 0).count();
+        // Modes that are not mixed, in the order of the body.
+        let kept = &drum.modes[..if mixed.is_some() { drum.kept } else { drum.modes.len() }];
+        let below = kept.iter().take_while(|mode| mode.at(&middle).omega < limit).count();
+        let mut by_order: BTreeMap<u32, Vec<[usize; 2]>> = BTreeMap::new();
         let mut count = 0;
-        let kept = mixed.map_or(drum.modes.len(), |_| drum.kept);
-        for (index, mode) in drum.modes[..kept].iter().enumerate() {
-            if mode.at(&place).omega >= limit {
-                break;
-            }
-            let members = count..count + Splitting::ROUND.members(mode.m, 0).count() as u32;
-            count = members.end;
-            sorted.entry(mode.m).or_default().push((members.collect(), bent(drum, index, &place)));
+        for (index, mode) in kept[..below].iter().enumerate() {
+            by_order.entry(mode.m).or_default().push([index, count]);
+            count += members(mode.m);
         }
-        let (mut blocks, mut modes, mut start) = (Vec::new(), Vec::new(), 0);
-        let mut columns = [const { Vec::new() }; HEADS];
-        for (&m, mode) in &sorted {
-            let block = Block { start, size: mode.len(), twice: m > 0 };
-            start += block.rows();
-            for (i, (members, a)) in mode.iter().enumerate() {
-                let rows = members.iter().zip((block.start + i..).step_by(block.padded()));
-                modes.extend(rows.map(|(&mode, row)| (mode, row as u32)));
-                for (head, columns) in columns.iter_mut().enumerate() {
-                    let along = |b: &[f64]| a[head].iter().zip(b).map(|(a, b)| a * b).sum::<f64>() as f32;
-                    columns.extend(mode.iter().map(|(_, b)| along(&b[head])));
-                    columns.resize(columns.len().div_ceil(LANES) * LANES, 0.0);
-                }
+        let orders: Vec<Order> = by_order.into_iter().map(|(m, modes)| Order { m, modes }).collect();
+        let (mut blocks, mut rows, mut start) = (Vec::new(), vec![0; count], 0);
+        for Order { m, modes } in &orders {
+            let block = Block { start, size: modes.len(), twice: *m > 0 };
+            for (i, &[_, body]) in modes.iter().enumerate() {
+                let members = (block.start + i..block.start + block.rows()).step_by(block.padded());
+                rows[body..].iter_mut().zip(members).for_each(|(row, member)| *row = member as u32);
             }
+            start += block.rows();
             blocks.push(block);
         }
-        // In the order of the modes, so that their displacements are read in one go.
-        modes.sort_unstable();
-        let rows = modes.into_iter().map(|(_, row)| row).collect();
         // The body's first modes are all kept ones, then the mixed.
-        let all_kept = drum.modes[..drum.kept].iter().all(|mode| mode.at(&place).omega < limit);
-        let below = mixed
-            .filter(|_| all_kept)
-            .map_or(0, |mixed| (0..mixed.len()).take_while(|&k| mixed.at(k, &place).omega < limit).count());
-        let alone = alone(drum, mixed, &place);
-        let (first, modes) = (count as usize, count as usize + below);
-        let waves = waves(drum, mixed, &place, &alone);
-        let heads = heads.into_iter().enumerate().map(|(head, spec)| {
-            let squares: Vec<f64> = alone[first..modes].iter().map(|squares| squares[head]).collect();
-            HeadStretch::new(spec, &columns[head], start, &squares)
-        });
-        let potential = Stretch {
+        let mixed_below = mixed
+            .filter(|_| below == kept.len())
+            .map_or(0, |mixed| (0..mixed.len()).take_while(|&k| mixed.at(k, &middle).omega < limit).count());
+        let entries = blocks.iter().map(|block| block.size * block.padded()).sum();
+        let specs = || bending::heads(drum).map(|head| head.membrane.spec());
+        let longest = |head: &TunedHead| {
+            let shares = orders.iter().map(|order| order.modes.len() * head.order(order.m).1);
+            shares.max().unwrap_or(0)
+        };
+        let bent = Vec::with_capacity(bending::heads(drum).map(longest).max().unwrap_or(0));
+        let struck = &drum.heads.batter.membrane;
+        let finest = struck.modes().iter().map(|mode| mode.zero).fold(0.0, f64::max);
+        let modes = count + mixed_below;
+        let mut potential = Stretch {
             kernels: Kernels::detect(),
+            drum: drum.clone(),
+            mixed: mixed.map(|mixed| (mixed.clone(), mixed_below)),
+            orders,
             blocks,
             rows,
             sorted: zero_row(start),
-            heads: heads.collect(),
-            dent: Some(Dent::new(drum.heads.batter.membrane.spec(), &waves[..modes])),
+            heads: specs().map(|spec| HeadStretch::new(spec, [entries, start, mixed_below])).collect(),
+            dent: Some(Dent::new(struck.spec(), modes, finest / struck.spec().radius)),
             evaluations: 0,
+            bent,
         };
-        let above = alone[modes..].iter().map(|squares| {
-            std::array::from_fn(|head| potential.heads.get(head).map_or(0.0, |it| it.area * squares[head]))
-        });
-        let above = above.collect();
-        StretchModel { above, potential, modes }
+        potential.follow(&place);
+        let simple = kept[below..]
+            .iter()
+            .flat_map(|mode| std::iter::repeat_n(Bending::of(drum, mode, &place), members(mode.m)));
+        let mixtures =
+            mixed.into_iter().flat_map(|mixed| (mixed_below..mixed.len()).map(|k| mixed.bending(k, &place)));
+        let areas: Vec<f64> = specs().map(MembraneSpec::area).collect();
+        let by_tension = |bending: Bending| {
+            std::array::from_fn(|head| areas.get(head).map_or(0.0, |area| area * bending.squares[head]))
+        };
+        StretchModel { above: simple.chain(mixtures).map(by_tension).collect(), potential, modes }
     }
-}
-
-/// The heads, the struck one first.
-fn heads(drum: &DrumModes) -> Vec<&MembraneSpec> {
-    let resonant = drum.heads.resonant.as_ref();
-    [Some(&drum.heads.batter), resonant].into_iter().flatten().map(|head| head.membrane.spec()).collect()
-}
-
-/// Shares of a drum's mode in those of the heads, `[head]`, and the wavenumbers of these, 1/m.
-fn shares(drum: &DrumModes, mode: usize, place: &PitchPosition) -> [Vec<(f64, f64)>; HEADS] {
-    let mode = &drum.modes[mode];
-    let (_, near) = drum.heads.batter.order(mode.m);
-    let shares = |head: &TunedHead, before: usize| -> Vec<(f64, f64)> {
-        let (first, count) = head.order(mode.m);
-        let modes = &head.membrane.modes()[first..first + count];
-        let wave = |zero: f64| zero / head.membrane.spec().radius;
-        modes.iter().enumerate().map(|(i, bare)| (mode.share(before + i, place), wave(bare.zero))).collect()
-    };
-    let resonant = drum.heads.resonant.as_ref().map_or_else(Vec::new, |head| shares(head, near));
-    [shares(&drum.heads.batter, 0), resonant]
-}
-
-/// Shares of a drum's mode times the wavenumbers, 1/m, by head.
-fn bent(drum: &DrumModes, mode: usize, place: &PitchPosition) -> [Vec<f64>; HEADS] {
-    shares(drum, mode, place).map(|shares| shares.into_iter().map(|(share, wave)| share * wave).collect())
-}
-
-/// `S` of each mode of the body by itself, 1/m2, `[mode][head]`.
-fn alone(drum: &DrumModes, mixed: Option<&MixedModes>, place: &PitchPosition) -> Vec<[f64; HEADS]> {
-    of_body(drum, mixed, |mode| bent(drum, mode, place).map(|bent| bent.iter().map(|a| a * a).sum::<f64>()))
-}
-
-/// The wavenumber of each mode of the body on the struck head, times its radius; `alone` as [`alone`] gives it.
-fn waves(
-    drum: &DrumModes,
-    mixed: Option<&MixedModes>,
-    place: &PitchPosition,
-    alone: &[[f64; HEADS]],
-) -> Vec<f64> {
-    let squares = |shares: Vec<(f64, f64)>| shares.iter().map(|(share, _)| share * share).sum::<f64>();
-    let held = of_body(drum, mixed, |mode| shares(drum, mode, place).map(squares));
-    let radius = drum.heads.batter.membrane.spec().radius;
-    let wave =
-        |(s, held): (&[f64; HEADS], [f64; HEADS])| if held[0] > 0.0 { (s[0] / held[0]).sqrt() } else { 0.0 };
-    alone.iter().zip(held).map(|both| radius * wave(both)).collect()
-}
-
-/// What each mode of the body has by head, in any unit, from what the drum's pairs have: of mixed ones the mean by their shares.
-fn of_body(
-    drum: &DrumModes,
-    mixed: Option<&MixedModes>,
-    of_pair: impl Fn(usize) -> [f64; HEADS],
-) -> Vec<[f64; HEADS]> {
-    let kept = mixed.map_or(drum.modes.len(), |_| drum.kept);
-    let pairs: Vec<[f64; HEADS]> = (0..drum.modes.len()).map(of_pair).collect();
-    let simple = (0..kept).flat_map(|pair| {
-        std::iter::repeat_n(pairs[pair], Splitting::ROUND.members(drum.modes[pair].m, 0).count())
-    });
-    let even = mixing::even_modes(drum);
-    let mixture = |mixed: &MixedModes, k: usize| {
-        let mut sum = [0.0; HEADS];
-        for (part, share) in mixed.mixture.parts(k) {
-            let of_pair = pairs[even[part].pair];
-            sum.iter_mut().zip(of_pair).for_each(|(sum, of_pair)| *sum += share * share * of_pair);
-        }
-        sum
-    };
-    let mixed = mixed.into_iter().flat_map(|mixed| (0..mixed.len()).map(move |k| mixture(mixed, k)));
-    simple.chain(mixed).collect()
 }
 
 /// `A E h / (16 (1 - nu))`, J.
@@ -282,17 +280,15 @@ fn energy_factor(spec: &MembraneSpec) -> f64 {
 
 impl Potential for Stretch {
     fn evaluate(&mut self, displacement: &[f32], gradient: &mut [f32]) -> Evaluation {
-        for (&row, &q) in self.rows.iter().zip(displacement) {
-            self.sorted[row as usize] = q;
-        }
         let count = self.rows.len();
-        let rest = &displacement[count..];
+        let rest = self.sort(displacement);
         gradient.fill(0.0);
         self.evaluations += 1;
         let mut sum = 0.0;
         for head in &mut self.heads {
-            let (energy, slope) = head.evaluate(self.kernels, &self.blocks, &self.sorted, rest);
+            let (energy, slope) = head.energy(self.kernels, &self.blocks, &self.sorted, rest);
             sum += energy;
+            head.tension += 2.0 * slope / head.area;
             let factor = 2.0 * slope as f32;
             for (gradient, &row) in gradient.iter_mut().zip(&self.rows) {
                 *gradient += factor * head.product[row as usize];
@@ -312,6 +308,12 @@ impl Potential for Stretch {
         })
     }
 
+    fn retune(&mut self, pitch_hz: f64, displacement: &[f32]) -> f64 {
+        let before = self.energy(displacement);
+        self.follow(&self.drum.heads.scale.place(pitch_hz));
+        self.energy(displacement) - before
+    }
+
     fn is_convex(&self) -> bool {
         true
     }
@@ -327,94 +329,4 @@ impl Potential for Stretch {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::reference;
-
-    #[test]
-    fn the_gradient_is_that_of_the_energy_below_and_beyond_yield() {
-        let spec = reference::drum("rack-tom");
-        let drum = DrumModes::new(&spec).unwrap();
-        let mixed = MixedModes::new(&drum, &spec.unevenness().unwrap(), |_| 0.0);
-        for mixed in [None, Some(&mixed)] {
-            check(&spec, &drum, mixed);
-        }
-    }
-
-    fn check(spec: &crate::drum::DrumSpec, drum: &DrumModes, mixed: Option<&MixedModes>) {
-        let StretchModel { potential: mut stretch, modes, .. } =
-            StretchModel::new(drum, mixed, spec.pitch_hz);
-        let mut gradient = zero_row(modes);
-        let mut scratch = zero_row(modes);
-        let shapes: Vec<f32> = (0..modes).map(|k| (2.3 * k as f32).cos()).collect();
-        stretch.press(0.3, &shapes, &scratch);
-        for size in [1e-4_f32, 3e-3, 3e-2] {
-            let mut q: Vec<f32> =
-                (0..modes).map(|k| size * (1.7 * k as f32).sin() / (1.0 + k as f32)).collect();
-            stretch.evaluate(&q, &mut gradient);
-            for k in [0, 1, 5, modes / 2] {
-                let (at, step) = (q[k], 3e-3 * size);
-                q[k] = at + step;
-                let up = stretch.evaluate(&q, &mut scratch).energy;
-                q[k] = at - step;
-                let down = stretch.evaluate(&q, &mut scratch).energy;
-                q[k] = at;
-                let slope = (up - down) / f64::from(2.0 * step);
-                let error = (slope - f64::from(gradient[k])).abs();
-                let scale = f64::from(gradient[0].abs().max(gradient[k].abs()));
-                assert!(error < 2e-3 * scale, "{size} {k}: {slope} {}", gradient[k]);
-            }
-        }
-    }
-
-    #[test]
-    fn the_gradient_holds_every_mode_and_the_energy_too() {
-        // Below yield the energy goes with the fourth power of the displacement: by Euler's theorem `grad E . q = 4 E`.
-        let spec = reference::drum("rack-tom");
-        let drum = DrumModes::new(&spec).unwrap();
-        let mixed = MixedModes::new(&drum, &spec.unevenness().unwrap(), |_| 0.0);
-        let StretchModel { potential: mut stretch, modes, .. } =
-            StretchModel::new(&drum, Some(&mixed), spec.pitch_hz);
-        let (mut q, mut gradient) = (zero_row(modes), zero_row(modes));
-        stretch.press(0.2, &vec![1.0; modes], &q);
-        for k in 0..modes {
-            q[k] = 1e-4;
-            let energy = stretch.evaluate(&q[..modes], &mut gradient).energy;
-            let work = f64::from(gradient[k]) * f64::from(q[k]);
-            assert!(energy > 0.0 && (work / (4.0 * energy) - 1.0).abs() < 1e-5, "mode {k}: {work} {energy}");
-            q[k] = 0.0;
-        }
-    }
-
-    #[test]
-    fn modes_that_do_not_stretch_the_heads_stiffen_by_the_whole_of_an_added_tension() {
-        // Of a mode that is a head's alone, tension and the film's bending are all the stiffness there is.
-        let mut spec = reference::drum("rack-tom");
-        spec.batter.modes_to_hz = 3000.0;
-        let drum = DrumModes::new(&spec).unwrap();
-        // Where the drum is worked out: between, shares are blended by themselves.
-        let pitch = drum.heads.scale.pitches()[crate::drum::heads::MIDDLE];
-        let place = drum.heads.scale.place(pitch);
-        let StretchModel { modes: first, above, .. } = StretchModel::new(&drum, None, pitch);
-        let heads = [Some(&drum.heads.batter), drum.heads.resonant.as_ref()].map(Option::unwrap);
-        let members = drum.modes.iter().flat_map(|mode| {
-            let at = mode.at(&place);
-            std::iter::repeat_n(at, Splitting::ROUND.members(mode.m, 0).count())
-        });
-        let mut compared = [0; HEADS];
-        for (mode, above) in members.skip(first).zip(above) {
-            let shares = [mode.batter, mode.resonant];
-            let Some(of) = (0..HEADS).find(|&of| shares[of] > 0.9 && shares[1 - of].abs() < 1e-6) else {
-                continue;
-            };
-            let (head, spec) = (heads[of], heads[of].membrane.spec());
-            let by_tension = above[of] * head.tension(&place);
-            let by_bending = above[of].powi(2) / spec.area() * spec.flexural_rigidity();
-            let stiffness = mode.mass * mode.omega * mode.omega;
-            let off = (by_tension + by_bending) / stiffness - 1.0;
-            assert!(off.abs() < 2e-3, "{off} {mode:?}");
-            compared[of] += 1;
-        }
-        assert!(compared.iter().all(|&modes| modes > 50), "{compared:?}");
-    }
-}
+mod tests;

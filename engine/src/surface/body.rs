@@ -196,6 +196,14 @@ impl StruckBody {
         self.nonlinear_force.iter_mut().for_each(|force| force.press(radius, shapes, &self.sound.modal));
     }
 
+    /// Tunes the potential to a pitch, Hz.
+    ///
+    /// # Real-time
+    /// As [`Potential::retune`].
+    pub(super) fn tune_potential(&mut self, pitch_hz: f64) {
+        self.nonlinear_force.iter_mut().for_each(|force| force.retune(pitch_hz, &self.sound.modal));
+    }
+
     /// Lets energy be carried above the coupled modes. Allocates.
     pub(super) fn set_transport(&mut self, spec: TransportSpec) {
         self.transport = Transport::new(spec, &self.sound.modal, &self.sound.receiver);

@@ -145,3 +145,30 @@ fn mixed_modes_follow_the_pitch_and_have_names_of_their_own() {
         assert!(a.mass > 0.0 && a.sigma > 0.0 && a.batter + a.resonant <= 1.001);
     }
 }
+
+#[test]
+fn a_mixture_bends_the_heads_by_the_squares_of_its_shares() {
+    let drum = tom(900.0);
+    let (even, mixed) = (even_modes(&drum), MixedModes::new(&drum, &FIELD, axis));
+    let pitches = drum.heads.scale.pitches();
+    // At pitches of the table and between two of them, where a mode of the air passes some of the heads'.
+    for (pitch, each, all) in [(MIDDLE, 1e-5, 1e-5), (0, 1e-5, 1e-5), (3, 0.2, 0.02)] {
+        let place = drum.heads.scale.place(pitches[pitch]);
+        let (mut off, mut whole) = (0.0, 0.0);
+        for k in 0..mixed.len() {
+            let mut sums = [0.0; HEADS + 1];
+            for (part, share) in mixed.mixture.parts(k) {
+                let Bending { squares, held } = Bending::of(&drum, &drum.modes[even[part].pair], &place);
+                let parts = [squares[0], squares[1], held];
+                sums.iter_mut().zip(parts).for_each(|(sum, part)| *sum += share * share * part);
+            }
+            let Bending { squares, held } = mixed.bending(k, &place);
+            for (ours, sum) in [squares[0], squares[1], held].into_iter().zip(sums) {
+                assert!((ours - sum).abs() < each * sums[0].max(sums[1]), "{pitch}, {k}: {ours} for {sum}");
+                off += (ours - sum).abs();
+                whole += sum;
+            }
+        }
+        assert!(off < all * whole, "{pitch}: {off} of {whole}");
+    }
+}
