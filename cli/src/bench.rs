@@ -31,7 +31,6 @@ use overhear_engine::modal::simd::Kernels;
 use overhear_engine::modal::simd::level::{self, InstructionSet};
 use overhear_engine::piece::{Piece, Quality};
 use overhear_engine::slot::SLOTS;
-use rayon::prelude::*;
 
 use crate::progress::Progress;
 use crate::{bad_input, settings};
@@ -211,12 +210,7 @@ fn build(document: &KitDocument, rate: f64) -> Result<([f64; 2], Vec<Piece>)> {
     let (start, start_cpu) = (Instant::now(), ProcessTime::now());
     let usual = |index| default_value(index, &document.kit);
     let plan = BuildPlan::of(Arc::new(document.clone()), usual, Pace::RealTime);
-    let make = |slot| Some(Piece::new(slot, &plan.build(slot)?, &plan.options(rate)));
-    // A bridge hands them out in their order, the longest first.
-    let slots = plan.longest_first().into_iter().par_bridge();
-    let kit: Vec<_> = builders.install(|| slots.filter_map(make).collect());
+    let kit = builders.install(|| plan.pieces(rate));
     let seconds = [start.elapsed(), start_cpu.elapsed()].map(|time| time.as_secs_f64());
-    let kit: Result<Vec<Piece>> =
-        kit.into_iter().map(|piece| piece.map_err(|error| bad_input!("{error}"))).collect();
-    Ok((seconds, kit?))
+    Ok((seconds, kit.map_err(|error| bad_input!("{error}"))?))
 }

@@ -94,6 +94,10 @@ fn refused<Invocation: Parser>(refusal: &clap::Error) -> ExitCode {
 /// # Errors
 /// Whatever stops it; [`BadInput`](crate::error::BadInput) for what it cannot use.
 pub fn dispatch(command: Command) -> Result<()> {
+    // Whatever builds pieces finds what earlier commands and the plugin have built. `bench` measures builds, and has a folder of its own.
+    if matches!(command, Command::Render(_) | Command::Hear(_) | Command::Modes(_)) {
+        overhear::cache::provide();
+    }
     match command {
         Command::Render(arguments) => render(arguments),
         Command::Hear(arguments) => hear(arguments),

@@ -170,3 +170,30 @@ fn help_is_printed_for_every_command() {
         assert!(help.contains("Usage: overhear") && !help.contains("docs/"), "{help}");
     }
 }
+
+/// Other platforms do not take the place of their cache from the environment.
+#[cfg(target_os = "linux")]
+#[test]
+fn what_a_command_has_built_the_next_one_finds() {
+    let folder = Folder::new("cache");
+    fs::write(folder.0.join("song.mid"), SONG).unwrap();
+    let cache = folder.0.join("cache");
+    let render = |out: &str| {
+        let mut command = folder.program(&["render", "song.mid", "-o", out, "--tail", "0"]);
+        let output = command.env("XDG_CACHE_HOME", &cache).output().expect("the program starts");
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        fs::read(folder.0.join(out)).unwrap()
+    };
+    let kept = || {
+        let entries = fs::read_dir(cache.join("overhear")).expect("a folder");
+        let file = |entry: fs::DirEntry| (entry.file_name(), entry.metadata().unwrap().modified().unwrap());
+        let mut files: Vec<_> = entries.map(|entry| file(entry.unwrap())).collect();
+        files.sort();
+        files
+    };
+    let sound = render("first.wav");
+    let files = kept();
+    assert!(files.len() > 9, "{} files for nine pieces", files.len());
+    assert!(render("second.wav") == sound, "what is found sounds different");
+    assert_eq!(kept(), files, "something was built again");
+}

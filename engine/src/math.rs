@@ -8,4 +8,5 @@ pub mod eigen;
 pub mod jacobi;
 pub mod quadrature;
 pub mod roots;
+pub mod sums;
 pub mod trigonometry;

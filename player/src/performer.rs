@@ -118,15 +118,14 @@ impl Performer {
         self.playing.document()
     }
 
-    /// Builds and installs every piece of the kit as a host that plays or bounces has it, on this thread. Takes seconds.
+    /// Builds and installs every piece of the kit as a host that plays or bounces has it; see [`BuildPlan::pieces`].
     ///
     /// # Errors
     /// [`SpecError`] if the sample rate (Hz) is out of range.
     pub fn install_kit(&mut self, sample_rate: f64, pace: Pace) -> Result<(), SpecError> {
         let plan = BuildPlan::of(self.playing.document().clone(), |index| self.values[index], pace);
-        for slot in Slot::ALL {
-            let Some(build) = plan.build(slot) else { continue };
-            self.install(Box::new(Piece::new(slot, &build, &plan.options(sample_rate))?));
+        for piece in plan.pieces(sample_rate)? {
+            self.install(Box::new(piece));
         }
         Ok(())
     }

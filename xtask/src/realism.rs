@@ -63,6 +63,7 @@ impl RealismArguments {
 /// a sound that cannot be written.
 pub fn run(arguments: RealismArguments) -> Result<()> {
     let request = arguments.request()?;
+    overhear::cache::provide();
     let _folder = arguments.wav.as_deref().map(Folder::new).transpose()?;
     let progress = Mutex::new(Progress::new("realism", request.strokes() as u64));
     let report = realism::run_and_show(&request, &|job, heard| {

@@ -9,8 +9,6 @@ use overhear::building::{BuildPlan, Pace};
 use overhear::parameters::{self, parameters};
 use overhear::performer::{Performer, velocity_from_midi};
 use overhear::presets::{Library, Program, Programs};
-use overhear_engine::piece::Piece;
-use overhear_engine::slot::Slot;
 
 use super::role::{Player, Setup};
 use crate::bad_input;
@@ -49,10 +47,7 @@ impl EnginePlayer {
             performer.parameter(index).unwrap_or_else(usual)
         };
         let plan = BuildPlan::of(Arc::new(setup.kit.clone()), value, pace);
-        for slot in Slot::ALL {
-            let Some(build) = plan.build(slot) else { continue };
-            let piece =
-                Piece::new(slot, &build, &plan.options(rate)).map_err(|error| bad_input!("{error}"))?;
+        for piece in plan.pieces(rate).map_err(|error| bad_input!("{error}"))? {
             performer.install(Box::new(piece));
         }
         performer.attach(plan.worker_plan().attach().context("the system starts no more threads")?);

@@ -8,12 +8,15 @@
 //! What mixed modes lose to the air is the mean of what the plain ones lose, weighted by their shares: what plain modes of
 //! one order take from each other by radiating together is left out.
 
+use std::cell::RefCell;
 use std::ops::Range;
 
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
 use crate::math::quadrature;
+use crate::math::sums::sum_of_products;
+use crate::modal::simd::Kernels;
 use crate::mode::Member;
 use crate::mode_mixture::ModeMixture;
 use crate::mode_mixture::blocks::{self, around, named};
@@ -83,13 +86,11 @@ impl HammeredModes {
 struct Problem<'a> {
     plain: &'a [PlainMode],
     field: ThicknessField,
-    weights: Vec<f64>,
-    /// `t` and `t^3`, `[r]`.
-    thickness: Vec<[f64; 2]>,
+    /// Of each node of the radius its weight times `3 t^3` and the squared frequency of the flat plate at wavenumber 1 (1/s2), and times `t`.
+    bending: Vec<f64>,
+    metal: Vec<f64>,
     /// `1 - nu`.
     rest: f64,
-    /// The squared frequency of the flat plate at wavenumber 1, 1/s2.
-    unit: f64,
     /// `[shell]` of those that are mixed.
     bent: Vec<Option<Bent>>,
 }
@@ -107,9 +108,11 @@ impl<'a> Problem<'a> {
         let rule = quadrature::shared_unit((0.8 * finest + 12.0 / spec.correlation) as usize + 16);
         let weights: Vec<f64> =
             rule.nodes.iter().zip(&rule.weights).map(|(r, weight)| 2.0 * r * weight).collect();
-        let thickness: Vec<[f64; 2]> =
-            rule.nodes.iter().map(|&r| plate.spec.relative_thickness(r)).map(|t| [t, t.powi(3)]).collect();
-        let metal: Vec<f64> = weights.iter().zip(&thickness).map(|(weight, t)| weight * t[0]).collect();
+        let thickness = || rule.nodes.iter().map(|&r| plate.spec.relative_thickness(r));
+        let metal: Vec<f64> = weights.iter().zip(thickness()).map(|(weight, t)| weight * t).collect();
+        let unit = plate.spec.flat_omega().powi(2);
+        let bending =
+            weights.iter().zip(thickness()).map(|(weight, t)| 3.0 * unit * weight * t.powi(3)).collect();
         let mut bent: Vec<Option<Bent>> = vec![None; plate.shells.len()];
         for shell in shells() {
             bent[shell].get_or_insert_with(|| plate.bent(tables, &plate.shells[shell], &rule.nodes));
@@ -117,10 +120,9 @@ impl<'a> Problem<'a> {
         Problem {
             plain,
             field: ThicknessField::new(spec, &rule.nodes, &metal),
-            weights,
-            thickness,
+            bending,
+            metal,
             rest: 1.0 - plate.spec.poisson_ratio,
-            unit: plate.spec.flat_omega().powi(2),
             bent,
         }
     }
@@ -134,51 +136,54 @@ impl<'a> Problem<'a> {
 
     /// What hammering adds to the stiffness among some modes, 1/s2.
     fn couplings(&self, modes: Range<usize>) -> DMatrix<f64> {
-        let first = modes.start;
-        let mut couplings = DMatrix::zeros(modes.len(), modes.len());
-        // The two members of a pair have the same radial parts: what belongs to two pairs is worked out once.
-        let mut known: Option<([usize; 2], PairIntegrals)> = None;
-        for i in 0..modes.len() {
-            for j in 0..=i {
-                let (a, b) = (first + i, first + j);
-                let shells = [a, b].map(|k| self.plain[k].shell);
-                let integrals = match known.take() {
-                    Some((of, integrals)) if of == shells => integrals,
-                    _ => self.pair(a, b),
-                };
-                let coupling = self.coupling(a, b, &integrals);
-                known = Some((shells, integrals));
-                couplings[(i, j)] = coupling;
-                couplings[(j, i)] = coupling;
-            }
-        }
-        couplings
+        let pair_of = |k: usize| self.plain[k].shell;
+        let rows = RefCell::new([vec![0.0; self.bending.len()], vec![0.0; self.bending.len()]]);
+        let integrals = |i, j| self.pair(i, j, &mut rows.borrow_mut());
+        blocks::among(modes, pair_of, integrals, |i, j, integrals| self.coupling(i, j, integrals))
     }
 
-    /// The radial integrals of the pairs of two modes.
-    fn pair(&self, i: usize, j: usize) -> PairIntegrals {
+    /// The radial integrals of the pairs of two modes; the rows, a number for each node, are for its own use.
+    fn pair(&self, i: usize, j: usize, [even, twisted]: &mut [Vec<f64>; 2]) -> PairIntegrals {
         let [one, other] = [i, j].map(|k| &self.plain[k]);
         let (Some(p), Some(q)) = (&self.bent[one.shell], &self.bent[other.shell]) else {
             return PairIntegrals::default();
         };
         let mass = one.omega * other.omega;
+        let (rest, harmonics) = (self.rest, &self.field.harmonics);
         let orders = [one.m.abs_diff(other.m), one.m + other.m].map(|l| l as usize);
-        let mut integrals = PairIntegrals::default();
-        for (at, (&weight, &[t, cube])) in self.weights.iter().zip(&self.thickness).enumerate() {
-            let bending = 3.0 * self.unit * weight * cube;
-            let crossed = p.radial[at] * q.around[at] + p.around[at] * q.radial[at];
-            let even = bending * (p.laplacian(at) * q.laplacian(at) - self.rest * crossed)
-                - mass * weight * t * p.value[at] * q.value[at];
-            let twisted = bending * 2.0 * self.rest * p.twist[at] * q.twist[at];
-            for (l, sums) in orders.into_iter().zip(&mut integrals.0) {
-                let Some(harmonic) = self.field.harmonics.get(l) else { continue };
-                for (part, sums) in sums.iter_mut().enumerate() {
-                    sums[0] += even * harmonic[part][at];
-                    sums[1] += twisted * harmonic[part][at];
+        Kernels::detect().vectorized(
+            #[inline(always)]
+            || {
+                let nodes = even.len();
+                let [p, q] = [p, q].map(|bent| {
+                    let Bent { value, radial, around, twist } = bent;
+                    [&value[..nodes], &radial[..nodes], &around[..nodes], &twist[..nodes]]
+                });
+                let ([value, radial, around, twist], [other_value, other_radial, other_around, other_twist]) =
+                    (p, q);
+                let (bending, metal) = (&self.bending[..nodes], &self.metal[..nodes]);
+                let (even, twisted) = (&mut even[..nodes], &mut twisted[..nodes]);
+                // A plain loop: what an iterator calls would be compiled for the baseline.
+                for at in 0..nodes {
+                    let crossed = radial[at] * other_around[at] + around[at] * other_radial[at];
+                    let spread = (radial[at] + around[at]) * (other_radial[at] + other_around[at]);
+                    even[at] = bending[at] * (spread - rest * crossed)
+                        - mass * metal[at] * value[at] * other_value[at];
+                    twisted[at] = bending[at] * 2.0 * rest * twist[at] * other_twist[at];
                 }
-            }
-        }
-        integrals
+                let mut integrals = PairIntegrals::default();
+                for (l, sums) in orders.into_iter().zip(&mut integrals.0) {
+                    let Some(harmonic) = harmonics.get(l) else { continue };
+                    for (part, sums) in sums.iter_mut().enumerate() {
+                        *sums = [&*even, &*twisted].map(
+                            #[inline(always)]
+                            |row| sum_of_products(row, &harmonic[part]),
+                        );
+                    }
+                }
+                integrals
+            },
+        )
     }
 
     /// What hammering adds to the stiffness between two modes, 1/s2.

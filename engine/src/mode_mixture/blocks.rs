@@ -63,6 +63,35 @@ fn rotate(low: usize, stiffness: DMatrix<f64>, squares: &mut [f64], rows: &mut [
     }
 }
 
+/// What is added to the stiffness among some modes, 1/s2: `coupling` of two of them and of what their pairs have `shared`. The members of a
+/// pair stand next to each other mostly, and what two pairs share is worked out once for all four.
+pub fn among<T: Copy>(
+    modes: Range<usize>,
+    pair_of: impl Fn(usize) -> usize,
+    shared: impl Fn(usize, usize) -> T,
+    coupling: impl Fn(usize, usize, &T) -> f64,
+) -> DMatrix<f64> {
+    let mut matrix = DMatrix::zeros(modes.len(), modes.len());
+    let follows_its_twin = |k: usize| k > modes.start && pair_of(k) == pair_of(k - 1);
+    // Of the pair of mode `i` with those of all modes up to it.
+    let mut row: Vec<T> = Vec::with_capacity(modes.len());
+    for (at, i) in modes.clone().enumerate() {
+        if !follows_its_twin(i) {
+            row.clear();
+        }
+        for j in modes.start + row.len()..=i {
+            let twin = row.last().copied().filter(|_| follows_its_twin(j));
+            row.push(twin.unwrap_or_else(|| shared(i, j)));
+        }
+        for (to, (j, shared)) in (modes.start..=i).zip(&row).enumerate() {
+            let coupling = coupling(i, j, shared);
+            matrix[(at, to)] = coupling;
+            matrix[(to, at)] = coupling;
+        }
+    }
+    matrix
+}
+
 /// Means around the circle of two shapes `a cos(m theta) + b sin(m theta)` with `cos(l theta)` and `sin(l theta)`, for the
 /// `l` for which they are not zero.
 pub fn around((m, a): (u32, [f64; 2]), (n, b): (u32, [f64; 2])) -> impl Iterator<Item = (u32, [f64; 2])> {
@@ -147,5 +176,25 @@ mod tests {
             assert!((shift - want).abs() < 1e-5, "mode {k}: {shift} {want}");
         }
         assert_eq!(named(&rows), (0..20).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn what_two_pairs_share_is_worked_out_once_for_the_twins_that_stand_together() {
+        // Pairs 3, 3, 5, 4, 4, 5: the last twin stands apart.
+        let pairs = [3, 3, 5, 4, 4, 5];
+        let worked_out = std::cell::Cell::new(0);
+        let shared = |i: usize, j: usize| {
+            worked_out.set(worked_out.get() + 1);
+            pairs[i] * pairs[j]
+        };
+        let matrix = among(0..6, |k| pairs[k], shared, |i, j, product| (product * (i + 1) * (j + 1)) as f64);
+        for (i, one) in pairs.iter().enumerate() {
+            for (j, other) in pairs.iter().enumerate() {
+                assert_eq!(matrix[(i, j)], (one * other * (i + 1) * (j + 1)) as f64, "{i} {j}");
+            }
+        }
+        // Of four runs of twins each with itself and those before it.
+        assert_eq!(worked_out.get(), 10);
+        assert_eq!(among(2..5, |k| pairs[k], shared, |_, _, product| *product as f64)[(2, 0)], 20.0);
     }
 }

@@ -21,6 +21,10 @@ const BUILDING: &[(&str, &[&str])] = &[("demo", &["--song", "song.mid"]), ("inst
 /// written to another folder than that of the sources, and [one of its pages](sampled_page) is measured.
 const MEASURING: &[(&str, &[&str])] = &[("bench", &["--runs", "1"]), ("report", &["-o", "report"])];
 
+/// Notes of the song, which has the first once and its number nowhere else.
+const CRASH: u8 = 49;
+const KICK: u8 = 36;
+
 /// What runs this.
 const THIS: &str = "test";
 
@@ -62,10 +66,13 @@ fn of(name: &str) -> Vec<String> {
 #[test]
 fn the_short_commands_do_what_it_says() {
     let folder = Folder::new("readme");
-    folder.file("song.mid", SONG);
+    // Rendered until it has died away, at the highest tier: the crash would take a minute of each file.
+    let drums = SONG.iter().map(|&byte| if byte == CRASH { KICK } else { byte });
+    let drums: Vec<u8> = drums.collect();
     fs::create_dir(folder.0.join("songs")).unwrap();
-    folder.file("songs/one.mid", SONG);
-    folder.file("songs/two.mid", SONG);
+    for file in ["song.mid", "songs/one.mid", "songs/two.mid"] {
+        folder.file(file, &drums);
+    }
     for line in SHORT.iter().flat_map(|name| of(name)) {
         folder.succeed(&line.split_whitespace().collect::<Vec<_>>());
     }

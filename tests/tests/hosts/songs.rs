@@ -9,7 +9,7 @@ use overhear_cli::song::Song;
 
 use crate::score::{Sound, assert_same, peak};
 use crate::vst3::messages_through_pedalboard;
-use crate::{alone, bundle_path, instance};
+use crate::{alone, bundle_path, instance, setting};
 
 const RATE: u32 = 48_000;
 
@@ -89,13 +89,18 @@ fn by_hand(messages: &[(u8, [u8; 3])]) -> Vec<Message> {
 
 /// What `render` plays of a file.
 fn rendered(file: &[u8], source: &Source, blocks: Blocks) -> Sound {
+    rendered_with(file, source, blocks, Vec::new())
+}
+
+/// What it plays with some parameters set.
+fn rendered_with(file: &[u8], source: &Source, blocks: Blocks, settings: Vec<(usize, f32)>) -> Sound {
     let song = Song::parse(file).unwrap();
     let at = |event: &overhear_cli::song::Event| Message {
         sample: song.sample(event.time, RATE),
         bytes: event.bytes,
     };
     let take = Take { messages: song.events.iter().map(at).collect(), frames: FRAMES as u64 };
-    let setup = Setup { rate: RATE, kit: KitDocument::standard(), settings: Vec::new() };
+    let setup = Setup { rate: RATE, kit: KitDocument::standard(), settings };
     let mut sound = [Vec::new(), Vec::new()];
     let played = source.perform(&setup, |player| {
         take.play(player, blocks, |left, right| {
@@ -148,21 +153,25 @@ fn a_song_with_controllers_pressure_programs_and_tempo_is_rendered_as_a_host_pla
 #[test]
 fn every_kind_of_message_in_a_song_is_heard() {
     let _turn = alone();
-    let whole = rendered(&file(MESSAGES), &Source::Engine, Blocks::Fixed(512));
+    let played = |file: &[u8]| {
+        let settings = vec![setting("offline_quality=standard")];
+        rendered_with(file, &Source::Engine, Blocks::Fixed(512), settings)
+    };
+    let whole = played(&file(MESSAGES));
     for without in [4, 16, 88] {
         // Left out, but not its time.
         let other = |(delta, bytes): (u8, [u8; 3])| {
             let is_it = bytes[0] & 0xF0 == 0xB0 && bytes[1] == without;
             (delta, if is_it { [0xB9, 1, 0] } else { bytes })
         };
-        let sound = rendered(&file(MESSAGES.map(other)), &Source::Engine, Blocks::Fixed(512));
+        let sound = played(&file(MESSAGES.map(other)));
         assert!(sound != whole, "controller {without} changes nothing");
     }
     for kind in [0xA0, 0xC0] {
         let other = |(delta, bytes): (u8, [u8; 3])| {
             (delta, if bytes[0] & 0xF0 == kind { [0xB9, 1, 0] } else { bytes })
         };
-        let sound = rendered(&file(MESSAGES.map(other)), &Source::Engine, Blocks::Fixed(512));
+        let sound = played(&file(MESSAGES.map(other)));
         assert!(sound != whole, "messages {kind:x} change nothing");
     }
 }
