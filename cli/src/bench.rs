@@ -210,7 +210,7 @@ fn build(document: &KitDocument, rate: f64) -> Result<([f64; 2], Vec<Piece>)> {
     let (start, start_cpu) = (Instant::now(), ProcessTime::now());
     let usual = |index| default_value(index, &document.kit);
     let plan = BuildPlan::of(Arc::new(document.clone()), usual, Pace::RealTime);
-    let kit = builders.install(|| plan.pieces(rate));
+    let kit = builders.install(|| plan.pieces_side_by_side(rate));
     let seconds = [start.elapsed(), start_cpu.elapsed()].map(|time| time.as_secs_f64());
     Ok((seconds, kit.map_err(|error| bad_input!("{error}"))?))
 }

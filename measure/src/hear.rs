@@ -16,7 +16,6 @@ use overhear_engine::piece::{BuildOptions, Piece};
 use overhear_engine::slot::Slot;
 use overhear_engine::snapshot::{FIELD_MODES, PieceSnapshot};
 use overhear_engine::strike::{Strike, Striker};
-use rayon::prelude::*;
 
 use crate::analysis::Motion;
 use crate::bad_input;
@@ -65,10 +64,10 @@ pub fn striker(name: &str) -> Result<Striker> {
 /// [`BadInput`](crate::error::BadInput) if a piece cannot be built so.
 pub fn stand(spec: &KitSpec, options: &BuildOptions, settings: &[PieceSetting]) -> Result<Kit> {
     let mut kit = Kit::new(options.sample_rate, spec);
-    let make = |slot| Some(Piece::new(slot, &spec.build(slot)?, options));
-    let made: Vec<_> = Slot::ALL.into_par_iter().filter_map(make).collect();
-    for piece in made {
-        kit.install(Box::new(piece.map_err(|error| bad_input!("{error}"))?));
+    for slot in Slot::ALL {
+        let Some(build) = spec.build(slot) else { continue };
+        let piece = Piece::new(slot, &build, options).map_err(|error| bad_input!("{error}"))?;
+        kit.install(Box::new(piece));
     }
     for setting in settings {
         setting.apply(&mut kit);

@@ -134,12 +134,28 @@ impl BuildPlan {
         self.kit.kit.build(slot)
     }
 
-    /// Builds every piece at a sample rate (Hz), in the order of the slots, on the threads of the pool that this is called in. Takes
-    /// seconds, from the [cache folder](crate::cache) a tenth of one.
+    /// Builds every piece at a sample rate (Hz), in the order of the slots. Takes seconds, from the [cache folder](crate::cache) a tenth of
+    /// one.
     ///
     /// # Errors
     /// [`SpecError`] of the first piece that cannot be built at that rate.
     pub fn pieces(&self, sample_rate: f64) -> Result<Vec<Piece>, SpecError> {
+        // A worker of a pool that waited for others here would begin another of its jobs meanwhile, and hold one kit more.
+        if rayon::current_thread_index().is_none() {
+            return self.pieces_side_by_side(sample_rate);
+        }
+        let options = self.options(sample_rate);
+        Slot::ALL
+            .into_iter()
+            .filter_map(|slot| Some(Piece::new(slot, &self.build(slot)?, &options)))
+            .collect()
+    }
+
+    /// The same at a sample rate (Hz), on all threads of the pool that it is called in.
+    ///
+    /// # Errors
+    /// As [`pieces`](Self::pieces).
+    pub fn pieces_side_by_side(&self, sample_rate: f64) -> Result<Vec<Piece>, SpecError> {
         let options = self.options(sample_rate);
         let make = |slot| Some((slot, Piece::new(slot, &self.build(slot)?, &options)));
         // A bridge hands them out in their order, the longest first.
@@ -232,5 +248,20 @@ mod tests {
             names,
             ["kick", "timpani", "floor-tom", "ride", "snare", "hi-hat", "rack-tom", "crash", "splash"]
         );
+    }
+
+    #[test]
+    fn pieces_come_in_the_order_of_the_slots_wherever_they_are_built() {
+        let mut document = KitDocument::standard();
+        document.kit.pieces.retain(|piece| ["splash", "rack-tom"].contains(&&*piece.name));
+        let kit = Arc::new(document);
+        let values = parameters().map(|parameter| parameter.default);
+        let plan = BuildPlan::of(kit.clone(), |index| values[index], Pace::RealTime);
+        let slots: Vec<Slot> = kit.kit.slots().map(|(slot, _)| slot).collect();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().unwrap();
+        for pieces in [plan.pieces(44_100.0), pool.install(|| plan.pieces(44_100.0))] {
+            assert_eq!(pieces.unwrap().iter().map(Piece::slot).collect::<Vec<_>>(), slots);
+        }
+        assert!(plan.pieces(f64::NAN).is_err());
     }
 }
