@@ -438,7 +438,8 @@ impl NonlinearForce {
         if let Some(window) = self.schedule.count(energy, kinetic, self.dt) {
             self.safety.look(&window);
             if window.rests {
-                self.scalar.psi = 0.0;
+                // With `C`, which would count as missing until the block ends.
+                self.scalar = Scalar::REST;
                 self.input.shape_mut().fill(0.0);
             }
         }
