@@ -1,6 +1,7 @@
 //! The mathematics the bodies are built from: cylinder functions, polynomials, quadrature, roots, eigenproblems, interpolation.
 //!
-//! Everything here runs while a piece is built or, the interpolation and the sines, once a block or a stroke; in `f64`; nothing runs per sample.
+//! Everything here runs while a piece is built or, the interpolation, the sines and the sums, once a block or a stroke; in `f64`, the sums in `f32` too;
+//! nothing runs per sample.
 
 pub mod bessel;
 pub mod cubic;

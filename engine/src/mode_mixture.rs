@@ -9,6 +9,8 @@ use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
+use crate::math::sums::sum_of_products;
+
 /// The run of coefficients of one mixed mode.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 struct Run {
@@ -164,21 +166,6 @@ fn sum_of_rows<const N: usize>(coefs: &[f32], rows: &[[f32; N]]) -> [f32; N] {
         a[i] = (a[i] + b[i]) + (c[i] + d[i]);
     }
     a
-}
-
-/// `sum a b` in eight partial sums, which the compiler keeps in vector registers.
-#[inline(always)]
-fn sum_of_products(a: &[f32], b: &[f32]) -> f32 {
-    let mut sums = [0.0_f32; 8];
-    let (a, a_rest) = a.as_chunks::<8>();
-    let (b, b_rest) = b.as_chunks::<8>();
-    for (a, b) in a.iter().zip(b) {
-        for i in 0..8 {
-            sums[i] += a[i] * b[i];
-        }
-    }
-    let rest: f32 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
-    sums.iter().sum::<f32>() + rest
 }
 
 #[cfg(test)]

@@ -134,8 +134,8 @@ impl BuildPlan {
         self.kit.kit.build(slot)
     }
 
-    /// Builds every piece at a sample rate (Hz), in the order of the slots. Takes seconds, from the [cache folder](crate::cache) a tenth of
-    /// one.
+    /// Builds every piece at a sample rate (Hz), in the order of the slots: side by side, but on this thread alone if it is one of a
+    /// pool. Takes seconds, from the [cache folder](crate::cache) a tenth of one.
     ///
     /// # Errors
     /// [`SpecError`] of the first piece that cannot be built at that rate.

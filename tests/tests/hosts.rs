@@ -87,8 +87,6 @@ fn as_hosts_have_it((index, value): (usize, f32)) -> (u32, f64) {
 /// without it, as it should on a machine that cannot keep up.
 fn alone() -> MutexGuard<'static, ()> {
     static TURN: Mutex<()> = Mutex::new(());
-    // The engine that a plugin is compared with finds what the plugin has built.
-    overhear::cache::provide();
     TURN.lock().unwrap_or_else(PoisonError::into_inner)
 }
 

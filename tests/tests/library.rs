@@ -1,4 +1,4 @@
-//! The library: its instruments sound and fall silent, and its whole kits play without a clipped sample.
+//! The library: its instruments sound and fall silent, and its whole kits play without a clipped sample; some of each in a run.
 
 use overhear::library::{self, Instrument, WholeKit};
 use overhear_engine::kit_spec::Kind;

@@ -175,10 +175,8 @@ impl<'a> Problem<'a> {
                 for (l, sums) in orders.into_iter().zip(&mut integrals.0) {
                     let Some(harmonic) = harmonics.get(l) else { continue };
                     for (part, sums) in sums.iter_mut().enumerate() {
-                        *sums = [&*even, &*twisted].map(
-                            #[inline(always)]
-                            |row| sum_of_products(row, &harmonic[part]),
-                        );
+                        let along = &harmonic[part];
+                        *sums = [sum_of_products(even, along), sum_of_products(twisted, along)];
                     }
                 }
                 integrals

@@ -1,22 +1,30 @@
 //! Sums in a fixed order, which vector registers hold: of the same bits with every instruction set.
 
+use std::iter::Sum;
+use std::ops::{AddAssign, Mul};
+
 /// Partial sums.
 const LANES: usize = 8;
 
 /// `sum a b`, in the units of both, over as many as the shorter row has.
 #[inline(always)]
-pub fn sum_of_products(a: &[f64], b: &[f64]) -> f64 {
+pub fn sum_of_products<T>(a: &[T], b: &[T]) -> T
+where
+    T: Copy + Default + AddAssign + Mul<Output = T> + Sum,
+{
     let length = a.len().min(b.len());
     let (a, a_rest) = a[..length].as_chunks::<LANES>();
     let (b, b_rest) = b[..length].as_chunks::<LANES>();
-    let mut sums = [0.0; LANES];
+    let mut sums = [T::default(); LANES];
     for (a, b) in a.iter().zip(b) {
         for i in 0..LANES {
             sums[i] += a[i] * b[i];
         }
     }
-    let rest: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
-    sums.iter().sum::<f64>() + rest
+    let rest = a_rest.iter().zip(b_rest).map(|(&a, &b)| a * b).sum::<T>();
+    let mut sum = sums.into_iter().sum::<T>();
+    sum += rest;
+    sum
 }
 
 #[cfg(test)]

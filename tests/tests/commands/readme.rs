@@ -21,7 +21,7 @@ const BUILDING: &[(&str, &[&str])] = &[("demo", &["--song", "song.mid"]), ("inst
 /// written to another folder than that of the sources, and [one of its pages](sampled_page) is measured.
 const MEASURING: &[(&str, &[&str])] = &[("bench", &["--runs", "1"]), ("report", &["-o", "report"])];
 
-/// Notes of the song, which has the first once and its number nowhere else.
+/// Note numbers in the song; the crash's is the value of no other byte.
 const CRASH: u8 = 49;
 const KICK: u8 = 36;
 

@@ -32,7 +32,7 @@ pub const TARGETS: [(&str, Tier, &str); 38] = [
     ("instruction_sets", Tier::Whole, "every piece on each instruction set"),
     ("cache", Tier::Whole, "builds kits anew with harmed caches"),
     ("kit", Tier::Quick, "a kit as a document, played for moments"),
-    ("library", Tier::Whole, "builds two whole kits"),
+    ("library", Tier::Whole, "builds five whole kits"),
     ("loudness", Tier::Whole, "plays the groove on three kits"),
     ("microphones", Tier::Quick, "one stroke at every microphone"),
     ("notes", Tier::Whole, "notes of every piece, many times"),
