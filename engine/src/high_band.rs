@@ -46,6 +46,8 @@
 //! is a baffle: what they lack of the sheet (two thirds, of a drum that stands free; *converged*) follows the force through a
 //! high-pass filter of first order from there.
 //!
+//! A head that stretches scatters some of its energy into the slices (`scattering.rs`).
+//!
 //! A [dot](crate::membrane::dot) takes its share of the losses by its area, weighs where it is struck directly, and gives way to a force as
 //! an endless head of its thickness does; that waves on it are of another speed is neglected.
 //!
@@ -58,6 +60,7 @@
 mod force_sums;
 mod muffling;
 mod point_band;
+mod scattering;
 mod slices;
 mod walk;
 
@@ -67,7 +70,7 @@ use crate::air_load::SPEED_OF_SOUND;
 use crate::modal::inaudible_modes::InaudibleModes;
 use crate::modal::simd::MAX_RUN;
 use crate::modal::smoothing::Smoothing;
-use crate::modal::{MAX_DRIVES, ModalBody, Mode, RECEIVERS, ReceiverWeights, Row, zero_row};
+use crate::modal::{MAX_DRIVES, ModalBody, Mode, RECEIVERS, ReceiverWeights};
 
 use crate::receiver::POINTS;
 
@@ -75,6 +78,7 @@ use force_sums::{ForceSums, interleaved};
 pub use muffling::HighMuffling;
 use muffling::UnderPad;
 use point_band::PointBand;
+use scattering::Scattering;
 pub use slices::{HighBandSpec, Receiver, SLICES, SLICES_UNDER_WIRES};
 use slices::{
     Slice, SliceTable, TunedSlice, Waves, away, endless_sheet, lies_on_dot, rim_strip, slices, taken,
@@ -175,9 +179,9 @@ pub struct HighBand {
     gains: [f32; POINTS],
     /// Steps of the sound by retuning.
     smoothing: Smoothing,
-    /// Rise of each slice's frequency per tension that is added to the head's, rad/s over N/m.
-    glide: Row,
-    /// The phases' random walk.
+    /// What it gets of the head's stretch.
+    scattering: Scattering,
+    /// How their frequencies move: the phases' random walk, and the tension.
     walk: Walk,
     /// Whether anything moves.
     rings: bool,
@@ -194,10 +198,12 @@ impl HighBand {
         let count = modes.len();
         let corner = SQRT_2 * SPEED_OF_SOUND / spec.head.radius;
         let away = away(spec, &slices);
+        let body = ModalBody::new(modes.clone(), spec.sample_rate);
         let mut band = HighBand {
             gains: std::array::from_fn(|point| if point == 0 { 1.0 } else { away[point - 1] }),
             spec: *spec,
-            body: ModalBody::new(modes.clone(), spec.sample_rate),
+            scattering: Scattering::new(spec, &slices, &body),
+            body,
             pickup: ReceiverWeights::new(vec![[0.0; 2]; count]),
             laid: Laid {
                 table,
@@ -212,7 +218,6 @@ impl HighBand {
             places: Places::new(spec, count),
             follow: (1.0 - (-corner / spec.sample_rate).exp()) as f32,
             smoothing: Smoothing::default(),
-            glide: zero_row(count),
             walk: Walk::new(count, spec.seed, spec.sample_rate),
             rings: false,
             loaded: false,
@@ -235,12 +240,13 @@ impl HighBand {
             self.lay(tension);
         }
         self.laid.muffling = *muffling;
-        let HighBand { spec, body, pickup, slices, smoothing, laid, places, .. } = self;
+        let HighBand { spec, body, pickup, slices, smoothing, laid, places, scattering, .. } = self;
         let Laid { under, modes, inaudible, .. } = laid;
         let under = under.of(muffling, slices);
         let held = |k: usize| if spec.lossless { 0.0 } else { muffling.sigma(under[k]) };
         body.set_modes(|k, _| Mode { sigma: modes[k].sigma + held(k), ..modes[k] });
         body.tune(pickup);
+        scattering.follow();
         body.update_thresholds(inaudible, pickup, 0, None);
         smoothing.step(before, body.listen(pickup));
         places.connect(body, pickup);
@@ -248,14 +254,14 @@ impl HighBand {
 
     /// Brings what follows from the head's tension (N/m) to it.
     fn lay(&mut self, tension: f64) {
-        let HighBand { spec, pickup, slices, glide, walk, gains, laid, .. } = self;
+        let HighBand { spec, pickup, slices, walk, gains, laid, .. } = self;
         let Laid { table, modes, .. } = laid;
         laid.tension = tension;
         let top = top_hz(spec.sample_rate);
         for (k, (slice, TunedSlice { mode, loudness })) in slices.iter().zip(table.at(tension)).enumerate() {
             modes[k] = mode;
-            glide[k] = (mode.omega * tension_share(spec, slice, tension) / (2.0 * tension)) as f32;
-            walk.set(k, walk_rate(spec, slice, mode.omega));
+            let rise = mode.omega * tension_share(spec, slice, tension) / (2.0 * tension);
+            walk.set(k, walk_rate(spec, slice, mode.omega), rise);
             let fade = 1.0 - ((mode.omega / (TAU * top) - 1.0) / (FADE - 1.0)).clamp(0.0, 1.0);
             let loud = fade * loudness;
             for (receiver, ([cos, sin], gain)) in slice.heard.into_iter().zip(&*gains).enumerate() {
@@ -276,8 +282,9 @@ impl HighBand {
     /// # Real-time
     /// No allocation; some 5 ns a slice.
     pub fn put(&mut self, i: usize, radius: f64, angle: f64, patch: f64) {
-        let HighBand { spec, body, pickup, slices, waves, places, .. } = self;
+        let HighBand { spec, body, pickup, slices, waves, places, scattering, .. } = self;
         body.end_detuning();
+        scattering.meet(patch);
         let place = &mut places.all[i];
         place.sheet = endless_sheet(spec, slices, radius, angle) as f32;
         let known = waves.pressed.of(patch);
@@ -352,6 +359,7 @@ impl HighBand {
             if !self.rings {
                 self.body.end_detuning();
                 self.walk.reset();
+                self.scattering.rewind();
             }
         }
         self.body.is_finite() && self.places.all.iter().all(|place| place.slow.is_finite())
@@ -366,8 +374,29 @@ impl HighBand {
         if std::mem::take(&mut self.loaded) || !self.rings {
             return self.body.end_detuning();
         }
-        let shifts = self.walk.step(self.body.kernels(), &self.glide, added as f32);
+        let shifts = self.walk.step(self.body.kernels(), added as f32);
         self.body.shift_frequencies(0, &shifts[..self.slices.len()]);
+    }
+
+    /// Takes what the head, stretched by an energy (J), scatters into it in a block of the kinetic energy (J) of its modes.
+    /// Returns it, J.
+    ///
+    /// # Real-time
+    /// Linear in the number of slices; nothing if it is next to nothing.
+    pub fn scatter(&mut self, stretched: f64, kinetic: f64) -> f64 {
+        let given = self.scattering.scatter((stretched, kinetic), self.laid.tension, &mut self.body);
+        self.rings |= given > 0.0;
+        given
+    }
+
+    /// Energy that the head has scattered into it since the last reset, J.
+    pub fn scattered(&self) -> f64 {
+        self.scattering.given()
+    }
+
+    /// Sets how much of its stretch the head scatters, dimensionless; 0 for nothing. For comparisons.
+    pub fn set_scattering(&mut self, rate: f64) {
+        self.scattering.set_rate(rate);
     }
 
     /// Whether nothing moves.
@@ -380,6 +409,7 @@ impl HighBand {
         self.body.reset();
         self.body.end_detuning();
         self.walk.reset();
+        self.scattering.reset();
         self.smoothing = Smoothing::default();
         (self.rings, self.loaded) = (false, false);
         for place in &mut self.places.all {
@@ -388,7 +418,7 @@ impl HighBand {
         }
     }
 
-    /// Vibration energy, J. It was not taken from the striker, which the complete set alone slows down.
+    /// Vibration energy, J. What was not [scattered](Self::scattered) was not taken from the striker either, which the complete set alone slows down.
     pub fn energy(&self) -> f64 {
         self.body.energy()
     }

@@ -241,7 +241,7 @@ impl Piece {
         self.wake();
         self.quiet = 0;
         self.instrument.follow_shapes();
-        self.instrument.surface_mut().hear();
+        self.instrument.surface_mut().wake();
     }
 
     /// Falls asleep if it has been silent for a while and almost nothing moves.
@@ -348,6 +348,11 @@ impl Piece {
     /// Energy that strikers have taken away with them since the last reset, J.
     pub fn departed_energy(&self) -> f64 {
         self.instrument.surface().departed_energy()
+    }
+
+    /// Energy that went from the modes to the high band of the struck head since the last reset, J.
+    pub fn scattered_energy(&self) -> f64 {
+        self.instrument.surface().scattered_energy()
     }
 
     /// Times the piece was put back to rest because a value was not finite.

@@ -213,6 +213,11 @@ impl NonlinearForce {
         if self.schedule.is_evaluated() { self.scalar.energy() } else { 0.0 }
     }
 
+    /// Kinetic energy of the modes it acts on, J.
+    pub fn kinetic_energy(&self, body: &ModalBody) -> f64 {
+        body.kinetic_energy(&self.coupled)
+    }
+
     /// True energy it holds, J, and the relative error of `psi`.
     pub fn true_energy(&mut self, body: &ModalBody) -> (f64, f64) {
         let n = self.coupled.length();
@@ -269,6 +274,11 @@ impl NonlinearForce {
     pub fn retune(&mut self, pitch_hz: f64, body: &ModalBody) {
         let more = self.potential.retune(pitch_hz, &body.displacements()[..self.coupled.length()]);
         self.owe(more);
+    }
+
+    /// Takes an energy (J) from the modes, within the next evaluations.
+    pub fn take(&mut self, energy: f64) {
+        self.scalar.owed -= energy;
     }
 
     /// Takes up that the potential holds more (J), without the factor on it, and owes it to the modes.

@@ -343,11 +343,6 @@ impl Surface {
         self.connect_stale();
     }
 
-    /// Wakes parked wires.
-    pub fn hear(&mut self) {
-        self.wake();
-    }
-
     /// Updates everything that depends on the modes or the transfers.
     fn follow(&mut self) {
         self.body.follow();
@@ -412,6 +407,11 @@ impl Surface {
         self.log.departed
     }
 
+    /// Energy that went from the modes to the high band of the struck head since the last reset, J.
+    pub fn scattered_energy(&self) -> f64 {
+        self.observers.bands().next().map_or(0.0, HighBand::scattered)
+    }
+
     /// Zeroes what has decayed. Returns whether all values are finite; if not, everything is reset.
     ///
     /// # Real-time
@@ -431,6 +431,7 @@ impl Surface {
         if let Some(impulse) = self.body.carry() {
             self.smoothing.hold(impulse);
         }
+        self.observers.bands_mut().take(1).for_each(|struck| self.body.scatter_into(struck));
         let tensions = self.body.glide();
         self.observers.bands_mut().zip(tensions).for_each(|(band, tension)| band.glide(tension));
         let struck = self.is_struck();

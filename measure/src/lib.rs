@@ -42,7 +42,7 @@ pub fn stroke(striker: Striker, speed: f64, radius: f64, angle: f64) -> Strike {
 
 /// Energy of a piece, of the strikers about it and of those that have left, J.
 pub fn total_energy(piece: &Piece) -> f64 {
-    piece.energy() + piece.striker_energy() + piece.departed_energy()
+    piece.energy() + piece.striker_energy() + piece.departed_energy() + piece.scattered_energy()
 }
 
 /// How far `a` is above `b`, cents.

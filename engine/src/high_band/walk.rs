@@ -1,4 +1,4 @@
-//! The random walk of the phases of slices.
+//! How the frequencies of slices move: by the random walk of their phases, and with the head's tension.
 //!
 //! Model: the sum of many modes spread over a width `w` (rad/s) loses the phase that a stroke gave all of them within some `1 / w`. A
 //! single mode does the same if its frequency is shifted by `s` up or down, by a new random sign after every interval `T`: its phase
@@ -21,6 +21,8 @@ const SIGNS: usize = 32;
 pub(super) struct Walk {
     /// Shift to either side, rad/s, `[slice]`.
     hops: Row,
+    /// Rise of each slice's frequency per tension that is added to the head's, rad/s over N/m.
+    rises: Row,
     /// Shifts of the present block, rad/s, `[slice]`.
     shifts: Row,
     /// Draws a seed for each interval.
@@ -38,12 +40,13 @@ impl Walk {
     pub(super) fn new(slices: usize, seed: u32, sample_rate: f64) -> Walk {
         let blocks = (INTERVAL * sample_rate / BLOCK as f64).round().max(1.0) as u32;
         let seed = u64::from(seed);
-        let (hops, shifts) = (zero_row(slices), zero_row(slices));
-        Walk { hops, shifts, seeds: Rng::with_seed(seed), seed, signs: 0, blocks, done: 0 }
+        let [hops, rises, shifts] = std::array::from_fn(|_| zero_row(slices));
+        Walk { hops, rises, shifts, seeds: Rng::with_seed(seed), seed, signs: 0, blocks, done: 0 }
     }
 
-    /// Sets the diffusion (1/s) of a slice's phase.
-    pub(super) fn set(&mut self, slice: usize, diffusion: f64) {
+    /// Sets the diffusion (1/s) of a slice's phase, and the rise of its frequency per tension that is added to the head's (rad/s over N/m).
+    pub(super) fn set(&mut self, slice: usize, diffusion: f64, rise: f64) {
+        self.rises[slice] = rise as f32;
         self.hops[slice] = (2.0 * diffusion / INTERVAL).sqrt() as f32;
     }
 
@@ -52,26 +55,26 @@ impl Walk {
         (self.seeds, self.done) = (Rng::with_seed(self.seed), 0);
     }
 
-    /// Shifts of the next block, rad/s: a step of the walk, and an added tension (N/m) times `rates` (rad/s over N/m).
+    /// Shifts of the next block, rad/s: a step of the walk, and what a tension does that is added to the head's, N/m.
     ///
     /// # Real-time
     /// Linear in the number of slices.
-    pub(super) fn step(&mut self, kernels: Kernels, rates: &[f32], added: f32) -> &[f32] {
+    pub(super) fn step(&mut self, kernels: Kernels, added: f32) -> &[f32] {
         if self.done == 0 {
             self.signs = self.seeds.u64(..);
         }
         self.done = (self.done + 1) % self.blocks;
         let mut signs = Rng::with_seed(self.signs);
-        let Walk { hops, shifts, .. } = self;
+        let Walk { hops, rises, shifts, .. } = self;
         kernels.vectorized(
             #[inline(always)]
             || {
-                let rows = hops.chunks(SIGNS).zip(rates.chunks(SIGNS));
-                for (shifts, (hops, rates)) in shifts.chunks_mut(SIGNS).zip(rows) {
+                let rows = hops.chunks(SIGNS).zip(rises.chunks(SIGNS));
+                for (shifts, (hops, rises)) in shifts.chunks_mut(SIGNS).zip(rows) {
                     let bits = signs.u32(..);
-                    for (i, (shift, (hop, rate))) in shifts.iter_mut().zip(hops.iter().zip(rates)).enumerate()
+                    for (i, (shift, (hop, rise))) in shifts.iter_mut().zip(hops.iter().zip(rises)).enumerate()
                     {
-                        *shift = added * rate + f32::from_bits(hop.to_bits() ^ (bits >> i << 31));
+                        *shift = added * rise + f32::from_bits(hop.to_bits() ^ (bits >> i << 31));
                     }
                 }
             },
@@ -88,9 +91,9 @@ mod tests {
 
     /// Phases after so many blocks at a rate, rad.
     fn phases(walk: &mut Walk, rate: f64, blocks: usize) -> Vec<f64> {
-        let (still, mut phases) = (zero_row(SLICES), vec![0.0; SLICES]);
+        let mut phases = vec![0.0; SLICES];
         for _ in 0..blocks {
-            let shifts = walk.step(Kernels::detect(), &still, 0.0);
+            let shifts = walk.step(Kernels::detect(), 0.0);
             let turned = shifts.iter().map(|shift| f64::from(*shift) * BLOCK as f64 / rate);
             phases.iter_mut().zip(turned).for_each(|(phase, turn)| *phase += turn);
         }
@@ -99,7 +102,7 @@ mod tests {
 
     fn walk(rate: f64) -> Walk {
         let mut walk = Walk::new(SLICES, 7, rate);
-        (0..SLICES).for_each(|slice| walk.set(slice, 10.0));
+        (0..SLICES).for_each(|slice| walk.set(slice, 10.0, 0.0));
         walk
     }
 
@@ -120,7 +123,7 @@ mod tests {
         walk.reset();
         assert_eq!(first, phases(&mut walk, 44_100.0, 9));
         let mut other = Walk::new(SLICES, 8, 44_100.0);
-        (0..SLICES).for_each(|slice| other.set(slice, 10.0));
+        (0..SLICES).for_each(|slice| other.set(slice, 10.0, 0.0));
         assert_ne!(first, phases(&mut other, 44_100.0, 9));
     }
 }

@@ -146,6 +146,26 @@ impl ModalBody {
             },
         );
     }
+
+    /// Kicks every mode by an impulse of random sign, which would give it the square of its size (the root of J) at rest.
+    ///
+    /// # Real-time
+    /// Linear in the number of modes.
+    pub fn kick_each(&mut self, sizes: &[f32], weights: &BandWeights, signs: &mut Rng) {
+        let re = &mut self.state.re[..sizes.len()];
+        self.kernels.vectorized(
+            #[inline(always)]
+            || {
+                let rows = sizes.chunks(32).zip(weights.unit.chunks(32));
+                for (re, (sizes, units)) in re.chunks_mut(32).zip(rows) {
+                    let bits = signs.u32(..);
+                    for (i, (re, (size, unit))) in re.iter_mut().zip(sizes.iter().zip(units)).enumerate() {
+                        *re += f32::from_bits((size * unit).to_bits() ^ (bits >> i << 31));
+                    }
+                }
+            },
+        );
+    }
 }
 
 /// `sum weight x^2`.

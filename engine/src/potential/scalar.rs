@@ -16,7 +16,7 @@ pub(super) struct Scalar {
     pub(super) psi: f64,
     /// `C`, J.
     pub(super) shift: f64,
-    /// Energy, J, that modes are still to get because another tip presses; negative if they are to give it.
+    /// Energy, J, that modes are still to get because another tip presses; negative if they are to give it, as what is scattered.
     pub(super) owed: f64,
 }
 

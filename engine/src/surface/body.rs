@@ -2,6 +2,7 @@
 //!
 //! These are the nonlinear force and the incident pressure.
 
+use crate::high_band::HighBand;
 use crate::modal::inaudible_modes::InaudibleModes;
 use crate::modal::simd::Kernels;
 use crate::modal::sway::Sway;
@@ -369,6 +370,13 @@ impl StruckBody {
             return None;
         }
         transport.carry(&mut self.sound.modal)
+    }
+
+    /// Lets the high band of the struck head take what the stretching modes scatter into it.
+    pub(super) fn scatter_into(&mut self, band: &mut HighBand) {
+        if let Some(force) = self.nonlinear_force.as_mut().filter(|force| force.is_active()) {
+            force.take(band.scatter(force.energy(), force.kinetic_energy(&self.sound.modal)));
+        }
     }
 
     /// Lets modes follow the tension of the heads over the next block. Returns what is added to each head's, N/m.
