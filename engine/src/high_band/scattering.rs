@@ -28,17 +28,17 @@ use fastrand::Rng;
 use crate::block::BLOCK;
 use crate::fitted;
 use crate::modal::bands::BandWeights;
-use crate::modal::{ModalBody, ReceiverWeights, Row, zero_row};
+use crate::modal::{ModalBody, Row, zero_row};
 
 use super::slices::{HighBandSpec, Slice};
 
 /// Less than this in a block is nothing, J: 80 dB under a soft stroke.
 const NOTHING: f64 = 1e-10;
 
-/// Waves so many times as short as `z_c` get nothing, -69 dB.
+/// Slices of which the longest wave is so many times as short as `z_c` get nothing: 2e-6 of what is scattered, at most.
 const SHORTEST: f64 = 16.0;
 
-/// Most of the stretch's energy that is scattered in a block, its share. No head of a kit comes near.
+/// Most of the kinetic energy that is scattered in a block, its share; no head of a kit comes near.
 const MOST: f64 = 0.1;
 
 /// Squarings of `1 - x / 2^7`, which make `exp(-x)` of it within 1 dB down to -46 dB.
@@ -83,7 +83,7 @@ impl Scattering {
             counts: row(|slice| slice.count.sqrt()),
             waves: row(|slice| slice.zero),
             kicks: row(|_| 0.0),
-            weights: BandWeights::new(body, &ReceiverWeights::new(Vec::new())),
+            weights: BandWeights::unheard(body),
             is_weighed: true,
             compliance: head.area() / (head.material.youngs_modulus * head.thickness),
             patch: 0.0,
@@ -160,7 +160,7 @@ impl Scattering {
     fn kick(&mut self, energy: f64, reach: f64, body: &mut ModalBody) -> f64 {
         let Scattering { counts, waves, kicks, weights, is_weighed, signs, .. } = self;
         if !std::mem::replace(is_weighed, true) {
-            body.weigh(weights, &ReceiverWeights::new(Vec::new()));
+            body.weigh_energies(weights);
         }
         // Of the root of the energies.
         let unit = ((2.0 * energy).sqrt() / reach) as f32;

@@ -14,6 +14,9 @@ use super::{ModalBody, Pressure, RECEIVERS, ReceiverWeights, Row, zero_row};
 /// Sums taken at once.
 const LANES: usize = 8;
 
+/// Signs drawn at once.
+const SIGNS: usize = 32;
+
 /// Energy of a band.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct BandEnergy {
@@ -43,6 +46,15 @@ impl BandWeights {
         body.weigh(&mut weights, receivers);
         weights
     }
+
+    /// Of a body whose impulses nobody hears. Allocates.
+    pub fn unheard(body: &ModalBody) -> BandWeights {
+        let row = || zero_row(body.len());
+        let impulse = std::array::from_fn(|_| zero_row(0));
+        let mut weights = BandWeights { weight: row(), unit: row(), impulse };
+        body.weigh_energies(&mut weights);
+        weights
+    }
 }
 
 impl ModalBody {
@@ -56,6 +68,14 @@ impl ModalBody {
                 *impulse = (f64::from(direct) * mode.mass * mode.omega_d()) as f32;
             }
         }
+        self.weigh_energies(weights);
+    }
+
+    /// Updates what the energies need after a change of modes.
+    ///
+    /// # Real-time
+    /// Linear in the number of modes.
+    pub fn weigh_energies(&self, weights: &mut BandWeights) {
         let rows = weights.weight.iter_mut().zip(weights.unit.iter_mut());
         for (mode, (weight, unit)) in self.modes.iter().zip(rows) {
             let omega_d = mode.omega_d();
@@ -135,36 +155,37 @@ impl ModalBody {
         let re = &mut self.state.re[band];
         self.kernels.vectorized(
             #[inline(always)]
-            || {
-                for (re, unit) in re.chunks_mut(32).zip(unit.chunks(32)) {
-                    let bits = signs.u32(..);
-                    for (i, (re, unit)) in re.iter_mut().zip(unit).enumerate() {
-                        // The bit is the sign of the kick.
-                        *re += f32::from_bits((size * unit).to_bits() ^ (bits >> i << 31));
-                    }
-                }
-            },
+            || kick(re, unit, |_| [size; SIGNS], signs),
         );
     }
 
-    /// Kicks every mode by an impulse of random sign, which would give it the square of its size (the root of J) at rest.
+    /// Kicks every mode by an impulse of random sign, which would give it the square of its size (the root of J, `[mode]`) at rest.
     ///
     /// # Real-time
     /// Linear in the number of modes.
     pub fn kick_each(&mut self, sizes: &[f32], weights: &BandWeights, signs: &mut Rng) {
         let re = &mut self.state.re[..sizes.len()];
+        let some = |chunk: usize| {
+            let mut some = [0.0; SIGNS];
+            some.iter_mut().zip(&sizes[chunk * SIGNS..]).for_each(|(some, size)| *some = *size);
+            some
+        };
         self.kernels.vectorized(
             #[inline(always)]
-            || {
-                let rows = sizes.chunks(32).zip(weights.unit.chunks(32));
-                for (re, (sizes, units)) in re.chunks_mut(32).zip(rows) {
-                    let bits = signs.u32(..);
-                    for (i, (re, (size, unit))) in re.iter_mut().zip(sizes.iter().zip(units)).enumerate() {
-                        *re += f32::from_bits((size * unit).to_bits() ^ (bits >> i << 31));
-                    }
-                }
-            },
+            || kick(re, &weights.unit, some, signs),
         );
+    }
+}
+
+/// Adds to each state what has its size (the root of J), of random sign; `sizes(chunk)` are those of some modes.
+#[inline(always)]
+fn kick(re: &mut [f32], unit: &[f32], sizes: impl Fn(usize) -> [f32; SIGNS], signs: &mut Rng) {
+    for (chunk, (re, unit)) in re.chunks_mut(SIGNS).zip(unit.chunks(SIGNS)).enumerate() {
+        let (bits, sizes) = (signs.u32(..), sizes(chunk));
+        for (i, (re, (unit, size))) in re.iter_mut().zip(unit.iter().zip(&sizes)).enumerate() {
+            // The bit is the sign of the kick.
+            *re += f32::from_bits((size * unit).to_bits() ^ (bits >> i << 31));
+        }
     }
 }
 
