@@ -10,7 +10,8 @@
 //! ```
 //!
 //! The [body] has modes, mode shapes and receivers. The [contacts] hold all contact points and solve for their forces.
-//! [Attachments](attachment) are parts that only some bodies have. [Observers](observer) receive the forces and do not act back.
+//! [Attachments](attachment) are parts that only some bodies have. [Observers](observer) receive the forces and do not act back, but that a stretched head
+//! hands energy to its high band.
 //! This file has the work of a block and of a stroke; `sample` has that of a sample.
 
 pub mod attachment;

@@ -99,6 +99,14 @@ fn unmixed(mut spec: KitSpec) -> KitSpec {
 /// # Errors
 /// [`BadInput`](crate::error::BadInput) if the piece cannot be built so.
 pub fn render(request: &Request) -> Result<Sound> {
+    render_prepared(request, |_| ())
+}
+
+/// As [`render`], but `prepare` changes the piece before it is struck.
+///
+/// # Errors
+/// As [`render`].
+pub fn render_prepared(request: &Request, prepare: impl FnOnce(&mut Piece)) -> Result<Sound> {
     let rate = request.options.sample_rate;
     let mut kit = stand(&unmixed(request.kit.clone()), &request.options, &request.settings)?;
     for pair in [Microphone::Overheads, Microphone::Room] {
@@ -109,6 +117,9 @@ pub fn render(request: &Request) -> Result<Sound> {
         for _ in 0..(SETTLING * rate) as usize / BLOCK {
             hear_close(&mut kit, &mut [0.0; BLOCK]);
         }
+    }
+    if let Some(piece) = kit.piece_mut(ALONE) {
+        prepare(piece);
     }
     kit.strike(ALONE, &request.strike);
     let piece = |kit: &Kit| kit.piece(ALONE).map_or(0.0, Piece::energy);

@@ -35,7 +35,7 @@ use super::slices::{HighBandSpec, Slice};
 /// Less than this in a block is nothing, J: 80 dB under a soft stroke.
 const NOTHING: f64 = 1e-10;
 
-/// Slices of which the longest wave is so many times as short as `z_c` get nothing: 2e-6 of what is scattered, at most.
+/// Nothing is scattered if even the longest wave of the slices has so many times `z_c`: they would get less than 2e-6 of it.
 const SHORTEST: f64 = 16.0;
 
 /// Most of the kinetic energy that is scattered in a block, its share; no head of a kit comes near.

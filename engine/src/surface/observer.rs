@@ -1,4 +1,4 @@
-//! Observers of contact forces, which do not act back: the [high bands](HighBand) of heads, the [direct sound](DirectSound) of
+//! Observers of contact forces, which do not act back (but for what a stretched head [hands](HighBand::scatter) to its high band): the [high bands](HighBand) of heads, the [direct sound](DirectSound) of
 //! plates, the [sound of the sticks](StickSound).
 
 use crate::high_band::HighBand;

@@ -10,7 +10,7 @@ use overhear::midi_map::NoteTable;
 use overhear::parameters::parse_assignment;
 use overhear_engine::drum::{DrumSpec, HeadContact, ResonantSpec, ShellSpec};
 use overhear_engine::kit_spec::{Defaults, KitSpec, PieceSpec};
-use overhear_engine::piece::BuildOptions;
+use overhear_engine::piece::{BuildOptions, Piece};
 use overhear_engine::strike::{Strike, Striker};
 use rayon::prelude::*;
 
@@ -45,6 +45,9 @@ const SILENT: &str = "a shell that is silent";
 
 /// A mechanism, and the piece without it; the same piece if it does not have it.
 type Mechanism = (&'static str, fn(PieceSpec) -> PieceSpec);
+
+/// Without what a stretched head hands to its short waves, which no description names.
+const UNSCATTERED: &str = "nothing scattered";
 
 /// All that can be taken away from a description.
 const MECHANISMS: [Mechanism; 10] = [
@@ -152,7 +155,8 @@ fn table(sheet: &mut Sheet, title: &str, piece: &PieceSpec, strikes: &[Strike]) 
     let hoop = [Striker::RimShot, Striker::CrossStick];
     let on_hoop = strikes.iter().any(|strike| hoop.contains(&strike.striker));
     let without = MECHANISMS.iter().map(|(name, take)| (*name, take(piece.clone())));
-    let variants: Vec<(&str, PieceSpec)> = [(AS_PLAYED, piece.clone())]
+    let variants: Vec<(&str, PieceSpec)> = [AS_PLAYED, UNSCATTERED]
+        .map(|name| (name, piece.clone()))
         .into_iter()
         .chain(without.filter(|(name, changed)| changed != piece && (*name != SILENT || on_hoop)))
         .collect();
@@ -175,7 +179,12 @@ fn row(name: &str, piece: &PieceSpec, strikes: &[Strike]) -> Result<Vec<String>>
         let options = BuildOptions::new(RATE);
         let request =
             hear::Request { kit: alone(piece), strike, settings: Vec::new(), options, seconds: SECONDS };
-        means.add(&hear::render(&request)?.samples);
+        let scatter = |piece: &mut Piece| {
+            if name == UNSCATTERED {
+                piece.surface_mut().high_bands_mut().for_each(|band| band.set_scattering(0.0));
+            }
+        };
+        means.add(&hear::render_prepared(&request, scatter)?.samples);
     }
     Ok(means.row(name))
 }
