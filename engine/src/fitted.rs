@@ -45,7 +45,7 @@ fitted! {
         to "Foeppl's equations in the plane: what reaches the waves of a rack tom from 2.8 to 8 kHz, struck at 0.3 of its radius, 0 to 2 dB over what the tip's force gives at 5 m/s, 4 to 6 at 8";
         tried "0.05 to 0.13 with reaches of 17 to 12; in the same way of the energy of the stretch, which slack heads give back to the tip; as powers of k a, which go too high on kicks"; moves "highs of hard strokes on toms and kick";
     SCATTERING_REACH = 15.0, "1", "scattering_reach";
-        to "the same, and that hardly anything is scattered at 3 m/s"; tried "14 to 17, with powers of 0.4 to 0.5 of the energy";
+        to "the same, and that hardly anything is scattered at 3 m/s"; tried "12 to 17, with powers of 0.4 to 0.5 of the energy";
         moves "how high it goes";
     KICK_BATTER_LOSS = 6.0, "1/s", "pieces.kick.batter.loss.constant_1_s";
         to "what the felt strip and all else that leans on the head take: recorded kicks at 125 and 250 Hz"; tried "not recorded"; moves "the kick's boom";

@@ -179,7 +179,7 @@ pub struct HighBand {
     gains: [f32; POINTS],
     /// Steps of the sound by retuning.
     smoothing: Smoothing,
-    /// What it gets of the head's stretch.
+    /// What a stretched head hands to it.
     scattering: Scattering,
     /// How their frequencies move: the phases' random walk, and the tension.
     walk: Walk,
@@ -394,7 +394,7 @@ impl HighBand {
         self.scattering.given()
     }
 
-    /// Sets how much of its stretch the head scatters, dimensionless; 0 for nothing. For comparisons.
+    /// Sets `R` of what the head scatters, dimensionless; 0 for nothing. For comparisons.
     pub fn set_scattering(&mut self, rate: f64) {
         self.scattering.set_rate(rate);
     }

@@ -110,7 +110,7 @@ fn the_waves_above_the_modes_get_what_foeppls_equations_give_them() {
         for band in 0..3 {
             let (more, by) = (decibels(with[band] / without[band]), equations[band] - force[band]);
             println!("{speed} m/s from {} Hz: {more:.1} dB more, by the equations {by:.1}", edges[band]);
-            // What a tip's force gives is itself right within 3 dB.
+            // The law only adds to what the force gives.
             assert!((more - by.max(0.0)).abs() < 2.0, "{speed} m/s from {} Hz: {more} for {by}", edges[band]);
         }
     }
