@@ -28,10 +28,7 @@ fn drums_brighten_with_the_stroke_as_recorded_ones_do() {
     for piece in &pieces {
         let slope = piece.slope.as_ref().expect("known of every drum");
         println!("{} {}: {:?} octaves per 20 dB", piece.piece, piece.heard.name(), slope.value);
-        // Toms brighten by a third to half of what recorded ones do, a known gap (docs/limits.md) that is not to grow.
-        let is_tom = slope.median > 1.0;
-        let least = if is_tom { 0.4 } else { slope.median - SLOPE_WITHIN };
-        let held = slope.value.is_some_and(|value| (least..=slope.median + SLOPE_WITHIN).contains(&value));
+        let held = slope.value.is_some_and(|value| (value - slope.median).abs() <= SLOPE_WITHIN);
         assert!(held, "{} {}: {:?} for {}", piece.piece, piece.heard.name(), slope.value, slope.median);
     }
 }

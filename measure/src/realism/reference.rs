@@ -65,6 +65,12 @@ pub fn nearness(feature: Feature) -> Nearness {
 /// How far a slope may be from the real one, octaves per +20 dB.
 pub const SLOPE_WITHIN: f64 = 0.6;
 
+/// When the band above 3 kHz of a recorded crash is loudest after soft, medium and hard strokes, ms.
+pub const CRASH_BLOOM_MS: [f64; 3] = [5.0, 48.0, 114.0];
+
+/// Factor within which a crash's must lie of these.
+pub const BLOOM_WITHIN: f64 = 2.0;
+
 const fn ranged(feature: Feature, median: f64, low: f64, high: f64) -> Figure {
     Figure { feature, median, range: Some((low, high)) }
 }

@@ -118,8 +118,8 @@ pub fn page() -> Result<Page> {
         "mechanisms",
         "Mechanisms of drums",
         PLAYED,
-        "Each mechanism of the kit's drums is taken away by itself. Each drum stands alone and is heard at its close microphone, as the mean of nine strokes: 1.5, 3 and\n\
-         5 m/s at the three places of [the comparison with recordings](realism.md); strokes on the hoop at one place. `lines` is the share of the energy from 1 to 10 kHz that is in\n\
+        "Each mechanism of the kit's drums is taken away by itself. Each drum stands alone and is heard at its close microphone, as the mean of nine strokes: 1.5, 4 and\n\
+         8 m/s at the three places of [the comparison with recordings](realism.md); strokes on the hoop at one place. `lines` is the share of the energy from 1 to 10 kHz that is in\n\
          lines; all figures are those of [commands.md](../commands.md#realism). The random field of tension moves shares in lines by some hundredths: it is the same in every row\n\
          that has one. Energy is of the whole sound's. In the mix each drum stands in the kit, with the plugin's defaults, and what is about it is taken away.",
     );

@@ -14,7 +14,7 @@ use super::page::{Claim, Page, Sheet};
 use super::plot::{Axis, Curve, Plot};
 use crate::analysis::{OneShot, line_share};
 use crate::picture;
-use crate::realism::reference::SLOPE_WITHIN;
+use crate::realism::reference::{BLOOM_WITHIN, CRASH_BLOOM_MS, SLOPE_WITHIN};
 use crate::realism::{self, Count, PieceReport, RATE, RecordingChain, Report, SPEEDS, SUBJECTS, Subject};
 
 /// Source of the figures of recordings.
@@ -159,14 +159,18 @@ fn brightening(sheet: &mut Sheet, report: &Report, how: &str) {
             });
         }
         if let Some(bloom) = piece.bloom().filter(|_| piece.piece == "crash") {
-            let ms: Vec<String> = bloom.iter().map(|ms| format!("{ms:.0}")).collect();
+            let listed = |ms: &[f64]| ms.iter().map(|ms| format!("{ms:.0}")).collect::<Vec<_>>().join(", ");
+            let is_near = |(ms, recorded): (&f64, f64)| {
+                (recorded / BLOOM_WITHIN..=recorded * BLOOM_WITHIN).contains(ms)
+            };
+            let rises = bloom.is_sorted_by(|soft, hard| soft < hard);
             sheet.claim(Claim {
                 what: format!("{who}: when the band above 3 kHz peaks, soft to hard, ms"),
                 on: PLAYED,
-                figure: ms.join(", "),
-                reference: "rising; 5, 48, 114".to_owned(),
+                figure: listed(&bloom),
+                reference: format!("rising; {} within a factor of {BLOOM_WITHIN}", listed(&CRASH_BLOOM_MS)),
                 source: RECORDINGS,
-                met: Some(bloom.is_sorted_by(|soft, hard| soft < hard)),
+                met: Some(rises && bloom.iter().zip(CRASH_BLOOM_MS).all(is_near)),
             });
         }
     }
