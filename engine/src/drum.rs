@@ -33,7 +33,8 @@ use crate::glide::Glide;
 use crate::grip::Grip;
 use crate::high_band::{HighBand, HighMuffling};
 use crate::instrument::Instrument;
-use crate::modal::Mode;
+use crate::modal::simd::row_products::RowProducts;
+use crate::modal::{Mode, Row, zero_row};
 use crate::mode::ModeInfo;
 use crate::receiver::POINTS;
 use crate::rim::{Rim, RimPart};
@@ -108,22 +109,28 @@ struct Stale {
 /// What becomes of the modes of even heads.
 struct Mixing {
     modes: Shared<MixedModes>,
-    /// What is heard of the even modes and of the body's: pressure at each point (real, imaginary), volume, and of the pressure at the
-    /// first far point what goes all around.
-    even: Vec<HeardRow>,
-    heard: Vec<HeardRow>,
+    /// The mixture of their even modes.
+    mixture: Shared<RowProducts>,
+    /// What is heard of the even modes and of the body's.
+    even: Heard,
+    heard: Heard,
 }
 
-/// What is heard of a mode; the places in it of the first far point, of the volume and of what goes all around.
-type HeardRow = [f32; 2 * POINTS + 2];
+/// What is heard of all modes, `[what][mode]`: pressure at each point (real, imaginary), volume, and of the pressure at the first far
+/// point what goes all around.
+type Heard = [Row; 2 * POINTS + 2];
+
+/// The places in it of the first far point, of the volume and of what goes all around.
 const FAR: usize = 2;
 const VOLUME: usize = 2 * POINTS;
 const ALL_AROUND: usize = VOLUME + 1;
 
 impl Mixing {
     fn new(modes: Shared<MixedModes>) -> Mixing {
-        let count = modes.mixture.modes();
-        Mixing { modes, even: vec![HeardRow::default(); count], heard: vec![HeardRow::default(); count] }
+        let mixture = Shared::new(modes.mixture.products());
+        let rows = || std::array::from_fn(|_| zero_row(modes.mixture.modes()));
+        let (even, heard) = (rows(), rows());
+        Mixing { modes, mixture, even, heard }
     }
 }
 
@@ -177,7 +184,8 @@ impl Drum {
             sigma: 0.0,
             mass: at_pitch[mode.row].mass,
         };
-        let mixture = || mixed.as_ref().map(|mixed| mixed.mixture.clone());
+        let mixing = mixed.map(Mixing::new);
+        let mixture = || mixing.as_ref().map(|mixing| mixing.mixture.clone());
         let mut surface = Surface::new(SurfaceParts {
             modes: modes.iter().map(bare).collect(),
             shapes: built.batter_shapes(spec.evenness).with_mixture(mixture()),
@@ -195,7 +203,7 @@ impl Drum {
                 .and_then(|_| built.resonant_shapes(spec.evenness))
                 .map(|shapes| shapes.with_mixture(mixture())),
             built,
-            mixing: mixed.map(Mixing::new),
+            mixing,
             hearing,
             scales: receivers.scales(),
             losses: Losses {
@@ -292,29 +300,28 @@ impl Drum {
             let scale = scales[point];
             hearing.transfers(&built.modes, place, pitch).map(move |transfer| transfer.map(|h| h * scale))
         });
-        let Some(Mixing { modes: mixed, even, heard }) = mixing else {
+        let Some(Mixing { modes: mixed, mixture, even, heard }) = mixing else {
             surface.set_volumes(volumes.map(|(volume, share)| Volume { volume, share, all_around: 0.0 }));
             surface.set_transfers(transfers);
             return;
         };
-        for (even, (volume, share)) in even.iter_mut().zip(volumes) {
-            let (heard, rest) = even.split_at_mut(2 * POINTS);
-            for (heard, transfers) in heard.as_chunks_mut::<2>().0.iter_mut().zip(&mut transfers) {
-                *heard = transfers.next().unwrap_or_default().map(|h| h as f32);
+        let count = mixed.mixture.modes();
+        for (mode, (volume, share)) in volumes.take(count).enumerate() {
+            for (point, transfers) in transfers.iter_mut().enumerate() {
+                let [re, im] = transfers.next().unwrap_or_default();
+                (even[2 * point][mode], even[2 * point + 1][mode]) = (re as f32, im as f32);
             }
-            rest.copy_from_slice(&[volume as f32, share as f32 * heard[FAR]]);
+            (even[VOLUME][mode], even[ALL_AROUND][mode]) = (volume as f32, share as f32 * even[FAR][mode]);
         }
-        surface.body().kernels().vectorized(
-            #[inline(always)]
-            || mixed.mixture.apply_rows(even, heard),
-        );
+        let rows = (even.each_ref().map(|row| &row[..]), heard.each_mut().map(|row| &mut row[..]));
+        surface.body().kernels().some_row_products(mixture, 0..mixture.parts(), rows.0, rows.1);
         let kept = mixed.mixture.kept();
-        for (heard, now) in heard[kept..].iter_mut().zip(&at_pitch[built.kept..]) {
+        for (volume, now) in heard[VOLUME][kept..].iter_mut().zip(&at_pitch[built.kept..]) {
             // What parts of a mixture send out may add up to more than the mixture is made to lose.
             let most = most_volume(now) as f32;
-            heard[VOLUME] = heard[VOLUME].clamp(-most, most);
+            *volume = volume.clamp(-most, most);
         }
-        let pick = |i: usize| heard.iter().map(move |row| f64::from(row[i]));
+        let pick = |i: usize| heard[i][..count].iter().map(|&heard| f64::from(heard));
         let pair = |i: usize| pick(i).zip(pick(i + 1)).map(|(a, b)| [a, b]);
         let volumes = pick(VOLUME).zip(pick(ALL_AROUND));
         surface.set_volumes(volumes.map(|(volume, all_around)| Volume { volume, share: 0.0, all_around }));

@@ -5,11 +5,9 @@
 
 pub mod blocks;
 
-use std::ops::Range;
-
 use serde::{Deserialize, Serialize};
 
-use crate::math::sums::sum_of_products;
+use crate::modal::simd::row_products::RowProducts;
 
 /// The run of coefficients of one mixed mode.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -75,17 +73,9 @@ impl ModeMixture {
         kept.chain(mixed).collect()
     }
 
-    /// Takes values of the even modes, in any unit, to the mixed ones.
-    ///
-    /// # Real-time
-    /// No allocation; linear in the number of coefficients.
-    #[inline(always)]
-    pub fn apply(&self, even: &[f32], mixed: &mut [f32]) {
-        mixed[..self.kept].copy_from_slice(&even[..self.kept]);
-        for (out, run) in mixed[self.kept..].iter_mut().zip(&self.runs) {
-            let coefs = &self.coefs[run.start as usize..][..run.length as usize];
-            *out = sum_of_products(coefs, &even[run.first as usize..][..run.length as usize]);
-        }
+    /// What takes values of the even modes, in any unit, to the mixed ones. Allocates.
+    pub fn products(&self) -> RowProducts {
+        RowProducts::new(&self.rows(), self.modes())
     }
 
     /// The first modes alone, made of as many even ones: what lies beyond in them is left out.
@@ -116,72 +106,26 @@ impl ModeMixture {
         let rows: Vec<(usize, Vec<f64>)> = of_even.iter().map(row).collect();
         ModeMixture::new(self.kept, &rows)
     }
-
-    /// Takes several values of each even mode, in any units, to the mixed ones at once.
-    ///
-    /// # Real-time
-    /// As [`apply`](Self::apply).
-    #[inline(always)]
-    pub fn apply_rows<const N: usize>(&self, even: &[[f32; N]], mixed: &mut [[f32; N]]) {
-        self.apply_some(even, mixed, 0..self.modes());
-    }
-
-    /// [`apply_rows`](Self::apply_rows) to some of the modes, of values in any units.
-    ///
-    /// # Real-time
-    /// As [`apply`](Self::apply).
-    #[inline(always)]
-    pub fn apply_some<const N: usize>(&self, even: &[[f32; N]], mixed: &mut [[f32; N]], modes: Range<usize>) {
-        let kept = modes.start.min(self.kept)..modes.end.min(self.kept);
-        mixed[kept.clone()].copy_from_slice(&even[kept]);
-        let runs = modes.start.max(self.kept)..modes.end.max(self.kept);
-        let (first, last) = (runs.start - self.kept, runs.end - self.kept);
-        for (out, run) in mixed[runs].iter_mut().zip(&self.runs[first..last]) {
-            let coefs = &self.coefs[run.start as usize..][..run.length as usize];
-            *out = sum_of_rows(coefs, &even[run.first as usize..][..coefs.len()]);
-        }
-    }
-}
-
-/// Sum of the rows, each times its coefficient. Four sums hide each other's latency.
-#[inline(always)]
-fn sum_of_rows<const N: usize>(coefs: &[f32], rows: &[[f32; N]]) -> [f32; N] {
-    let (mut a, mut b, mut c, mut d) = ([0.0; N], [0.0; N], [0.0; N], [0.0; N]);
-    let (fours, rest) = coefs.as_chunks::<4>();
-    let (four_rows, rest_rows) = rows.as_chunks::<4>();
-    for (coefs, rows) in fours.iter().zip(four_rows) {
-        for i in 0..N {
-            a[i] += coefs[0] * rows[0][i];
-            b[i] += coefs[1] * rows[1][i];
-            c[i] += coefs[2] * rows[2][i];
-            d[i] += coefs[3] * rows[3][i];
-        }
-    }
-    for (coef, row) in rest.iter().zip(rest_rows) {
-        for i in 0..N {
-            a[i] += coef * row[i];
-        }
-    }
-    for i in 0..N {
-        a[i] = (a[i] + b[i]) + (c[i] + d[i]);
-    }
-    a
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::modal::simd::Kernels;
+    use crate::modal::zero_row;
+
+    fn applied(mixture: &ModeMixture, even: &[f32]) -> Vec<f32> {
+        let (mut padded, mut mixed) = (zero_row(even.len()), vec![0.0; mixture.modes()]);
+        padded[..even.len()].copy_from_slice(even);
+        Kernels::detect().row_products(&mixture.products(), &padded, &mut mixed);
+        mixed
+    }
 
     #[test]
     fn kept_modes_stay_and_mixed_ones_are_sums() {
         let rows = [(1, vec![0.5, 0.25]), (2, vec![2.0])];
         let mixture = ModeMixture::new(1, &rows);
-        let mut out = [0.0; 3];
-        mixture.apply(&[7.0, 4.0, 8.0], &mut out);
-        assert_eq!(out, [7.0, 4.0, 16.0]);
-        let mut rows = [[0.0; 2]; 3];
-        mixture.apply_rows(&[[7.0, 1.0], [4.0, 2.0], [8.0, 4.0]], &mut rows);
-        assert_eq!(rows, [[7.0, 1.0], [4.0, 2.0], [16.0, 8.0]]);
+        assert_eq!(applied(&mixture, &[7.0, 4.0, 8.0]), [7.0, 4.0, 16.0]);
         assert_eq!(mixture.parts(0).collect::<Vec<_>>(), [(1, 0.5), (2, 0.25)]);
         assert_eq!((mixture.modes(), mixture.kept()), (3, 1));
     }
@@ -189,9 +133,7 @@ mod tests {
     #[test]
     fn amplitudes_come_back_by_the_transpose_and_the_first_modes_stand_alone() {
         let mixture = ModeMixture::new(1, &[(1, vec![0.5, 0.25]), (2, vec![2.0])]);
-        let mut even = [9.0; 3];
-        mixture.transposed().apply(&[7.0, 4.0, 8.0], &mut even);
-        assert_eq!(even, [7.0, 2.0, 17.0]);
+        assert_eq!(applied(&mixture.transposed(), &[7.0, 4.0, 8.0]), [7.0, 2.0, 17.0]);
         let first = mixture.first(2);
         assert_eq!((first.modes(), first.kept()), (2, 1));
         assert_eq!(first.parts(0).collect::<Vec<_>>(), [(1, 0.5)]);
@@ -203,12 +145,7 @@ mod tests {
         let rows = [(1, vec![0.5, 0.25]), (2, vec![2.0]), (1, vec![0.125, 0.0, -1.0])];
         let mixture = ModeMixture::new(1, &rows);
         let even = [7.0, 4.0, 8.0, 2.0];
-        let applied = |mixture: &ModeMixture| {
-            let mut mixed = [0.0; 4];
-            mixture.apply(&even, &mut mixed);
-            mixed
-        };
-        assert_eq!(applied(&mixture), [7.0, 4.0, 16.0, -1.5]);
-        assert_eq!(applied(&mixture.transposed().transposed()), applied(&mixture));
+        assert_eq!(applied(&mixture, &even), [7.0, 4.0, 16.0, -1.5]);
+        assert_eq!(applied(&mixture.transposed().transposed(), &even), applied(&mixture, &even));
     }
 }

@@ -3,10 +3,12 @@
 //! A shape is `R(r) cos(m (theta - theta_0))` or its sine twin, `r` the share of the radius. The
 //! axes `theta_0` of a pair are where the body's small unevenness puts them.
 
+use crate::cache::Shared;
 use crate::math::cubic::Stencil;
 use crate::modal::simd::Kernels;
+use crate::modal::simd::row_products::RowProducts;
 use crate::mode::Member;
-use crate::mode_mixture::{MAX_MIXED, ModeMixture};
+use crate::mode_mixture::MAX_MIXED;
 use crate::patch_factors::{PatchFactors, pressed_share};
 
 /// Intervals of the table. *Measured*: the finest shape of a cymbal at 22 kHz (wavelength a tenth
@@ -50,7 +52,7 @@ pub struct ShapeTable {
     /// The share of every radial function that discs (shares of the radius) feel; none of bodies whose waves are not known.
     felt: PatchFactors,
     /// What becomes of the shapes: each mode of the body is such a mixture of those of the index.
-    mixture: Option<ModeMixture>,
+    mixture: Option<Shared<RowProducts>>,
     kernels: Kernels,
 }
 
@@ -142,7 +144,7 @@ impl ShapeTable {
     }
 
     /// Makes every mode of the body a mixture of those of the index.
-    pub fn with_mixture(self, mixture: Option<ModeMixture>) -> ShapeTable {
+    pub fn with_mixture(self, mixture: Option<Shared<RowProducts>>) -> ShapeTable {
         ShapeTable { mixture, ..self }
     }
 
@@ -174,10 +176,7 @@ impl ShapeTable {
         let Some(mixture) = &self.mixture else { return self.fill_simple(radius, angle, disc, out) };
         let mut simple = [0.0; MAX_MIXED];
         self.fill_simple(radius, angle, disc, &mut simple);
-        self.kernels.vectorized(
-            #[inline(always)]
-            || mixture.apply(&simple, out),
-        );
+        self.kernels.row_products(mixture, &simple, out);
     }
 
     fn fill_simple(&self, radius: f64, angle: f64, disc: f64, out: &mut [f32]) {

@@ -17,8 +17,8 @@ use crate::block::BLOCK;
 use crate::build_context::BuildContext;
 use crate::damping::Thermoelastic;
 use crate::error::SpecError;
+use crate::modal::simd::row_products::RowProducts;
 use crate::mode::ModeKind;
-use crate::mode_mixture::ModeMixture;
 use crate::plate::free_disc::Radiated;
 use crate::plate::{PlateModes, PlateTables, ShellMode};
 use crate::potential::Potential;
@@ -234,7 +234,7 @@ impl<'a> CymbalPlate<'a> {
         if let Some(hammered) = &hammered {
             rows.mix(hammered);
         }
-        let mixture = hammered.map(|hammered| hammered.mixture.clone());
+        let mixture = hammered.map(|hammered| Shared::new(hammered.mixture.products()));
         let moved = coupled.as_ref().map_or(0, |coupled| coupled.modes);
         let swing = self.swing(rigid, (&rows, moved), mixture.as_ref());
         let shapes =
@@ -256,7 +256,7 @@ impl<'a> CymbalPlate<'a> {
         &self,
         rigid: &[RigidMotion],
         (rows, coupled): (&Rows, usize),
-        mixture: Option<&ModeMixture>,
+        mixture: Option<&Shared<RowProducts>>,
     ) -> Option<Swing> {
         let sample_rate = self.swings?;
         let rock = rigid.iter().position(|motion| motion.m == 1);

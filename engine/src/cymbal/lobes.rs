@@ -7,10 +7,13 @@
 //! Limits: so near that the waves have not parted, the difference is that of the far field. Mean and size are right there, single
 //! modes are not.
 
+use std::ops::Range;
+
 use crate::cache::Shared;
 use crate::math::cubic::Stencil;
 use crate::modal::simd::Kernels;
-use crate::mode_mixture::ModeMixture;
+use crate::modal::simd::row_products::RowProducts;
+use crate::modal::{Row, zero_row};
 use crate::plate::free_disc::{DIRECTIONS, FarPattern};
 use crate::receiver::{POINTS, ReceiverPosition, Receivers};
 use crate::shapes::ShapeIndex;
@@ -18,8 +21,8 @@ use crate::surface::swing::Directivity;
 
 use super::sounding_plate::SoundingPlate;
 
-/// What differs from rest in what the points hear of a mode, point by point (real, imaginary), Pa s2/m; filled up to a vector.
-type Change = [f32; 8];
+/// What differs from rest in what the points hear of every mode, Pa s2/m: `[2 point + (real, imaginary)][mode]`.
+type Changes = [Row; 2 * POINTS];
 
 /// Nodal diameters of any mode are fewer.
 const ORDERS: usize = 160;
@@ -61,18 +64,23 @@ impl Direction {
         }
     }
 
-    /// What a mode of that pattern shows of itself, Pa s2/m at a metre.
+    /// What a pattern has in this direction, Pa s2/m at a metre.
     #[inline(always)]
-    fn heard(&self, FarPattern(pattern): &FarPattern, lobe: &Lobe) -> [f32; 2] {
-        let [cos, sin] = self.around[lobe.m as usize];
-        let shown = self.cosine as f32 * (lobe.around[0] * cos + lobe.around[1] * sin);
+    fn of_pattern(&self, FarPattern(pattern): &FarPattern) -> [f32; 2] {
         let four = &pattern[self.stencil.first..][..4];
         let mut sum = [0.0; 2];
         for (weight, [re, im]) in self.stencil.weights.iter().zip(four) {
             sum[0] += *weight as f32 * re;
             sum[1] += *weight as f32 * im;
         }
-        sum.map(|x| x * shown)
+        sum
+    }
+
+    /// How much of its pattern a mode shows, dimensionless.
+    #[inline(always)]
+    fn shown(&self, lobe: &Lobe) -> f32 {
+        let [cos, sin] = self.around[lobe.m as usize];
+        self.cosine as f32 * (lobe.around[0] * cos + lobe.around[1] * sin)
     }
 }
 
@@ -92,12 +100,12 @@ struct LobeReceiver {
 pub struct Lobes {
     kernels: Kernels,
     plate: Shared<SoundingPlate>,
-    mixture: Option<ModeMixture>,
+    mixture: Option<Shared<RowProducts>>,
     lobes: Vec<Lobe>,
     receivers: [LobeReceiver; POINTS],
-    /// `[plain mode]` and `[mode]`.
-    plain: Vec<Change>,
-    mixed: Vec<Change>,
+    /// Of plain modes and of those that are heard.
+    plain: Changes,
+    mixed: Changes,
 }
 
 impl Lobes {
@@ -105,7 +113,7 @@ impl Lobes {
     /// at each point, far away as at a metre, Pa s2/m `[mode]`. Allocates.
     pub fn new(
         plate: Shared<SoundingPlate>,
-        mixture: Option<ModeMixture>,
+        mixture: Option<Shared<RowProducts>>,
         (index, shells, rigid): (&[ShapeIndex], &[usize], usize),
         receivers: &Receivers,
         mut rest: [Vec<[f64; 2]>; POINTS],
@@ -124,39 +132,57 @@ impl Lobes {
             rest: std::mem::take(&mut rest[at]),
             plain_at_rest: vec![[0.0; 2]; modes],
         });
-        let (plain, mixed) = (vec![Change::default(); modes], vec![Change::default(); modes]);
+        let changes = || std::array::from_fn(|_| zero_row(modes));
+        let (plain, mixed) = (changes(), changes());
         let mut all = Lobes { kernels: Kernels::detect(), plate, mixture, lobes, receivers, plain, mixed };
         all.turn([0.0; 2]);
         for receiver in &mut all.receivers {
             for (rest, lobe) in receiver.plain_at_rest.iter_mut().zip(&all.lobes) {
                 let pattern = lobe.shell.map(|shell| &all.plate.patterns[shell as usize]);
-                *rest = pattern.map_or([0.0; 2], |pattern| receiver.now.heard(pattern, lobe));
+                let shown = receiver.now.shown(lobe);
+                *rest =
+                    pattern.map_or([0.0; 2], |pattern| receiver.now.of_pattern(pattern).map(|x| x * shown));
             }
         }
         all
     }
 
-    /// A part of the work: the plain modes come first, then the mixed ones.
+    /// What differs from rest in some of the plain modes.
     #[inline(always)]
-    fn work_on(&mut self, part: usize, parts: usize) {
-        let Lobes { plate, mixture, lobes, receivers, plain, mixed, .. } = self;
-        let half = parts.div_ceil(2);
-        let share = |part: usize, parts: usize| lobes.len() * part / parts..lobes.len() * (part + 1) / parts;
-        if part < half {
-            for k in share(part, half) {
-                let Some(shell) = lobes[k].shell else { continue };
-                let pattern = &plate.patterns[shell as usize];
-                for (receiver, change) in receivers.iter().zip(plain[k].as_chunks_mut::<2>().0) {
-                    let now = receiver.now.heard(pattern, &lobes[k]);
-                    let rest = receiver.plain_at_rest[k];
-                    *change = std::array::from_fn(|i| receiver.spread * (now[i] - rest[i]));
+    fn show(&mut self, modes: Range<usize>) {
+        let Lobes { plate, lobes, receivers, plain, .. } = self;
+        for (receiver, [re, im]) in receivers.iter().zip(plain.as_chunks_mut::<2>().0) {
+            let LobeReceiver { now, spread, plain_at_rest, .. } = receiver;
+            let rows = lobes[modes.clone()].iter().zip(&plain_at_rest[modes.clone()]);
+            let rows = rows.zip(re[modes.clone()].iter_mut().zip(&mut im[modes.clone()]));
+            // The modes of a pair follow each other and have one pattern.
+            let mut latest = (None, [0.0; 2]);
+            for ((lobe, rest), (re, im)) in rows {
+                let Some(shell) = lobe.shell else { continue };
+                if latest.0 != Some(shell) {
+                    latest = (Some(shell), now.of_pattern(&plate.patterns[shell as usize]));
                 }
+                let shown = now.shown(lobe);
+                *re = spread * (latest.1[0] * shown - rest[0]);
+                *im = spread * (latest.1[1] * shown - rest[1]);
             }
-        } else {
-            let range = share(part - half, parts - half);
-            match mixture {
-                Some(mixture) => mixture.apply_some(plain, mixed, range),
-                None => mixed[range.clone()].copy_from_slice(&plain[range]),
+        }
+    }
+
+    /// Some of so many parts of what differs from rest in the modes that are heard.
+    fn mix(&mut self, part: usize, parts: usize) {
+        let Lobes { kernels, mixture, lobes, plain, mixed, .. } = self;
+        let share = |of: usize| of * part / parts..of * (part + 1) / parts;
+        match mixture {
+            Some(mixture) => {
+                let (plain, mixed) =
+                    (plain.each_ref().map(|row| &row[..]), mixed.each_mut().map(|row| &mut row[..]));
+                kernels.some_row_products(mixture, share(mixture.parts()), plain, mixed);
+            }
+            None => {
+                let modes = share(lobes.len());
+                let rows = mixed.iter_mut().zip(plain.iter());
+                rows.for_each(|(mixed, plain)| mixed[modes.clone()].copy_from_slice(&plain[modes.clone()]));
             }
         }
     }
@@ -191,10 +217,15 @@ impl Directivity for Lobes {
     }
 
     fn work(&mut self, part: usize, parts: usize) {
-        let kernels = self.kernels;
+        // The plain modes come first, then those that are heard.
+        let half = parts.div_ceil(2);
+        if part >= half {
+            return self.mix(part - half, parts - half);
+        }
+        let (kernels, modes) = (self.kernels, self.lobes.len());
         kernels.vectorized(
             #[inline(always)]
-            || self.work_on(part, parts),
+            || self.show(modes * part / half..modes * (part + 1) / half),
         );
     }
 
@@ -206,8 +237,9 @@ impl Directivity for Lobes {
 
     fn write(&self, transfers: [&mut [[f64; 2]]; POINTS]) {
         for (at, (out, receiver)) in transfers.into_iter().zip(&self.receivers).enumerate() {
-            for ((out, rest), change) in out.iter_mut().zip(&receiver.rest).zip(&self.mixed) {
-                *out = [0, 1].map(|i| rest[i] + f64::from(change[2 * at + i]));
+            let changes = self.mixed[2 * at].iter().zip(self.mixed[2 * at + 1].iter());
+            for ((out, rest), (re, im)) in out.iter_mut().zip(&receiver.rest).zip(changes) {
+                *out = [rest[0] + f64::from(*re), rest[1] + f64::from(*im)];
             }
         }
     }

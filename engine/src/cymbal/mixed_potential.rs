@@ -30,8 +30,8 @@ impl<P: Potential> MixedPotential<P> {
         MixedPotential {
             plain,
             modes,
-            mixing: RowProducts::new(&mixture.rows(), modes),
-            unmixing: RowProducts::new(&mixture.transposed().rows(), modes),
+            mixing: mixture.products(),
+            unmixing: mixture.transposed().products(),
             kernels: Kernels::detect(),
             displacement: zero_row(modes),
             gradient: zero_row(modes),

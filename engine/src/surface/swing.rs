@@ -5,8 +5,8 @@
 //! lies from the tilted body.
 //!
 //! Scheme: transfers are worked out once in a cycle of some blocks, a part in each block, for the tilt at its beginning. In the next
-//! cycle the weights go there in steps of eight samples. A cycle lasts as long as the body, at the speed of the last one, needs for
-//! a small turn.
+//! cycle the weights go there in steps of some samples. A cycle lasts as long as the body, at the speed of the last one, needs for
+//! a small turn. Where the body turns faster than that, as after a stroke, the cycle begins anew.
 
 use crate::block::BLOCK;
 use crate::modal::sway::Sway;
@@ -18,12 +18,18 @@ use super::body::{SoundingBody, StruckBody};
 /// straight line is within 5 % of such a lobe.
 const TURN: f64 = 0.02;
 
-/// How long a cycle lasts, s, at least and at most. At least *derived*: a crash turns by 3 rad/s at most, by 0.01 rad in so long, a splash
-/// by 0.04. At most *judgement*: a swing that begins anew is heard 24 ms late, a fifteenth of a splash's period.
-const CYCLE: [f64; 2] = [0.003, 0.012];
+/// A turn since its beginning that ends a cycle before its time, rad. *Judgement*: a swing that gains speed evenly, as gravity makes it, is
+/// not cut short; one that begins by a stroke is followed within this turn.
+const ASTRAY: f64 = 1.5 * TURN;
 
-/// Samples of a step of the weights. *Derived*: images at 5.5 kHz from a mode at 10 kHz lie 40 dB under it.
-const STEP: usize = 8;
+/// How long a cycle lasts, s, at least and at most. At least *derived*: a crash turns by 3 rad/s at most, by 0.01 rad in so long, a splash
+/// by 0.04. At most *derived*: a tenth of the fastest swing's period, in which a straight line is within a twentieth of the swing.
+const CYCLE: [f64; 2] = [0.003, 0.036];
+
+/// Samples of a step of the weights, and how many steps a cycle has at least for longer ones. *Derived*: images at 5.5 kHz from a mode
+/// at 10 kHz lie 40 dB under it at 3 rad/s, where a step turns by a thirty-seventh of [`TURN`].
+const STEPS: [usize; 3] = [32, 16, 8];
+const FEWEST: usize = 37;
 
 /// Change of the tilt that nobody hears, rad. *Derived*: a hundredth of a lobe at 10 kHz.
 const UNHEARD: f64 = 1e-3;
@@ -54,6 +60,12 @@ fn cycle_of(turn: f64, [fewest, most]: [usize; 2]) -> usize {
     ((TURN / turn.max(f64::MIN_POSITIVE)).min(most as f64) as usize).max(fewest)
 }
 
+/// Samples of a step in a cycle of so many blocks.
+fn step_of(cycle: usize) -> usize {
+    let shortest = STEPS[STEPS.len() - 1];
+    STEPS.into_iter().find(|step| cycle * BLOCK / step >= FEWEST).unwrap_or(shortest)
+}
+
 /// The rock of a body among its modes.
 #[derive(Debug, Clone, Copy)]
 pub struct Rock {
@@ -76,7 +88,8 @@ pub struct Swing {
     cycle: usize,
     /// Fewest and most blocks of one.
     cycles: [usize; 2],
-    /// Samples into the present block.
+    /// Samples of a step of the weights, and samples into the present block.
+    step: usize,
     sample: usize,
     /// Whether the weights have left those of rest.
     moved: bool,
@@ -100,6 +113,7 @@ impl Swing {
             block: None,
             cycle: cycles[0],
             cycles,
+            step: STEPS[0],
             sample: 0,
             moved: false,
         }
@@ -121,6 +135,10 @@ impl Swing {
         self.sample = 0;
         let tilt = attached.unwrap_or_else(|| self.tilt(body));
         match self.block {
+            Some(block) if block + 1 < self.cycle && self.turned_to(tilt) > ASTRAY => {
+                self.cycle = cycle_of(self.turned_to(tilt) / (block + 1) as f64, self.cycles);
+                self.begin_cycle(tilt);
+            }
             Some(block) if block + 1 < self.cycle => {
                 self.directivity.work(block + 1, self.cycle);
                 self.block = Some(block + 1);
@@ -130,7 +148,8 @@ impl Swing {
                 let Swing { directivity, sway, .. } = self;
                 directivity.write(sway.transfers_mut());
                 body.modal.aim(sway, 0..body.modal.len());
-                body.modal.set_out(sway, &mut body.receiver, self.cycle * BLOCK / STEP);
+                self.step = step_of(self.cycle);
+                body.modal.set_out(sway, &mut body.receiver, self.cycle * BLOCK / self.step);
                 self.moved = true;
                 self.begin_cycle(tilt);
             }
@@ -158,13 +177,13 @@ impl Swing {
 
     /// Samples until the weights move, of so many; they move after.
     pub fn run(&self, samples: usize) -> usize {
-        if self.sway.moves() { samples.min(STEP - self.sample % STEP) } else { samples }
+        if self.sway.moves() { samples.min(self.step - self.sample % self.step) } else { samples }
     }
 
     /// So many samples have been rendered.
     pub fn advance(&mut self, samples: usize, body: &mut StruckBody) {
         self.sample += samples;
-        if self.sample.is_multiple_of(STEP) {
+        if self.sample.is_multiple_of(self.step) {
             body.sway(&mut self.sway);
         }
     }
@@ -191,12 +210,4 @@ impl Swing {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_cycle_lasts_until_the_body_has_turned_a_little() {
-        let cycles = [0.0, 1e-9, 0.0021, 0.004, 0.1].map(|turn| cycle_of(turn, [4, 17]));
-        assert_eq!(cycles, [17, 17, 9, 5, 4]);
-    }
-}
+mod tests;

@@ -28,8 +28,9 @@ const KICK: u8 = 36;
 /// What runs this.
 const THIS: &str = "test";
 
-/// Pages that are never drawn: costs are what `bench` measures, and the page of mechanisms compares for minutes and claims nothing.
-const NEVER_DRAWN: [&str; 2] = ["cost", "mechanisms"];
+/// Pages that are never drawn: costs are what `bench` measures, the page of mechanisms compares for minutes and claims nothing, and the
+/// comparison with recordings renders for ten minutes; `--test recordings` holds some of its claims.
+const NEVER_DRAWN: [&str; 3] = ["cost", "mechanisms", "realism"];
 
 /// The page of the report for this run, drawn from a fresh seed that is printed. The tests hold the figures of all pages to their
 /// bounds.

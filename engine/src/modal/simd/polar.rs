@@ -20,9 +20,6 @@ pub const SLOTS: usize = 16;
 /// Rows or angles taken together.
 pub const BLOCK: usize = 3;
 
-/// Vectors taken together where the widest registers are, of which there are 32: they share the cosines and sines.
-const TOGETHER: usize = 3;
-
 /// Transform between spectrum and field for one number of orders and angles.
 pub struct Circle {
     /// Rows of even and of odd orders, padded, and without.
@@ -167,20 +164,42 @@ impl Kernel for Spread<'_> {
         let table = S::as_simd_f32s(table).0;
         let out = S::as_mut_simd_f32s(self.spectrum).0;
         let rows = starts.windows(2).zip(self.amplitudes.as_chunks::<SLOTS>().0.as_chunks::<2>().0);
-        for ((range, [cos, sin]), out) in rows.zip(out.chunks_exact_mut(2 * w)) {
-            let functions = &table[range[0] * w..range[1] * w];
-            let (out_cos, out_sin) = out.split_at_mut(w);
-            for v in 0..w {
-                let mut sums = [simd.splat_f32s(0.0); 2];
-                for ((function, &c), &s) in functions.chunks_exact(w).zip(cos).zip(sin) {
-                    sums[0] = fma(function[v], simd.splat_f32s(c), sums[0]);
-                    sums[1] = fma(function[v], simd.splat_f32s(s), sums[1]);
-                }
-                let [c, s] = sums;
-                (out_cos[v], out_sin[v]) = if v < turned { (c, s) } else { (s, simd.neg_f32s(c)) };
+        for ((range, amplitudes), out) in rows.zip(out.chunks_exact_mut(2 * w)) {
+            let functions = (&table[range[0] * w..range[1] * w], w);
+            let mut v = 0;
+            while v < w {
+                v += match w - v {
+                    4.. => spread_some::<S, 4>(simd, fma, (v, turned), functions, amplitudes, out),
+                    2.. => spread_some::<S, 2>(simd, fma, (v, turned), functions, amplitudes, out),
+                    _ => spread_some::<S, 1>(simd, fma, (v, turned), functions, amplitudes, out),
+                };
             }
         }
     }
+}
+
+/// `V` vectors of a row of a spectrum from `v` on, of functions of `w` vectors. Returns `V`.
+#[inline(always)]
+fn spread_some<S: Simd, const V: usize>(
+    simd: S,
+    fma: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s,
+    (v, turned): (usize, usize),
+    (functions, w): (&[S::f32s], usize),
+    [cos, sin]: &[[f32; SLOTS]; 2],
+    out: &mut [S::f32s],
+) -> usize {
+    let mut sums = [[simd.splat_f32s(0.0); 2]; V];
+    for ((function, &c), &s) in functions.chunks_exact(w).zip(cos).zip(sin) {
+        let (c, s, function) = (simd.splat_f32s(c), simd.splat_f32s(s), &function[v..v + V]);
+        for j in 0..V {
+            sums[j][0] = fma(function[j], c, sums[j][0]);
+            sums[j][1] = fma(function[j], s, sums[j][1]);
+        }
+    }
+    for (j, [c, s]) in sums.into_iter().enumerate() {
+        (out[v + j], out[w + v + j]) = if v + j < turned { (c, s) } else { (s, simd.neg_f32s(c)) };
+    }
+    V
 }
 
 struct Gather<'a> {
@@ -199,26 +218,57 @@ impl Kernel for Gather<'_> {
         let table = S::as_simd_f32s(table).0;
         let spectrum = S::as_simd_f32s(self.spectrum).0;
         let amplitudes = self.amplitudes.as_chunks_mut::<SLOTS>().0.as_chunks_mut::<2>().0;
-        for ((range, [cos, sin]), row) in starts.windows(2).zip(amplitudes).zip(spectrum.chunks_exact(2 * w))
+        for ((range, amplitudes), row) in starts.windows(2).zip(amplitudes).zip(spectrum.chunks_exact(2 * w))
         {
-            let functions = &table[range[0] * w..range[1] * w];
-            let (row_cos, row_sin) = row.split_at(w);
-            for ((function, cos), sin) in functions.chunks_exact(w).zip(cos).zip(sin) {
-                let mut sums = [simd.splat_f32s(0.0); 2];
-                for (v, &shape) in function.iter().enumerate() {
-                    let (c, s) = if v < turned {
-                        (row_cos[v], row_sin[v])
-                    } else {
-                        (simd.neg_f32s(row_sin[v]), row_cos[v])
-                    };
-                    sums[0] = fma(shape, c, sums[0]);
-                    sums[1] = fma(shape, s, sums[1]);
-                }
-                *cos += simd.reduce_sum_f32s(sums[0]);
-                *sin += simd.reduce_sum_f32s(sums[1]);
+            let count = range[1] - range[0];
+            let mut first = 0;
+            while first < count {
+                let functions = &table[(range[0] + first) * w..range[1] * w];
+                first += match count - first {
+                    3.. => gather_some::<S, 3>(simd, fma, functions, (row, turned), first, amplitudes),
+                    2 => gather_some::<S, 2>(simd, fma, functions, (row, turned), first, amplitudes),
+                    _ => gather_some::<S, 1>(simd, fma, functions, (row, turned), first, amplitudes),
+                };
             }
         }
     }
+}
+
+/// Adds what a row of a spectrum projects on the first `F` of these functions to amplitudes from `first` on. Returns `F`.
+#[inline(always)]
+fn gather_some<S: Simd, const F: usize>(
+    simd: S,
+    fma: impl Fn(S::f32s, S::f32s, S::f32s) -> S::f32s,
+    functions: &[S::f32s],
+    (row, turned): (&[S::f32s], usize),
+    first: usize,
+    [to_cos, to_sin]: &mut [[f32; SLOTS]; 2],
+) -> usize {
+    let (cos, sin) = row.split_at(row.len() / 2);
+    let w = cos.len();
+    let mut sums = [[simd.splat_f32s(0.0); 2]; F];
+    let shapes: [&[S::f32s]; F] = std::array::from_fn(
+        #[inline(always)]
+        |f| &functions[f * w..][..w],
+    );
+    for v in 0..turned {
+        for f in 0..F {
+            sums[f][0] = fma(shapes[f][v], cos[v], sums[f][0]);
+            sums[f][1] = fma(shapes[f][v], sin[v], sums[f][1]);
+        }
+    }
+    for v in turned..w {
+        let minus_sin = simd.neg_f32s(sin[v]);
+        for f in 0..F {
+            sums[f][0] = fma(shapes[f][v], minus_sin, sums[f][0]);
+            sums[f][1] = fma(shapes[f][v], cos[v], sums[f][1]);
+        }
+    }
+    for (f, [c, s]) in sums.into_iter().enumerate() {
+        to_cos[first + f] += simd.reduce_sum_f32s(c);
+        to_sin[first + f] += simd.reduce_sum_f32s(s);
+    }
+    F
 }
 
 struct Unfold<'a> {
@@ -242,20 +292,14 @@ impl Kernel for Unfold<'_> {
         let (even_rows, odd_rows) = ((even_rows, row), (odd_rows, row));
         for (turns, out) in unfold.chunks_exact(rows).zip(field.chunks_exact_mut(4 * BLOCK * w)) {
             let (even_turns, odd_turns) = turns.split_at(*evens);
+            let (even, odd) = ((even_rows, even_turns), (odd_rows, odd_turns));
             let mut v = 0;
-            while S::F32_LANES == LANES && v + TOGETHER <= w {
-                unfold_some::<S, TOGETHER>(
-                    simd,
-                    fma,
-                    (v, w),
-                    (even_rows, even_turns),
-                    (odd_rows, odd_turns),
-                    out,
-                );
-                v += TOGETHER;
-            }
-            for v in v..w {
-                unfold_some::<S, 1>(simd, fma, (v, w), (even_rows, even_turns), (odd_rows, odd_turns), out);
+            while v < w {
+                v += match w - v {
+                    3.. if S::F32_LANES == LANES => unfold_some::<S, 3>(simd, fma, (v, w), even, odd, out),
+                    2.. => unfold_some::<S, 2>(simd, fma, (v, w), even, odd, out),
+                    _ => unfold_some::<S, 1>(simd, fma, (v, w), even, odd, out),
+                };
             }
         }
     }
@@ -273,7 +317,7 @@ fn unfold_some<S: Simd, const V: usize>(
     ((even_rows, row), even_turns): TurnedRows<'_, S>,
     ((odd_rows, _), odd_turns): TurnedRows<'_, S>,
     out: &mut [S::f32s],
-) {
+) -> usize {
     let places = [row - w + v, 2 * row - w + v];
     let even = sum_rows::<S, V>(simd, fma, (even_rows, 2 * row, places), even_turns);
     let odd = sum_rows::<S, V>(simd, fma, (odd_rows, 2 * row, places), odd_turns);
@@ -289,6 +333,7 @@ fn unfold_some<S: Simd, const V: usize>(
             out[3 * w + v + j] = simd.add_f32s(far, down);
         }
     }
+    V
 }
 
 /// Sums of rows of so many vectors, each weighted by the cosines and sines of a block: those take the vectors from either place on, `V`
@@ -344,12 +389,14 @@ impl Kernel for Fold<'_> {
         for (block, (turns, out)) in blocks.enumerate() {
             let first = if block * BLOCK < *evens { 0 } else { 2 * w };
             let mut v = 0;
-            while S::F32_LANES == LANES && v + TOGETHER <= w {
-                fold_some::<S, TOGETHER>(simd, fma, (v, w), (field, first, turns), (out, row));
-                v += TOGETHER;
-            }
-            for v in v..w {
-                fold_some::<S, 1>(simd, fma, (v, w), (field, first, turns), (out, row));
+            while v < w {
+                v += match w - v {
+                    3.. if S::F32_LANES == LANES => {
+                        fold_some::<S, 3>(simd, fma, (v, w), (field, first, turns), (out, row))
+                    }
+                    2.. => fold_some::<S, 2>(simd, fma, (v, w), (field, first, turns), (out, row)),
+                    _ => fold_some::<S, 1>(simd, fma, (v, w), (field, first, turns), (out, row)),
+                };
             }
         }
     }
@@ -364,7 +411,7 @@ fn fold_some<S: Simd, const V: usize>(
     (v, w): (usize, usize),
     (field, first, turns): (&[S::f32s], usize, &[[f32; 2 * BLOCK]]),
     (out, row): (&mut [S::f32s], usize),
-) {
+) -> usize {
     let sums = sum_rows::<S, V>(simd, fma, (field, 4 * w, [first + v, first + w + v]), turns);
     for (i, sums) in sums.iter().enumerate() {
         for (j, sum) in sums.iter().enumerate() {
@@ -372,6 +419,7 @@ fn fold_some<S: Simd, const V: usize>(
             (out[end], out[end + row]) = (sum[0], sum[1]);
         }
     }
+    V
 }
 
 struct Bracket<'a> {
