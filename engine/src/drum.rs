@@ -112,13 +112,13 @@ struct Mixing {
     /// The mixture of their even modes.
     mixture: Shared<RowProducts>,
     /// What is heard of the even modes and of the body's.
-    even: Heard,
-    heard: Heard,
+    even: HeardRows,
+    heard: HeardRows,
 }
 
 /// What is heard of all modes, `[what][mode]`: pressure at each point (real, imaginary), volume, and of the pressure at the first far
 /// point what goes all around.
-type Heard = [Row; 2 * POINTS + 2];
+type HeardRows = [Row; 2 * POINTS + 2];
 
 /// The places in it of the first far point, of the volume and of what goes all around.
 const FAR: usize = 2;

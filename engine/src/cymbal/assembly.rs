@@ -271,7 +271,7 @@ impl<'a> CymbalPlate<'a> {
             tilt_per_metre: (rigid[rock].shape)(1.0) / self.spec.plate().radius(),
         });
         let lobes = Lobes::new(
-            self.known.clone(),
+            &self.known.patterns,
             mixture.cloned(),
             (&rows.index, &rows.shells, before(rigid.len())),
             self.receivers,

@@ -19,8 +19,6 @@ use crate::receiver::{POINTS, ReceiverPosition, Receivers};
 use crate::shapes::ShapeIndex;
 use crate::surface::swing::Directivity;
 
-use super::sounding_plate::SoundingPlate;
-
 /// What differs from rest in what the points hear of every mode, Pa s2/m: `[2 point + (real, imaginary)][mode]`.
 type Changes = [Row; 2 * POINTS];
 
@@ -64,23 +62,38 @@ impl Direction {
         }
     }
 
-    /// What a pattern has in this direction, Pa s2/m at a metre.
-    #[inline(always)]
-    fn of_pattern(&self, FarPattern(pattern): &FarPattern) -> [f32; 2] {
-        let four = &pattern[self.stencil.first..][..4];
-        let mut sum = [0.0; 2];
-        for (weight, [re, im]) in self.stencil.weights.iter().zip(four) {
-            sum[0] += *weight as f32 * re;
-            sum[1] += *weight as f32 * im;
-        }
-        sum
-    }
-
     /// How much of its pattern a mode shows, dimensionless.
     #[inline(always)]
     fn shown(&self, lobe: &Lobe) -> f32 {
         let [cos, sin] = self.around[lobe.m as usize];
         self.cosine as f32 * (lobe.around[0] * cos + lobe.around[1] * sin)
+    }
+}
+
+/// Far patterns of all shell modes, those of one direction side by side: a turn reads four directions from one end to the other, where it
+/// would wait for the memory at every pattern.
+struct Patterns {
+    shells: usize,
+    /// `[direction][shell]`, Pa s2/m at a metre.
+    all: Vec<[f32; 2]>,
+}
+
+impl Patterns {
+    fn new(patterns: &[FarPattern]) -> Patterns {
+        let in_direction = |i: usize| patterns.iter().map(move |FarPattern(pattern)| pattern[i]);
+        Patterns { shells: patterns.len(), all: (0..DIRECTIONS).flat_map(in_direction).collect() }
+    }
+
+    /// What a shell mode has in a direction, Pa s2/m at a metre.
+    #[inline(always)]
+    fn toward(&self, direction: &Direction, shell: usize) -> [f32; 2] {
+        let mut sum = [0.0; 2];
+        for (i, weight) in direction.stencil.weights.iter().enumerate() {
+            let [re, im] = self.all[(direction.stencil.first + i) * self.shells + shell];
+            sum[0] += *weight as f32 * re;
+            sum[1] += *weight as f32 * im;
+        }
+        sum
     }
 }
 
@@ -99,7 +112,7 @@ struct LobeReceiver {
 /// The lobes of all modes.
 pub struct Lobes {
     kernels: Kernels,
-    plate: Shared<SoundingPlate>,
+    patterns: Patterns,
     mixture: Option<Shared<RowProducts>>,
     lobes: Vec<Lobe>,
     receivers: [LobeReceiver; POINTS],
@@ -109,10 +122,10 @@ pub struct Lobes {
 }
 
 impl Lobes {
-    /// Those of a plate, of whose plain modes the first are `rigid` motions; `shells` are the others' rows; `rest` is heard at rest
+    /// Those of a plate with these patterns, `[shell]`, of whose plain modes the first are `rigid` motions; `shells` are the others' rows; `rest` is heard at rest
     /// at each point, far away as at a metre, Pa s2/m `[mode]`. Allocates.
     pub fn new(
-        plate: Shared<SoundingPlate>,
+        patterns: &[FarPattern],
         mixture: Option<Shared<RowProducts>>,
         (index, shells, rigid): (&[ShapeIndex], &[usize], usize),
         receivers: &Receivers,
@@ -134,14 +147,14 @@ impl Lobes {
         });
         let changes = || std::array::from_fn(|_| zero_row(modes));
         let (plain, mixed) = (changes(), changes());
-        let mut all = Lobes { kernels: Kernels::detect(), plate, mixture, lobes, receivers, plain, mixed };
+        let patterns = Patterns::new(patterns);
+        let mut all = Lobes { kernels: Kernels::detect(), patterns, mixture, lobes, receivers, plain, mixed };
         all.turn([0.0; 2]);
         for receiver in &mut all.receivers {
             for (rest, lobe) in receiver.plain_at_rest.iter_mut().zip(&all.lobes) {
-                let pattern = lobe.shell.map(|shell| &all.plate.patterns[shell as usize]);
+                let Some(shell) = lobe.shell else { continue };
                 let shown = receiver.now.shown(lobe);
-                *rest =
-                    pattern.map_or([0.0; 2], |pattern| receiver.now.of_pattern(pattern).map(|x| x * shown));
+                *rest = all.patterns.toward(&receiver.now, shell as usize).map(|x| x * shown);
             }
         }
         all
@@ -150,7 +163,7 @@ impl Lobes {
     /// What differs from rest in some of the plain modes.
     #[inline(always)]
     fn show(&mut self, modes: Range<usize>) {
-        let Lobes { plate, lobes, receivers, plain, .. } = self;
+        let Lobes { patterns, lobes, receivers, plain, .. } = self;
         for (receiver, [re, im]) in receivers.iter().zip(plain.as_chunks_mut::<2>().0) {
             let LobeReceiver { now, spread, plain_at_rest, .. } = receiver;
             let rows = lobes[modes.clone()].iter().zip(&plain_at_rest[modes.clone()]);
@@ -160,7 +173,7 @@ impl Lobes {
             for ((lobe, rest), (re, im)) in rows {
                 let Some(shell) = lobe.shell else { continue };
                 if latest.0 != Some(shell) {
-                    latest = (Some(shell), now.of_pattern(&plate.patterns[shell as usize]));
+                    latest = (Some(shell), patterns.toward(now, shell as usize));
                 }
                 let shown = now.shown(lobe);
                 *re = spread * (latest.1[0] * shown - rest[0]);
@@ -288,7 +301,7 @@ mod tests {
         let count = index.len();
         let zero = || vec![[0.0; 2]; count];
         let mut lobes = Lobes::new(
-            known.clone(),
+            &known.patterns,
             None,
             (&index, &rows, 0),
             &context.receivers,
