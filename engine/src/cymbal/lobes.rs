@@ -122,8 +122,8 @@ pub struct Lobes {
 }
 
 impl Lobes {
-    /// Those of a plate with these patterns, `[shell]`, of whose plain modes the first are `rigid` motions; `shells` are the others' rows; `rest` is heard at rest
-    /// at each point, far away as at a metre, Pa s2/m `[mode]`. Allocates.
+    /// Those of a plate with these patterns, `[shell]`, of whose plain modes the first are `rigid` motions; `shells` are the others' rows;
+    /// `rest` is heard at rest at each point, far away as at a metre, Pa s2/m `[mode]`. Allocates.
     pub fn new(
         patterns: &[FarPattern],
         mixture: Option<Shared<RowProducts>>,

@@ -18,17 +18,18 @@ use super::body::{SoundingBody, StruckBody};
 /// straight line is within 5 % of such a lobe.
 const TURN: f64 = 0.02;
 
-/// A turn since its beginning that ends a cycle before its time, rad. *Judgement*: a swing that gains speed evenly, as gravity makes it, is
-/// not cut short; one that begins by a stroke is followed within this turn.
+/// A turn since its beginning that ends a cycle before its time, if a new one is over sooner, rad. *Judgement*: a swing that gains speed
+/// evenly, as gravity makes it, is not cut short; one that begins by a stroke is followed within this turn.
 const ASTRAY: f64 = 1.5 * TURN;
 
 /// How long a cycle lasts, s, at least and at most. At least *derived*: a crash turns by 3 rad/s at most, by 0.01 rad in so long, a splash
-/// by 0.04. At most *derived*: a tenth of the fastest swing's period, in which a straight line is within a twentieth of the swing.
+/// by 0.04. At most *derived*: a tenth of a splash's period, in which a straight line is within a twentieth of the swing.
 const CYCLE: [f64; 2] = [0.003, 0.036];
 
-/// Samples of a step of the weights, and how many steps a cycle has at least for longer ones. *Derived*: images at 5.5 kHz from a mode
-/// at 10 kHz lie 40 dB under it at 3 rad/s, where a step turns by a thirty-seventh of [`TURN`].
+/// Samples of a step of the weights. *Derived*: with the shortest, images at 5.5 kHz from a mode at 10 kHz lie 40 dB under it.
 const STEPS: [usize; 3] = [32, 16, 8];
+
+/// Fewest steps of a cycle but for the shortest. *Derived*: of so many, each turns by no more than the shortest at 3 rad/s.
 const FEWEST: usize = 37;
 
 /// Change of the tilt that nobody hears, rad. *Derived*: a hundredth of a lobe at 10 kHz.
@@ -135,7 +136,7 @@ impl Swing {
         self.sample = 0;
         let tilt = attached.unwrap_or_else(|| self.tilt(body));
         match self.block {
-            Some(block) if block + 1 < self.cycle && self.turned_to(tilt) > ASTRAY => {
+            Some(block) if self.is_astray(tilt, block + 1) => {
                 self.cycle = cycle_of(self.turned_to(tilt) / (block + 1) as f64, self.cycles);
                 self.begin_cycle(tilt);
             }
@@ -163,6 +164,12 @@ impl Swing {
     /// How far a tilt is from the one that is known, rad.
     fn turned_to(&self, tilt: [f64; 2]) -> f64 {
         tilt.iter().zip(self.tilt).map(|(tilt, known)| (tilt - known).abs()).fold(0.0, f64::max)
+    }
+
+    /// Whether so many blocks into a cycle a new one is worth what has been worked out.
+    fn is_astray(&self, tilt: [f64; 2], blocks: usize) -> bool {
+        let turned = self.turned_to(tilt);
+        turned > ASTRAY && blocks + cycle_of(turned / blocks as f64, self.cycles) < self.cycle
     }
 
     fn begin_cycle(&mut self, tilt: [f64; 2]) {

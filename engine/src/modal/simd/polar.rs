@@ -293,6 +293,7 @@ impl Kernel for Unfold<'_> {
         for (turns, out) in unfold.chunks_exact(rows).zip(field.chunks_exact_mut(4 * BLOCK * w)) {
             let (even_turns, odd_turns) = turns.split_at(*evens);
             let (even, odd) = ((even_rows, even_turns), (odd_rows, odd_turns));
+            // Vectors side by side share the cosines and sines. The widest registers are 32 and hold the sums of three; others are 16.
             let mut v = 0;
             while v < w {
                 v += match w - v {
@@ -388,6 +389,7 @@ impl Kernel for Fold<'_> {
         let blocks = fold.chunks_exact(*quarter).zip(spectrum.chunks_exact_mut(2 * BLOCK * row));
         for (block, (turns, out)) in blocks.enumerate() {
             let first = if block * BLOCK < *evens { 0 } else { 2 * w };
+            // As in unfolding.
             let mut v = 0;
             while v < w {
                 v += match w - v {
