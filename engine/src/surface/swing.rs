@@ -23,11 +23,11 @@ const TURN: f64 = 0.02;
 const ASTRAY: f64 = 1.5 * TURN;
 
 /// How long a cycle lasts, s, at least and at most. At least *derived*: a crash turns by 3 rad/s at most, by 0.01 rad in so long, a splash
-/// by 0.04. At most *derived*: a tenth of a splash's period, in which a straight line is within a twentieth of the swing.
-const CYCLE: [f64; 2] = [0.003, 0.036];
+/// by 0.04. At most *derived*: a fifteenth of a splash's period, in which a straight line is within a fiftieth of the swing.
+const CYCLE: [f64; 2] = [0.003, 0.024];
 
 /// Samples of a step of the weights. *Derived*: with the shortest, images at 5.5 kHz from a mode at 10 kHz lie 40 dB under it.
-const STEPS: [usize; 3] = [32, 16, 8];
+const STEPS: [usize; 2] = [16, 8];
 
 /// Fewest steps of a cycle but for the shortest. *Derived*: of so many, each turns by no more than the shortest at 3 rad/s.
 const FEWEST: usize = 37;

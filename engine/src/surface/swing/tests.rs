@@ -9,7 +9,7 @@ const RATE: f64 = 44_100.0;
 fn a_cycle_lasts_until_the_body_has_turned_a_little() {
     let cycles = [0.0, 1e-9, 0.0021, 0.004, 0.1].map(|turn| cycle_of(turn, [4, 17]));
     assert_eq!(cycles, [17, 17, 9, 5, 4]);
-    assert_eq!([4, 17, 18, 19, 36, 37, 50].map(step_of), [8, 8, 8, 16, 16, 32, 32]);
+    assert_eq!([4, 17, 18, 19, 33].map(step_of), [8, 8, 8, 16, 16]);
 }
 
 /// Notes the tilts that it turns to.
@@ -47,13 +47,13 @@ fn seconds(block: usize) -> f64 {
 #[test]
 fn lobes_of_a_slow_swing_are_worked_out_rarely_and_those_of_a_fast_one_as_it_turns() {
     // Two seconds at 2 Hz, at most 0.19 and 3.1 rad/s.
-    for (amplitude, rarest) in [(0.015, 70), (0.25, 230)] {
+    for (amplitude, rarest) in [(0.015, 90), (0.25, 230)] {
         let tilt = |block: usize| amplitude * (4.0 * std::f64::consts::PI * seconds(block)).sin();
         let all = turned(tilt, 2756);
         assert!(all.len() < rarest, "{} times at {amplitude} rad", all.len());
         for pair in all.windows(2) {
             let step = (pair[1].1 - pair[0].1).abs();
-            assert!(step < 0.05, "{step} rad at once");
+            assert!(step < 0.045, "{step} rad at once");
         }
     }
 }
