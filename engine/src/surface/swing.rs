@@ -19,7 +19,7 @@ use super::body::{SoundingBody, StruckBody};
 const TURN: f64 = 0.02;
 
 /// A turn since its beginning that ends a cycle before its time, if a new one is over sooner, rad. *Judgement*: a swing that gains speed
-/// evenly, as gravity makes it, is not cut short; one that begins by a stroke is followed within this turn.
+/// evenly, as gravity makes it, is not cut short; one that begins by a stroke in a long cycle need not wait for its end.
 const ASTRAY: f64 = 1.5 * TURN;
 
 /// How long a cycle lasts, s, at least and at most. At least *derived*: a crash turns by 3 rad/s at most, by 0.01 rad in so long, a splash
@@ -89,8 +89,9 @@ pub struct Swing {
     cycle: usize,
     /// Fewest and most blocks of one.
     cycles: [usize; 2],
-    /// Samples of a step of the weights, and samples into the present block.
+    /// Samples of a step of the weights.
     step: usize,
+    /// Samples into the present block.
     sample: usize,
     /// Whether the weights have left those of rest.
     moved: bool,
