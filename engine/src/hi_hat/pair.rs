@@ -263,15 +263,15 @@ impl Pair {
     }
 
     /// Comes to rest with the foot at its goal; the shells stay as they are.
+    ///
+    /// # Real-time
+    /// Linear in the number of modes, and some ten microseconds if rims touch.
     pub fn come_to_rest(&mut self) {
         self.pedal.arrival = None;
         self.pedal.foot.jump();
-        let Balance { rest, places, compression } = self.statics.balance(
-            self.pedal.foot.place(),
-            &self.pedal.goal.preload,
-            &self.rims.law,
-            &self.rigid,
-        );
+        // From no estimate: what is found depends on the place of the rod alone, to the last bit, and not on what was played before.
+        let Balance { rest, places, compression } =
+            self.statics.balance(self.pedal.foot.place(), &[0.0; POINTS], &self.rims.law, &self.rigid);
         self.pedal.arrive(rest);
         self.rigid.iter_mut().zip(&places).for_each(|(rigid, place)| rigid.put(place));
         (self.rims.compression, self.rims.force) = (compression, rest.preload);
