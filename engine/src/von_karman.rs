@@ -11,7 +11,7 @@
 //! dU/dq_p = sum f_k dP_k/dq_p + 2 c_k P_k dl_k/dq_p,   f_k = 2 c_k (P_k + l_k)
 //! ```
 //!
-//! can be negative, but never by more than `sum c_k l_k^2`.
+//! can be negative, but never by more than `sum c_k l_k^2` ([`dome_share`]).
 //!
 //! Evaluation: by transform. Displacements become the three curvatures of the surface on a polar
 //! grid (radii of Gauss's rule along the SIMD lanes, a discrete Fourier sum around), the bracket is
@@ -31,6 +31,7 @@
 //! Struct. 42, 2005; Ducceschi & Touze, J. Sound Vib. 344, 2015 (modal, conserving schemes).
 
 pub mod airy;
+pub mod dome_share;
 #[cfg(test)]
 mod oracle;
 #[cfg(test)]
@@ -47,6 +48,7 @@ use crate::plate::{PlateModes, PlateTables};
 use crate::potential::{Evaluation, Potential};
 
 use airy::AiryOrder;
+use dome_share::Domed;
 
 /// Radii per unit of the largest wave number. *Converged*: 0.66 leaves 1.3e-3 of a cap's gradient. Where it comes to 16 lanes for plates with
 /// bells, to 2 kHz, it leaves 3 % (crash) and 4 to 7 % (ride) in a state that rings everywhere; to 4 kHz 5e-6. The next 16 would make them half as
@@ -281,6 +283,28 @@ impl Potential for VonKarman {
             }
         }
         found
+    }
+}
+
+impl Domed for VonKarman {
+    fn dome_terms(&mut self, displacement: &[f32]) -> Vec<f64> {
+        self.align(displacement);
+        let Work { amplitudes, bend_spectrum, .. } = &mut self.work;
+        self.kernels.spread(&self.curvatures, amplitudes, bend_spectrum);
+        let (length, mut terms) = (SLOTS + 3 * self.lanes, Vec::new());
+        for &(row, bend_row) in &self.rows {
+            for member in 0..2 {
+                let l = &bend_spectrum[(2 * bend_row + member) * length..][..SLOTS];
+                let stiffness = &self.stiffness[row * SLOTS..][..SLOTS];
+                let present = l.iter().zip(stiffness).filter(|(_, c)| **c > 0.0);
+                terms.extend(present.map(|(l, c)| f64::from(*l) * f64::from(*c).sqrt()));
+            }
+        }
+        terms
+    }
+
+    fn flatten(&mut self, factor: f64) {
+        self.curvatures.scale(SLOTS, factor);
     }
 }
 

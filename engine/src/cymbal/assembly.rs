@@ -30,6 +30,7 @@ use crate::surface::rivets::Rivets;
 use crate::surface::swing::{Rock, Swing};
 use crate::surface::{Surface, SurfaceParts};
 use crate::transport::TransportSpec;
+use crate::von_karman::dome_share::kept_below_the_whole;
 use crate::von_karman::{CoupledPair, VonKarman};
 
 use super::hammering::HammeringSpec;
@@ -221,19 +222,22 @@ impl<'a> CymbalPlate<'a> {
             }
         }
         let hammered = self.hammering.map(|hammering| self.hammer(&hammering, &rows));
-        let coupled = self.highest_hz.filter(|_| !pairs.is_empty()).map(|highest_hz| {
-            let plain = VonKarman::new(plate, &self.tables, &pairs);
-            let potential: Box<dyn Potential> = match &hammered {
-                Some(hammered) if hammered.mixture.kept() < coupled => {
-                    Box::new(MixedPotential::new(plain, &hammered.mixture, coupled))
-                }
-                _ => Box::new(plain),
-            };
-            Coupled { potential, modes: coupled, highest_hz }
-        });
         if let Some(hammered) = &hammered {
             rows.mix(hammered);
         }
+        let coupled = self.highest_hz.filter(|_| !pairs.is_empty()).map(|highest_hz| {
+            let plain = VonKarman::new(plate, &self.tables, &pairs);
+            let stiffness: Vec<f64> =
+                rows.modes[..coupled].iter().map(|mode| self.spec.mass * mode.omega.powi(2)).collect();
+            let potential: Box<dyn Potential> = match &hammered {
+                Some(hammered) if hammered.mixture.kept() < coupled => {
+                    let mixed = MixedPotential::new(plain, &hammered.mixture, coupled);
+                    Box::new(kept_below_the_whole(mixed, &stiffness))
+                }
+                _ => Box::new(kept_below_the_whole(plain, &stiffness)),
+            };
+            Coupled { potential, modes: coupled, highest_hz }
+        });
         let mixture = hammered.map(|hammered| Shared::new(hammered.mixture.products()));
         let moved = coupled.as_ref().map_or(0, |coupled| coupled.modes);
         let swing = self.swing(rigid, (&rows, moved), mixture.as_ref());

@@ -10,6 +10,7 @@ use crate::modal::simd::row_products::RowProducts;
 use crate::modal::{Row, zero_row};
 use crate::mode_mixture::ModeMixture;
 use crate::potential::{Evaluation, Potential};
+use crate::von_karman::dome_share::Domed;
 
 /// A potential behind a mixture.
 pub struct MixedPotential<P> {
@@ -50,5 +51,16 @@ impl<P: Potential> Potential for MixedPotential<P> {
 
     fn is_convex(&self) -> bool {
         self.plain.is_convex()
+    }
+}
+
+impl<P: Domed> Domed for MixedPotential<P> {
+    fn dome_terms(&mut self, displacement: &[f32]) -> Vec<f64> {
+        self.kernels.row_products(&self.unmixing, displacement, &mut self.displacement);
+        self.plain.dome_terms(&self.displacement)
+    }
+
+    fn flatten(&mut self, factor: f64) {
+        self.plain.flatten(factor);
     }
 }

@@ -109,6 +109,13 @@ impl Radials {
         Radials { starts, table, lanes, turned }
     }
 
+    /// Multiplies the first lanes of every function by a factor.
+    pub fn scale(&mut self, lanes: usize, factor: f64) {
+        for function in self.table.chunks_exact_mut(self.lanes) {
+            function[..lanes].iter_mut().for_each(|value| *value *= factor as f32);
+        }
+    }
+
     /// Functions of a row.
     pub fn count(&self, row: usize) -> usize {
         self.starts[row + 1] - self.starts[row]
