@@ -1,7 +1,7 @@
 //! What a head does above its complete set of modes, where they crowd too closely to be told apart.
 //!
 //! Model: from the top of the complete set on, each slice of 1/300 octave (1/900 of a drum with wires) is one mode that stands for the
-//! `count` real ones in it: a random plane wave and its mirror image at the rim, as a diffuse field at a clamped edge
+//! `count` real ones in it, on small heads less than one at first: a random plane wave and its mirror image at the rim, as a diffuse field at a clamped edge
 //! is made of; their difference has unit mean square and is zero at the rim. It weighs `M / count`, so that
 //! a force sets going as much energy as it would in all of them, and is heard by `sqrt(count)` less than
 //! one mode so moved would be, for real modes do not add in step. Such modes lose their common phase in the inverse of the

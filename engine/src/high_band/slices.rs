@@ -188,6 +188,10 @@ fn cos_sin(angle: f64) -> [f64; 2] {
     [angle.cos(), angle.sin()]
 }
 
+/// Modes that a slice stands for at least. Where a wave becomes as fast as sound, the air lets go of it, and frequencies of large, slack heads jump:
+/// no modes lie between.
+const LEAST_COUNT: f64 = 0.01;
+
 /// Cuts the band.
 pub(super) fn slices(spec: &HighBandSpec) -> Vec<Slice> {
     let [slackest, tension, _] = spec.tensions;
@@ -205,7 +209,7 @@ pub(super) fn slices(spec: &HighBandSpec) -> Vec<Slice> {
         let zero = low * (high / low).powf(draw(0));
         slices.push(Slice {
             zero,
-            count: (modes_below(high) - modes_below(low)).max(1.0),
+            count: (modes_below(high) - modes_below(low)).max(LEAST_COUNT),
             direction: cos_sin(TAU * draw(1)),
             phase: TAU * draw(2),
             heard: std::array::from_fn(|i| cos_sin(TAU * draw(3 + i as u32))),
@@ -224,9 +228,9 @@ pub(super) fn tension_share(spec: &HighBandSpec, slice: &Slice, tension: f64) ->
 }
 
 /// Rate at which the modes of a slice lose their common phase, 1/s: the half width in rad/s of a line as wide as the slice
-/// (half power), less the share that each mode has with itself.
+/// (half power), less the share that each mode has with itself; none of a slice narrower than the distance of modes.
 pub(super) fn walk_rate(spec: &HighBandSpec, slice: &Slice, omega: f64) -> f64 {
-    0.5 * std::f64::consts::LN_2 / spec.density * omega * (1.0 - 1.0 / slice.count)
+    0.5 * std::f64::consts::LN_2 / spec.density * omega * (1.0 - 1.0 / slice.count).max(0.0)
 }
 
 /// Undamped angular frequency (rad/s), decay rate by radiation and by the flow through a mesh (1/s) and mass per area with its air
