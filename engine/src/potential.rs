@@ -213,6 +213,11 @@ impl NonlinearForce {
         if self.schedule.is_evaluated() { self.scalar.energy() } else { 0.0 }
     }
 
+    /// Energy that the modes are still to give, J.
+    pub fn debt(&self) -> f64 {
+        (-self.scalar.owed).max(0.0)
+    }
+
     /// Kinetic energy of the modes it acts on, J.
     pub fn kinetic_energy(&self, body: &ModalBody) -> f64 {
         body.kinetic_energy(&self.coupled)
@@ -455,13 +460,17 @@ impl NonlinearForce {
         }
     }
 
-    /// Sets a `psi` that was lost to its true value. The energy it gains is taken from the velocities: a lost `psi` may hold as
-    /// little as `-C`, and the body then moves too fast.
+    /// Sets a `psi` that was lost to its true value. The energy it gains is taken from the velocities, and what they have not is owed: a lost
+    /// `psi` may hold as little as `-C`, and the body then moves too fast.
     fn find_anew(&mut self, (body, weights): (&mut ModalBody, &ReceiverWeights), target: f64, kinetic: f64) {
         let missing = 0.5 * (target * target - self.scalar.psi * self.scalar.psi);
-        if missing > 0.0 && kinetic > 0.0 {
-            let factor = (1.0 - missing / kinetic).max(0.0).sqrt() as f32;
-            self.sound.rescale_velocity(body.rescale_velocity(&mut self.coupled, weights, factor));
+        if missing > 0.0 {
+            let paid = missing.min(kinetic);
+            self.scalar.owed -= missing - paid;
+            if paid > 0.0 {
+                let factor = (1.0 - paid / kinetic).sqrt() as f32;
+                self.sound.rescale_velocity(body.rescale_velocity(&mut self.coupled, weights, factor));
+            }
         }
         self.scalar.psi = target;
         self.safety.forget();

@@ -375,7 +375,9 @@ impl StruckBody {
     /// Lets the high band of the struck head take what the stretching modes scatter into it.
     pub(super) fn scatter_into(&mut self, band: &mut HighBand) {
         if let Some(force) = self.nonlinear_force.as_mut().filter(|force| force.is_active()) {
-            force.take(band.scatter(force.energy(), force.kinetic_energy(&self.sound.modal)));
+            // What the modes still owe is theirs no more.
+            let kinetic = force.kinetic_energy(&self.sound.modal) - force.debt();
+            force.take(band.scatter(force.energy(), kinetic.max(0.0)));
         }
     }
 
