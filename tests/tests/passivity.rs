@@ -5,13 +5,13 @@ use std::cell::RefCell;
 
 use overhear_engine::drum::HeadContact;
 use overhear_engine::kit::Control;
-use overhear_engine::kit_spec::PieceSpec;
+use overhear_engine::kit_spec::{InstrumentSpec, PieceSpec};
 use overhear_engine::piece::{BuildOptions, Piece};
 use overhear_engine::slot::Slot;
 use overhear_engine::snapshot::KitSnapshot;
 use overhear_engine::strike::{Strike, Striker};
 use overhear_tests::{
-    Chance, build, kit, lossless_piece, names, piece, reference, render, render_into, standard, stroke,
+    Chance, build, kit, lossless_piece, names, piece, reference, render, render_into, spec, standard, stroke,
     total_energy,
 };
 use proptest::prelude::*;
@@ -227,6 +227,44 @@ fn a_lossless_drum_keeps_its_energy_for_a_second_from_1_to_25_m_s_centre_to_rim(
             }
         }
         println!("{rate}: off by at most {worst:?}");
+    }
+}
+
+/// The splash of the kit, and plates of 18 cm and 0.4 mm.
+fn thin_plates() -> [PieceSpec; 3] {
+    let splash = spec("splash");
+    let thin = |hammering: bool| {
+        let mut piece = splash.clone();
+        let InstrumentSpec::Cymbal(cymbal) = &mut piece.instrument else { unreachable!() };
+        (cymbal.diameter, cymbal.mass, cymbal.bell) = (0.18, 0.089, None);
+        cymbal.hammering = cymbal.hammering.filter(|_| hammering);
+        piece
+    };
+    [thin(false), thin(true), splash]
+}
+
+#[test]
+fn heavy_beaters_on_thin_plates_leave_no_more_energy_than_they_brought() {
+    let heavy = [Striker::FeltBeater, Striker::PlasticBeater, Striker::YarnMallet];
+    for plate in thin_plates() {
+        let mut piece = build(&plate, &BuildOptions::new(RATE));
+        let mut chance = Chance::new(24);
+        let mut most = 0.0_f64;
+        for _ in 0..60 {
+            let [low, _, high] = piece.tunings();
+            piece.set_tuning(chance.between(low, high));
+            piece.reset();
+            let radius = if chance.happens(0.3) { 1.0 } else { chance.unit() };
+            let strike = stroke(chance.of(&heavy), chance.between(2.0, 25.0), radius, 0.0);
+            piece.strike(&strike);
+            for _ in 0..100 {
+                render(&mut piece, 0.002, RATE);
+                let share = total_energy(&piece) / piece.brought_energy();
+                most = most.max(share);
+                assert!(share <= 1.0 + 1e-5, "{}: {share} of what was brought: {strike:?}", plate.name);
+            }
+        }
+        println!("{}: at most {most} of what was brought", plate.name);
     }
 }
 

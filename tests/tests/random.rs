@@ -60,8 +60,8 @@ fn set(piece: &mut Piece, chance: &mut Chance, all_modes: bool) {
     piece.reset();
 }
 
-/// Fastest strokes by which nothing may be gained, on a drum and on a plate, m/s: players reach 9 to 12. Faster ones
-/// throw a plate of unheard-of shape back with more than they brought, about one in a thousand.
+/// Fastest strokes by which nothing may be gained, on a drum and on a plate, m/s: players reach 9 to 12. Faster ones have
+/// thrown plates of unheard-of shape back with more than they brought, about one in a thousand.
 fn fastest(spec: &PieceSpec) -> f64 {
     if spec.drum().is_some() { Strike::MAX_SPEED } else { 12.0 }
 }
@@ -135,7 +135,7 @@ fn without_losses_random_pieces_that_stretch_gain_nothing() {
 
 #[test]
 fn no_strike_leaves_a_random_piece_faster_than_it_came() {
-    // A few strokes on thin plates gain (docs/limits.md). Of 36, a mallet throws one so far that its scheme is lost.
+    // Of 36, a mallet throws one so far that its scheme is lost.
     over_seeds(Chance::chosen(&[3, 5, 6, 36]), 15, random::piece, lets_strikers_go);
     over_seeds(Chance::chosen(&[303, 304]), 10, random::dotted, lets_strikers_go);
 }

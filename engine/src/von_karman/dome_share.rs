@@ -3,7 +3,7 @@
 //! Model: what stretching adds to the modes' own energies can be as low as `-sum c_k l_k^2` (see [`von_karman`](super)). The modes'
 //! stiffness holds that much for the dome, and what bending resists besides: of the plate that was computed, both together are never
 //! negative. Chance splitting and hammering change the stiffness of modes and not the dome's share in it. In directions in which
-//! next to nothing but the dome resists, that share may come out as larger than the whole, by 1 to 6 % of every tenth plate drawn at random;
+//! next to nothing but the dome resists, that share may come out as larger than the whole, by up to 6 % of plates drawn at random;
 //! such a plate would fall into a bend without end. Its dome is taken as flatter by what leaves a whole.
 //!
 //! Limits: flatter in all directions alike, by 3 % at most of those drawn.
