@@ -25,10 +25,9 @@
 //! The strikers meet the same surface, displaced by `-p_j psibar0` and stiffened by a matrix of rank one. The contact solver
 //! needs nothing else.
 //!
-//! `g` is evaluated once in `stride` samples, at the displacements that the modes would reach without it in the middle of that
-//! interval. This is second-order accurate and has no phase lag. Where the potential's share of the energy is small, so are the
-//! errors: every other evaluation is left out, and two of three where the share is very small. Where `psi` strays from the
-//! true energy, the plate moves faster than predicted, and there are three evaluations in place of one.
+//! `g` is evaluated once in `stride` samples, at the displacements that the modes would reach without it in the middle of that interval. This is
+//! second-order accurate and has no phase lag. Where the potential's share of the energy is small, so are the errors: every other evaluation is
+//! left out, and two of three where the share is very small. Where `psi` strays from the true energy, there are two or four in place of one.
 //!
 //! Drift: `psi` is integrated along the path, and its errors add up. Each evaluation gives `U`, hence the true `psi`. A share of the difference is
 //! corrected. The energy this takes is exchanged with the kinetic energy of the same modes by scaling their velocities, so that the sum of both stays
@@ -37,9 +36,7 @@
 //!
 //! `C` follows the motion. Raising it by `D` turns `psi` into `sqrt(psi^2 + 2 D)` and changes no energy.
 //!
-//! Rest: once the potential's share of the peaks of the energy is negligible, it is not evaluated until the next stroke.
-//!
-//! Inside out: a dome has a second equilibrium, where `U` is about as far below zero as the bending energy is above. A plate in that
+//! Rest: once the potential's share of the peaks of the energy is negligible, it is not evaluated until the next stroke. Inside out: a dome has a second equilibrium, where `U` is about as far below zero as the bending energy is above. A plate in that
 //! state would hold its energy for ever. [`NonlinearForce::is_inside_out`] detects it.
 //!
 //! Source: Bilbao, Ducceschi, Zama, Explicit exactly energy-conserving methods for Hamiltonian
@@ -286,7 +283,7 @@ impl NonlinearForce {
         self.scalar.owed -= energy;
     }
 
-    /// Takes up that the potential holds more (J), without the factor on it, and owes it to the modes.
+    /// Takes up that the potential holds more (J), without the factor on it, and owes it.
     fn owe(&mut self, more: f64) {
         if self.schedule.is_evaluated() && more != 0.0 {
             self.scalar.rise_by(self.stiffness * more);
@@ -464,13 +461,11 @@ impl NonlinearForce {
     /// `psi` may hold as little as `-C`, and the body then moves too fast.
     fn find_anew(&mut self, (body, weights): (&mut ModalBody, &ReceiverWeights), target: f64, kinetic: f64) {
         let missing = 0.5 * (target * target - self.scalar.psi * self.scalar.psi);
-        if missing > 0.0 {
-            let paid = missing.min(kinetic);
-            self.scalar.owed -= missing - paid;
-            if paid > 0.0 {
-                let factor = (1.0 - paid / kinetic).sqrt() as f32;
-                self.sound.rescale_velocity(body.rescale_velocity(&mut self.coupled, weights, factor));
-            }
+        let paid = missing.min(kinetic).max(0.0);
+        self.scalar.owed -= missing.max(0.0) - paid;
+        if paid > 0.0 {
+            let factor = (1.0 - paid / kinetic).sqrt() as f32;
+            self.sound.rescale_velocity(body.rescale_velocity(&mut self.coupled, weights, factor));
         }
         self.scalar.psi = target;
         self.safety.forget();
