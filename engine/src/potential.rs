@@ -36,7 +36,9 @@
 //!
 //! `C` follows the motion. Raising it by `D` turns `psi` into `sqrt(psi^2 + 2 D)` and changes no energy.
 //!
-//! Rest: once the potential's share of the peaks of the energy is negligible, it is not evaluated until the next stroke. Inside out: a dome has a second equilibrium, where `U` is about as far below zero as the bending energy is above. A plate in that
+//! Rest: once the potential's share of the peaks of the energy is negligible, it is not evaluated until the next stroke.
+//!
+//! Inside out: a dome has a second equilibrium, where `U` is about as far below zero as the bending energy is above. A plate in that
 //! state would hold its energy for ever. [`NonlinearForce::is_inside_out`] detects it.
 //!
 //! Source: Bilbao, Ducceschi, Zama, Explicit exactly energy-conserving methods for Hamiltonian

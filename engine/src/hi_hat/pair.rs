@@ -269,7 +269,7 @@ impl Pair {
     pub fn come_to_rest(&mut self) {
         self.pedal.arrival = None;
         self.pedal.foot.jump();
-        // From no estimate: what is found depends on the place of the rod alone, to the last bit, and not on what was played before.
+        // From no estimate: what is found depends, to the last bit, on the rod's place and the tuning, and not on what was played before.
         let Balance { rest, places, compression } =
             self.statics.balance(self.pedal.foot.place(), &[0.0; POINTS], &self.rims.law, &self.rigid);
         self.pedal.arrive(rest);

@@ -188,8 +188,8 @@ fn cos_sin(angle: f64) -> [f64; 2] {
     [angle.cos(), angle.sin()]
 }
 
-/// Modes that a slice stands for at least. Where a wave becomes as fast as sound, the air lets go of it, and frequencies of large, slack heads jump:
-/// no modes lie between.
+/// Modes that a slice stands for at least. *Judgement*: next to none. Of some large heads drawn at random the wave at the end of a slice is found
+/// no shorter than that at its beginning, why has not been looked into.
 const LEAST_COUNT: f64 = 0.01;
 
 /// Cuts the band.
