@@ -91,14 +91,15 @@ fn looser_wires_buzz_longer() {
 }
 
 #[test]
-fn wires_add_four_decibels_above_3_khz_in_the_first_50_ms() {
+fn wires_add_as_much_above_3_khz_in_the_first_50_ms_as_on_recorded_snares() {
     let preload = spec("snare").defaults.preload.expect("wires");
     let [on, off] = [true, false].map(|on| {
         let sound = snare(4.0, preload, on).1;
         PowerSpectrum::new(&sound[..(0.05 * RATE) as usize], RATE).band(3000.0, 20_000.0).sqrt()
     });
     println!("{:+.2} dB", decibels(on, off));
-    assert!((decibels(on, off) - 4.0).abs() < 1.0);
+    // Three sets of recordings with the wires on and off: 5.9, 9.0 and 13.3 dB. An earlier engine: 4 at least.
+    assert!((5.9..13.3).contains(&decibels(on, off)));
 }
 
 #[test]

@@ -317,8 +317,8 @@ fn kick() -> InstrumentSpec {
     InstrumentSpec::Drum(DrumSpec { batter, muffler, resonant, ..drum })
 }
 
-/// 14 x 5.5 in snare drum. Its pitch is *fitted*: close by, a snare of 220 Hz is taken for one of 370 Hz, its (1,1); so tuned
-/// it has the fundamental and the decays that recordings have. Twenty strands of 1 g: steel wire of half a
+/// 14 x 5.5 in snare drum. Its pitch is *fitted*: with the resonant head and the air between it is heard at 222 Hz, as recorded
+/// ones are. Twenty strands of 1 g: steel wire of half a
 /// millimetre in coils of 2.3 mm, 2.4 mm apart (*derived*: 3.7 g/m). They hold 2 N each at the default preload, as their coils do when they
 /// are drawn out by some millimetres (*by judgement*: strainers differ), over a bed 10 cm wide (*judgement*). Air alone would leave a Q
 /// of a thousand; cords and coils take more (*by judgement*).

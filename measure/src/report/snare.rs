@@ -177,7 +177,7 @@ fn aloft(snare: &PieceSpec, preload: f64) -> Vec<(f64, f64)> {
     let blocks: Vec<f64> = (0..(0.3 * RATE) as usize / BLOCK)
         .map(|_| {
             render_into(&mut snare, &mut [0.0; BLOCK]);
-            f64::from(snare.wires().aloft)
+            f64::from(snare.wires().aloft.count_ones())
         })
         .collect();
     let window = (0.01 * RATE) as usize / BLOCK;
