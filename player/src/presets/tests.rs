@@ -102,7 +102,8 @@ fn every_tuning_is_written_so_that_it_is_read_back_the_same() {
         assert_eq!(Preset::parse("p", &preset.to_text()).unwrap(), preset, "{}", preset.to_text());
     }
     let preset = Preset { values: BTreeMap::from([(snare, 2.0)]), ..Preset::default() };
-    assert!(preset.to_text().contains("\nsnare_tune = 2"), "in Hz: {}", preset.to_text());
+    // Two semitones over its own 170 Hz.
+    assert!(preset.to_text().contains("\nsnare_tune = 190.82\n"), "in Hz: {}", preset.to_text());
 }
 
 #[test]
