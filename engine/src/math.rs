@@ -7,6 +7,7 @@ pub mod bessel;
 pub mod cubic;
 pub mod eigen;
 pub mod jacobi;
+pub mod negligible;
 pub mod quadrature;
 pub mod roots;
 pub mod sums;

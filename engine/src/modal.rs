@@ -300,9 +300,7 @@ impl ModalBody {
 
     /// Whether every state is a finite number.
     pub fn is_finite(&self) -> bool {
-        // A sum is finite only if its terms are; these cannot overflow together short of 1e36 m.
-        self.kernels.dot(&self.state.re, &self.state.re).is_finite()
-            && self.kernels.dot(&self.state.im, &self.state.im).is_finite()
+        self.kernels.is_finite(&self.state.re) && self.kernels.is_finite(&self.state.im)
     }
 
     /// Puts the body to rest.

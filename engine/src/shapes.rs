@@ -5,6 +5,7 @@
 
 use crate::cache::Shared;
 use crate::math::cubic::Stencil;
+use crate::math::negligible::drop_negligible;
 use crate::modal::simd::Kernels;
 use crate::modal::simd::row_products::RowProducts;
 use crate::mode::Member;
@@ -94,9 +95,11 @@ impl ShapeTable {
     /// # Panics
     /// If a mode has more nodal diameters (159) or mixes more rows (128) than the engine is made for.
     pub fn new(radial: &[f64], index: Vec<ShapeIndex>) -> ShapeTable {
+        let mut radial = radial.to_vec();
+        radial.chunks_exact_mut(INTERVALS + 1).for_each(drop_negligible);
         let functions = radial.len() / (INTERVALS + 1);
-        let at = |r: usize| (0..functions).map(move |row| radial[row * (INTERVALS + 1) + r] as f32);
-        let radial = (0..=INTERVALS).flat_map(at).collect();
+        let places = (0..=INTERVALS).flat_map(|r| (0..functions).map(move |row| row * (INTERVALS + 1) + r));
+        let radial = places.map(|place| radial[place] as f32).collect();
         let orders = index.iter().map(|mode| mode.m as usize + 1).max().unwrap_or(1);
         assert!(orders <= MAX_ORDERS, "{orders} orders");
         let mut starts: Vec<usize> = Vec::with_capacity(index.len());

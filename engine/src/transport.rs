@@ -55,7 +55,7 @@ use crate::fitted;
 use crate::modal::bands::BandWeights;
 use crate::modal::{ModalBody, Pressure, RECEIVERS, ReceiverWeights};
 
-use band::Band;
+use band::{Band, FAINT};
 
 /// Time over which the energy of all modes is averaged, s: longer than a period of the slowest, with which the modes exchange
 /// energy with the stretching, and shorter than the swell.
@@ -326,7 +326,9 @@ impl Transport {
     /// What waits decays.
     fn wait(&mut self) {
         for band in &mut self.bands {
-            let lost = band.pending * (2.0 * band.sigma * self.spec.interval).min(1.0);
+            let share = 2.0 * band.sigma * self.spec.interval;
+            let share = if share > 0.0 && band.pending.abs() < FAINT { 1.0 } else { share };
+            let lost = band.pending * share.min(1.0);
             band.pending -= lost;
             self.balance.spent += lost;
         }

@@ -39,6 +39,7 @@ mod reference;
 
 use std::f64::consts::TAU;
 
+use crate::math::negligible::drop_negligible;
 use crate::math::quadrature::GaussLegendre;
 use crate::modal::simd::polar::{BLOCK, Circle, Radials, SLOTS};
 use crate::modal::simd::{Kernels, LANES};
@@ -155,6 +156,9 @@ impl VonKarman {
             let mut overlap =
                 airy.get(m as usize).map_or(vec![], |order| order.curvature(plate, shell(pair)));
             overlap.resize(SLOTS, 0.0);
+            let mut bent = [radial, around, twist];
+            bent.iter_mut().for_each(|function| drop_negligible(function));
+            let [radial, around, twist] = bent;
             curvatures[row].push([overlap, radial, around, twist].concat());
         }
         let area = TAU / airys.angles() as f64 / plate.spec.radius().powi(2);
@@ -166,6 +170,7 @@ impl VonKarman {
             for mut shape in order.shapes(tables, &rule.nodes) {
                 let weights = rule.nodes.iter().zip(&rule.weights).map(|(r, weight)| r * weight * area);
                 shape.iter_mut().zip(weights).for_each(|(shape, weight)| *shape *= weight);
+                drop_negligible(&mut shape);
                 stresses[row].push(shape);
             }
             for (to, &c) in stiffness[row * SLOTS..].iter_mut().zip(&order.stiffness) {
@@ -224,7 +229,7 @@ impl VonKarman {
         let Work { bend_spectrum, quadratic, forces, .. } = &mut self.work;
         let length = SLOTS + 3 * self.lanes;
         // A sum for each lane, so that the compiler may use them all.
-        let (mut energy, mut depth) = ([0.0_f32; SLOTS], [0.0_f32; SLOTS]);
+        let (mut energy, mut depth) = ([0.0; SLOTS], [0.0; SLOTS]);
         for &(row, bend_row) in &self.rows {
             let stiffness = &self.stiffness.as_chunks::<SLOTS>().0[row];
             for member in 0..2 {
@@ -233,21 +238,18 @@ impl VonKarman {
                 let l = &mut spectrum.as_chunks_mut::<SLOTS>().0[0];
                 let f = &mut forces.as_chunks_mut::<SLOTS>().0[2 * row + member];
                 for i in 0..SLOTS {
-                    let bent = stiffness[i] * l[i];
-                    let pressed = stiffness[i] * p[i];
-                    energy[i] += p[i] * (pressed + 2.0 * bent);
-                    depth[i] += bent * l[i];
+                    let (quadratic, linear) = (p[i], l[i]);
+                    let bent = stiffness[i] * linear;
+                    let pressed = stiffness[i] * quadratic;
                     f[i] = 2.0 * (pressed + bent);
                     l[i] = 2.0 * pressed;
+                    // Of the fourth power of a displacement: in single precision denormal where a plate hardly moves.
+                    energy[i] += f64::from(quadratic) * (f64::from(pressed) + 2.0 * f64::from(bent));
+                    depth[i] += f64::from(bent) * f64::from(linear);
                 }
             }
         }
-        let mut found = Evaluation { energy: 0.0, depth: 0.0 };
-        for (energy, depth) in energy.into_iter().zip(depth) {
-            found.energy += f64::from(energy);
-            found.depth += f64::from(depth);
-        }
-        found
+        Evaluation { energy: energy.into_iter().sum(), depth: depth.into_iter().sum() }
     }
 
     /// What the stresses press each amplitude with, into `amplitudes`.

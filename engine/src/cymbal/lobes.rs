@@ -11,6 +11,7 @@ use std::ops::Range;
 
 use crate::cache::Shared;
 use crate::math::cubic::Stencil;
+use crate::math::negligible::drop_negligible;
 use crate::modal::simd::Kernels;
 use crate::modal::simd::row_products::RowProducts;
 use crate::modal::{Row, zero_row};
@@ -80,8 +81,14 @@ struct Patterns {
 
 impl Patterns {
     fn new(patterns: &[FarPattern]) -> Patterns {
-        let in_direction = |i: usize| patterns.iter().map(move |FarPattern(pattern)| pattern[i]);
-        Patterns { shells: patterns.len(), all: (0..DIRECTIONS).flat_map(in_direction).collect() }
+        let shells = patterns.len();
+        let mut all = vec![[0.0; 2]; DIRECTIONS * shells];
+        for (shell, FarPattern(pattern)) in patterns.iter().enumerate() {
+            let mut pattern = pattern.clone();
+            drop_negligible(pattern.as_flattened_mut());
+            pattern.into_iter().enumerate().for_each(|(i, heard)| all[i * shells + shell] = heard);
+        }
+        Patterns { shells, all }
     }
 
     /// What a shell mode has in a direction, Pa s2/m at a metre.

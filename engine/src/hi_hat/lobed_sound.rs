@@ -28,6 +28,9 @@ pub const TO_SLOW: [f64; 5] = [0.2, 0.4, 0.7, 1.0, 1.6];
 /// And those of faster ones, `k a`, dimensionless: to 1 kHz.
 pub const TO_FAST: [f64; 6] = [0.2, 0.4, 0.7, 1.0, 1.6, 3.2];
 
+/// An acceleration that is not heard, m/s2: 20 decades under a soft stroke's. What follows one would become denormal. *Derived*.
+const FAINT: f64 = 1e-20;
+
 /// How `N` sources are heard.
 #[derive(Debug, Clone, Copy)]
 pub struct LobedSound<const N: usize> {
@@ -83,6 +86,9 @@ impl<const N: usize> LobedSound<N> {
             let mut behind = now;
             for smoothed in &mut self.smoothed {
                 smoothed[source] += self.share * (behind - smoothed[source]);
+                if smoothed[source].abs() < FAINT {
+                    smoothed[source] = 0.0;
+                }
                 behind = smoothed[source];
             }
             let [once, twice, thrice] = self.smoothed.map(|smoothed| smoothed[source]);

@@ -17,6 +17,9 @@ const LANES: usize = 8;
 /// Signs drawn at once.
 const SIGNS: usize = 32;
 
+/// Motion of a mode from which on its share of a band's energy is told apart, m; squares of less may be denormal numbers.
+const LEAST: f32 = 1e-15;
+
 /// Energy of a band.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct BandEnergy {
@@ -135,8 +138,9 @@ impl ModalBody {
         self.kernels.vectorized(
             #[inline(always)]
             || {
+                let square = |x: f32| x.abs().max(LEAST).powi(2);
                 for ((re, im), weight) in re.iter_mut().zip(im).zip(weight) {
-                    let energy = weight * (*re * *re + im * im);
+                    let energy = weight * (square(*re) + square(*im));
                     // The velocity has half of the energy, so that it changes by twice the share.
                     let square = 2.0 * (kept + added / energy.max(f32::MIN_POSITIVE)) - 1.0;
                     *re *= square.clamp(0.5, 2.0).sqrt();

@@ -78,7 +78,8 @@ impl ModalBody {
     /// Upper bound of the displacement of any point on the rim, m: the sum of the modes' amplitudes, each times its largest
     /// share of the rim.
     pub fn folded_reach(&self, folded: &RimHarmonics) -> f64 {
-        let far = |k: usize| self.state.re[k] * self.state.re[k] + self.state.im[k] * self.state.im[k];
-        f64::from(folded.sizes().map(|(k, square)| (square * far(k)).sqrt()).sum::<f32>())
+        // In double precision, where squares of the smallest states are no denormal numbers.
+        let far = |k: usize| f64::from(self.state.re[k]).powi(2) + f64::from(self.state.im[k]).powi(2);
+        folded.sizes().map(|(k, square)| (f64::from(square) * far(k)).sqrt()).sum()
     }
 }

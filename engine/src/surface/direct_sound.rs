@@ -140,9 +140,9 @@ impl DirectSound {
             self.rings = true;
             let PressedPoint { weights, follow, even, slow, forces, pressed } = place;
             for (sample, force) in forces.iter().enumerate().take(out[0].len()) {
-                *even += below * (force - *even);
+                *even = unless_faint(*even + below * (force - *even));
                 for at in 0..POINTS {
-                    slow[at] += follow[at] * (*even - slow[at]);
+                    slow[at] = unless_faint(slow[at] + follow[at] * (*even - slow[at]));
                     out[at][sample] += weights[at] * (*even - slow[at]);
                 }
             }
@@ -152,7 +152,7 @@ impl DirectSound {
         }
     }
 
-    /// Zeroes what has decayed to nothing; reports whether all is finite. Meant for once a block.
+    /// Reports whether all is finite, and notes what rings. Meant for once a block.
     pub fn settle(&mut self) -> bool {
         if !self.rings {
             return true;
@@ -160,11 +160,8 @@ impl DirectSound {
         let mut finite = true;
         self.rings = false;
         for place in &mut self.places {
-            for value in place.slow.iter_mut().chain([&mut place.even]) {
+            for value in place.slow.iter().chain([&place.even]) {
                 finite &= value.is_finite();
-                if value.abs() < FAINT {
-                    *value = 0.0;
-                }
             }
             self.rings |= place.rings();
         }
@@ -184,6 +181,12 @@ impl DirectSound {
         }
         self.rings = false;
     }
+}
+
+/// A force or the slow part of a pressure, nothing if [`FAINT`]: what fades would become denormal within a run.
+#[inline(always)]
+fn unless_faint(value: f32) -> f32 {
+    if value.abs() < FAINT { 0.0 } else { value }
 }
 
 /// How a point hears a force at a place.

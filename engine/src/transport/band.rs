@@ -29,6 +29,12 @@ const KICKED: f64 = 0.1;
 const LARGEST_LOSS: f64 = 0.5;
 const LARGEST_GAIN: f64 = 1.0;
 
+/// Share of a band's energy below which modes exchange none in a block: single precision cannot tell it.
+const LEAST_EXCHANGED: f64 = 1e-9;
+
+/// Energies below this are nothing, J: 20 decades under a soft stroke. *Derived*.
+pub(super) const FAINT: f64 = 1e-24;
+
 /// Share of what is due that a band with nothing to scale gets by kicks in a block.
 const SEEDED: f64 = 0.125;
 
@@ -121,7 +127,8 @@ impl Band {
     pub(super) fn mingle(&mut self, above: f64, delta: f64) {
         let gamma = (self.through + above) / self.modes.len() as f64;
         self.shared = gate(gamma, WITHIN * self.spacing * delta);
-        self.exchanged = gamma * self.shared / (1.0 + gamma * self.shared);
+        let exchanged = gamma * self.shared / (1.0 + gamma * self.shared);
+        self.exchanged = if exchanged < LEAST_EXCHANGED { 0.0 } else { exchanged };
     }
 
     /// The most that it can give in a block, J.
@@ -142,7 +149,8 @@ impl Band {
         if wanted == 0.0 && self.exchanged == 0.0 {
             return 0.0;
         }
-        let evenly = (self.exchanged * self.energy.whole + self.shared * wanted).max(0.0) / modes;
+        let evenly = (self.exchanged * self.energy.whole + self.shared * wanted) / modes;
+        let evenly = if evenly < FAINT { 0.0 } else { evenly };
         if self.exchanged > 0.0 {
             body.equalize_band(self.modes.clone(), (1.0 - self.exchanged) as f32, evenly as f32, weights);
         }

@@ -4,9 +4,9 @@ use pulp::Simd;
 
 use super::dispatch::{Kernel, Kernels, size};
 
-/// Below this any mode's state is set to zero: 20 decades under the motion of a soft stroke, and
-/// 18 above the smallest normal `f32`. *Derived*.
-pub const QUIET: f32 = 1e-20;
+/// Below this any mode's state is set to zero: 16 decades under the motion of a soft stroke, and
+/// 3 above what has a square that is the smallest normal `f32`. *Derived*.
+pub const QUIET: f32 = 1e-16;
 
 impl Kernels {
     /// Zeroes the modes whose state is below `below` (`[mode]`), or below [`QUIET`].

@@ -74,6 +74,14 @@ impl Kernels {
         self.run(Scale { y, factor });
     }
 
+    /// Whether every value is a finite number.
+    pub fn is_finite(&self, row: &[f32]) -> bool {
+        self.vectorized(
+            #[inline(always)]
+            || row.iter().fold(true, |finite, x| finite & x.is_finite()),
+        )
+    }
+
     /// Whether every value is exactly zero.
     pub fn is_zero(&self, row: &[f32]) -> bool {
         row.iter().all(|&x| x == 0.0)

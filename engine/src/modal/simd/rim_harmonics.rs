@@ -7,6 +7,7 @@
 use pulp::Simd;
 
 use super::dispatch::{Kernel, Kernels, LANES};
+use crate::math::negligible::drop_negligible;
 use crate::modal::row::{Row, zero_row};
 
 /// Most classes there can be.
@@ -47,6 +48,8 @@ impl RimHarmonics {
     /// If there are more than [`MAX_CLASSES`] classes.
     pub fn new(modes: &[(usize, [f64; 2])]) -> RimHarmonics {
         assert!(modes.iter().all(|&(class, _)| class < MAX_CLASSES));
+        let mut shares: Vec<[f64; 2]> = modes.iter().map(|mode| mode.1).collect();
+        drop_negligible(shares.as_flattened_mut());
         let mut groups = Vec::new();
         for class in 0..MAX_CLASSES {
             let present = modes.chunks(LANES).map(|some| some.iter().any(|mode| mode.0 == class));
@@ -55,8 +58,8 @@ impl RimHarmonics {
         }
         let (mut cos, mut sin) = (zero_row(groups.len() * LANES), zero_row(groups.len() * LANES));
         for (at, group) in groups.iter().enumerate() {
-            let members = modes.iter().skip(group.lanes * LANES).take(LANES).enumerate();
-            for (lane, &(_, [c, s])) in members.filter(|(_, mode)| mode.0 == group.class) {
+            let members = modes.iter().zip(&shares).skip(group.lanes * LANES).take(LANES).enumerate();
+            for (lane, (_, &[c, s])) in members.filter(|(_, (mode, _))| mode.0 == group.class) {
                 (cos[at * LANES + lane], sin[at * LANES + lane]) = (c as f32, s as f32);
             }
         }
