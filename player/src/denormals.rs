@@ -4,8 +4,8 @@ use no_denormals::no_denormals;
 
 /// Runs the engine with denormal numbers flushed to zero and puts the thread's mode back.
 ///
-/// Hosts call with either mode; a tail that fades through denormals must neither cost a hundred
-/// times as much in one of them nor sound different.
+/// Hosts call with either mode. The engine makes such numbers in hardly any block, but what is around it may: neither may cost a
+/// hundred times as much in one of the modes nor sound different.
 #[allow(unsafe_code)]
 pub(crate) fn flushed<T>(engine: impl FnOnce() -> T) -> T {
     // SAFETY: only the flush-to-zero and denormals-are-zero modes change, and only in here; no
