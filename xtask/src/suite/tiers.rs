@@ -12,7 +12,7 @@ pub enum Tier {
 }
 
 /// Every integration test of the workspace by its target: when it is run, and why then.
-pub const TARGETS: [(&str, Tier, &str); 38] = [
+pub const TARGETS: [(&str, Tier, &str); 39] = [
     ("acoustics", Tier::Quick, "figures of modes, computed rather than played"),
     ("automation", Tier::Whole, "plays the kit under every parameter"),
     ("command_line", Tier::Quick, "the program for users, in an empty folder"),
@@ -21,6 +21,7 @@ pub const TARGETS: [(&str, Tier, &str); 38] = [
     ("cascade", Tier::Whole, "seconds of cymbals coupled to 8 kHz"),
     ("cymbals", Tier::Whole, "seconds of coupled plates at every quality"),
     ("damping", Tier::Quick, "a few short decays"),
+    ("denormals", Tier::Whole, "the whole kit, half a minute of it"),
     ("documents", Tier::Quick, "compares texts"),
     ("drums", Tier::Quick, "short strokes on every drum"),
     ("equivalence", Tier::Whole, "the whole kit at every buffer size"),
