@@ -149,16 +149,14 @@ impl VonKarman {
         for pair in pairs {
             let m = shell(pair).m;
             let row = bends.row(m as usize);
-            let Bent { radial, around, twist, .. } = plate.bent(tables, shell(pair), &rule.nodes);
+            let Bent { mut radial, mut around, mut twist, .. } = plate.bent(tables, shell(pair), &rule.nodes);
             let (sin, cos) = (f64::from(m) * pair.axis).sin_cos();
             let cos_at = row * 2 * SLOTS + curvatures[row].len();
             places.push(PairIndex { mode: pair.mode, m, cos_at, cos: cos as f32, sin: sin as f32 });
             let mut overlap =
                 airy.get(m as usize).map_or(vec![], |order| order.curvature(plate, shell(pair)));
             overlap.resize(SLOTS, 0.0);
-            let mut bent = [radial, around, twist];
-            bent.iter_mut().for_each(|function| drop_negligible(function));
-            let [radial, around, twist] = bent;
+            [&mut radial, &mut around, &mut twist].into_iter().for_each(|function| drop_negligible(function));
             curvatures[row].push([overlap, radial, around, twist].concat());
         }
         let area = TAU / airys.angles() as f64 / plate.spec.radius().powi(2);

@@ -1,5 +1,5 @@
-//! Numbers too small to be normal cost a hundred times as much on some processors: none arises, whatever mode a host leaves the
-//! processor in. A processor notes them by itself.
+//! Numbers too small to be normal cost a hundred times as much on some processors: none arises of strokes and what fades, whatever
+//! mode a host leaves the processor in. A processor notes them by itself.
 #![cfg(target_arch = "x86_64")]
 
 use overhear_engine::kit::{BLOCK, Control, Kit};

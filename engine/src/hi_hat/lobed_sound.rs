@@ -106,13 +106,7 @@ impl<const N: usize> LobedSound<N> {
         if self.smoothed == [[0.0; N]; 3] {
             return Pressure::default();
         }
-        let heard = self.hear(&[0.0; N]);
-        // Before its numbers are too small to be quick.
-        let loudest = self.smoothed.as_flattened().iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-        if loudest < 1e-12 {
-            self.reset();
-        }
-        heard
+        self.hear(&[0.0; N])
     }
 
     /// As if nothing had ever moved.

@@ -138,9 +138,9 @@ impl ModalBody {
         self.kernels.vectorized(
             #[inline(always)]
             || {
-                let square = |x: f32| x.abs().max(LEAST).powi(2);
+                let squared = |x: f32| x.abs().max(LEAST).powi(2);
                 for ((re, im), weight) in re.iter_mut().zip(im).zip(weight) {
-                    let energy = weight * (square(*re) + square(*im));
+                    let energy = weight * (squared(*re) + squared(*im));
                     // The velocity has half of the energy, so that it changes by twice the share.
                     let square = 2.0 * (kept + added / energy.max(f32::MIN_POSITIVE)) - 1.0;
                     *re *= square.clamp(0.5, 2.0).sqrt();

@@ -83,8 +83,8 @@ pub fn dot<const N: usize>(one: &[f64; N], other: &[f64; N]) -> f64 {
 /// Sine and cosine of a turn of about `angle` (rad): that whose half has the tangent `angle / 2`.
 #[inline(always)]
 pub fn turn(angle: f64) -> (f64, f64) {
-    // A turn that no sum can tell from none has a square that is a denormal number.
-    let half = if angle.abs() < f64::MIN_POSITIVE.sqrt() { 0.0 } else { 0.5 * angle };
+    // A turn that changes no sum, and whose square would be a denormal number.
+    let half = if angle.abs() < 1e-100 { 0.0 } else { 0.5 * angle };
     let over = (1.0 + half * half).recip();
     (2.0 * half * over, (1.0 - half * half) * over)
 }
